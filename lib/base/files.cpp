@@ -1,0 +1,58 @@
+#include "base/files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/result.hpp"
+
+namespace nacre {
+namespace {
+
+/// A file descriptor that closes itself.
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw InputError::format("{}: is a folder, expected a file", path.string());
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0) throw InputError::format("{}: cannot be read: {}", path.string(), std::strerror(errno));
+  std::string bytes;
+  char buffer[1 << 16];
+  while (true) {
+    const ssize_t count = ::read(file.fd, buffer, sizeof buffer);
+    if (count < 0) throw InputError::format("{}: cannot be read: {}", path.string(), std::strerror(errno));
+    if (count == 0) return bytes;
+    bytes.append(buffer, static_cast<std::size_t>(count));
+  }
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  const std::filesystem::path aside = path.string() + ".part";
+  const auto give_up = [&](int reason) {
+    ::unlink(aside.c_str());
+    throw InputError::format("{}: cannot be written: {}", path.string(), std::strerror(reason));
+  };
+  {
+    const Descriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
+    if (file.fd < 0) give_up(errno);
+    std::size_t written = 0;
+    while (written < bytes.size()) {
+      const ssize_t count = ::write(file.fd, bytes.data() + written, bytes.size() - written);
+      if (count < 0) give_up(errno);
+      written += static_cast<std::size_t>(count);
+    }
+    if (::fsync(file.fd) != 0) give_up(errno);
+  }
+  if (::rename(aside.c_str(), path.c_str()) != 0) give_up(errno);
+}
+
+}  // namespace nacre

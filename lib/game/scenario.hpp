@@ -1,0 +1,72 @@
+#pragma once
+// A scenario: everything a run is configured by, one documented struct, validated, written back in full beside the logs.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tester/tester.hpp"
+
+namespace nacre::game {
+
+struct ProposalSettings {
+  std::string algorithm = "nsga2";  ///< nsga2, nsga2-single-pixel, nsga2-rollback or random
+  int samples = 300;                ///< simulations per gamut, all seeds together
+  int seeds = 2;                    ///< independent searches merged into one gamut
+  int population = 20;              ///< of each search
+  int designs = 4;                  ///< selected for the laboratory each round
+};
+
+struct ValidationSettings {
+  int random_patterns = 6;          ///< stratified random designs measured in round 1 (Table 3.2)
+  int replicates = 3;               ///< specimens per design and test
+  int enough_valid = 0;             ///< an order is also complete with this many valid specimens; 0 means all replicates
+  int calibration_evaluations = 25; ///< evaluations of the toughness calibration set per round
+  int modulus_evaluations = 120;    ///< evaluations of the modulus calibration set per round
+  int calibration_batch = 3;        ///< evaluations asked for at once
+  std::vector<double> mixtures = {0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9};  ///< homogeneous benchmark, measured in round 1
+  bool approval = false;            ///< proposals wait for a person's yes
+};
+
+struct DiagnosisSettings {
+  bool enabled = true;
+  int discrimination_orders = 2;  ///< extra specimens a round that separate rival causes
+  int bootstraps = 2000;
+};
+
+struct LaboratorySettings {
+  bool virtual_lab = true;  ///< false: a person measures, `nacre inject` brings the results
+  std::string file;         ///< LAB.toml of the virtual laboratory, relative to the scenario; empty: drawn from the seed
+};
+
+/// The whole scenario, as in launch/README.md.
+struct Scenario {
+  std::string name = "unnamed";
+  std::uint64_t seed = 1;
+  int rounds = 3;                                      ///< last round number
+  tester::Fidelity fidelity = tester::Fidelity::preview;
+  bool stop_at_equilibrium = true;
+  std::string hosts = "local";                         ///< local (ttl 0) or lan (ttl 1)
+  int port = 0;                                        ///< UDP port of the run; 0 lets the launcher choose a free one
+  int farm_threads = 0;                                ///< 0 all allowed cores
+  std::string benchmark_file;                          ///< homogeneous benchmark for l1 when mixtures are not measured
+  std::string base_materials_file = "data/thesis/base_materials.csv";  ///< real measurements of round 0
+  ProposalSettings proposal;
+  ValidationSettings validation;
+  DiagnosisSettings diagnosis;
+  LaboratorySettings laboratory;
+  /// Nodes that take part, in start order.
+  std::vector<std::string> nodes() const;
+};
+
+/// Reads and validates a scenario. Unknown keys and values out of range throw InputError with file, line, key, value, range.
+Scenario read_scenario(const std::filesystem::path& path);
+
+/// The same from text; `source` names the place in errors.
+Scenario parse_scenario(std::string_view toml, std::string_view source);
+
+/// Every key with its value and a comment: read_scenario(to_toml(s)) == s.
+std::string to_toml(const Scenario& scenario);
+
+}  // namespace nacre::game

@@ -1,0 +1,91 @@
+#pragma once
+// The optimisable parameters of the two virtual testers (thesis Eq. 2.7) and the extensions of the model.
+// Index of materials everywhere: 0 soft (TB, TangoBlackPlus), 1 rigid (VW, VeroWhitePlus), 2 interface (IF).
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace nacre::material {
+
+/// theta: the modulus tester's parameters.
+struct ModulusParameters {
+  double e_tb_pa = 0.0, e_vw_pa = 0.0, e_if_pa = 0.0;
+  double nu_tb = 0.0, nu_vw = 0.0, nu_if = 0.0;
+  double gamma_per_s = 0.0;
+  bool operator==(const ModulusParameters&) const = default;
+};
+
+/// eta: the toughness tester's parameters.
+struct ToughnessParameters {
+  double e_tb_pa = 0.0, e_vw_pa = 0.0, e_if_pa = 0.0;
+  double nu_tb = 0.0, nu_vw = 0.0, nu_if = 0.0;
+  double w_tb_j_per_m3 = 0.0, w_vw_j_per_m3 = 0.0, w_if_j_per_m3 = 0.0;
+  double gamma_per_s = 0.0;
+  bool operator==(const ToughnessParameters&) const = default;
+};
+
+inline constexpr int kModulusParameterCount = 7;
+inline constexpr int kToughnessParameterCount = 10;
+using ModulusVector = std::array<double, kModulusParameterCount>;
+using ToughnessVector = std::array<double, kToughnessParameterCount>;
+
+/// Names in the order of the vectors: e_tb_pa, e_vw_pa, e_if_pa, nu_tb, nu_vw, nu_if, [w_tb_j_per_m3, ...,] gamma_per_s.
+std::span<const std::string_view> modulus_parameter_names();
+std::span<const std::string_view> toughness_parameter_names();
+
+ModulusVector to_vector(const ModulusParameters& parameters);
+ToughnessVector to_vector(const ToughnessParameters& parameters);
+ModulusParameters modulus_from_vector(const ModulusVector& vector);
+ToughnessParameters toughness_from_vector(const ToughnessVector& vector);
+
+/// Extensions of the base model by name, each with its one or two parameters in the units of extensions.hpp. An
+/// absent extension and one at zero are the same model.
+using Extensions = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// Everything a simulation needs to know about the material model.
+struct ParameterSet {
+  ModulusParameters modulus;
+  ToughnessParameters toughness;
+  Extensions extensions;
+  bool operator==(const ParameterSet&) const = default;
+};
+
+/// Feasible range of one parameter (thesis Tables A.1 and A.2). Ranges that span over a decade are searched in log10.
+struct ParameterRange {
+  std::string_view name;
+  double minimum = 0.0;
+  double maximum = 0.0;
+  bool logarithmic() const { return maximum > 10.0 * minimum && minimum > 0.0; }
+};
+
+/// What the ranges are meant for: base materials one by one (Table A.1), or microstructures (Table A.2).
+enum class FitTarget { base, microstructures };
+std::span<const ParameterRange> modulus_ranges(FitTarget target);
+std::span<const ParameterRange> toughness_ranges(FitTarget target);
+
+/// Point of the unit interval <-> value of a parameter, log10 where range.logarithmic().
+double to_unit(const ParameterRange& range, double value);
+double from_unit(const ParameterRange& range, double unit);
+
+/// Built-in defaults (the content of data/defaults.toml): the measured base materials of Table 3.4 for the modulus tester,
+/// the geometric middle of Table A.2 for the toughness tester.
+ParameterSet default_parameters();
+
+/// Reads a parameter file (TOML, tables [modulus], [toughness], [extension.NAME]); keys that are absent keep the value of
+/// `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (0 <= nu < 0.5 allowed up to
+/// 0.5) throw InputError naming file, line, key and what was expected.
+ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
+std::string to_toml(const ParameterSet& parameters);
+
+/// A sentence when the set lies outside what the testers can compute (E <= 0, nu outside [0, 0.5], W <= 0, unknown
+/// extension, extension parameter outside its range, anything not finite); empty when it is usable.
+std::string parameter_fault(const ParameterSet& parameters);
+
+}  // namespace nacre::material

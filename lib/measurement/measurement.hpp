@@ -1,0 +1,75 @@
+#pragma once
+// Physical (or virtual-laboratory) measurements: one row per specimen.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pattern/design.hpp"
+#include "tester/curve.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::measurement {
+
+/// One tested specimen, as in a row of measurements.csv or a MEASUREMENT message.
+struct SpecimenRecord {
+  std::string specimen;  ///< unique name
+  pattern::Design design;
+  tester::TestKind test = tester::TestKind::modulus;
+  tester::TestConditions conditions;
+  std::string batch;
+  int print_order = 0;  ///< 0 when unknown
+  std::optional<double> modulus_pa;
+  std::optional<double> toughness_pa;  ///< a given value wins over the area under the curve
+  tester::Curve curve;                 ///< empty when none was recorded
+  bool valid = true;
+  std::string note;
+  bool operator==(const SpecimenRecord&) const = default;
+};
+
+/// A row that could not be used.
+struct RejectedRow {
+  int line = 0;
+  std::string column;
+  std::string reason;  ///< a sentence with what was expected
+};
+
+struct MeasurementSet {
+  std::vector<SpecimenRecord> specimens;  ///< in the order of the file
+  std::vector<RejectedRow> rejected;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a measurement set: a folder with measurements.csv and the curve files it names (format: docs/FORMATS.md). One bad row
+/// does not lose the others. Throws InputError when the folder or the table cannot be read or no row is usable.
+MeasurementSet read_measurement_set(const std::filesystem::path& folder);
+
+/// Writes measurements.csv and curves/SPECIMEN.csv. Throws InputError when the folder cannot be written.
+void write_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens);
+
+/// What was measured of one design under one set of conditions, from its valid specimens.
+struct Replicates {
+  pattern::Design design;
+  tester::TestConditions conditions;
+  std::string batch_list;                  ///< batches joined by a comma
+  std::vector<std::string> specimens;      ///< names of the valid specimens, sorted
+  int modulus_count = 0, toughness_count = 0;
+  double modulus_pa = 0.0, modulus_sd_pa = 0.0;      ///< mean and sample standard deviation; 0 when not measured
+  double toughness_pa = 0.0, toughness_sd_pa = 0.0;
+  tester::Curve representative_curve;  ///< of the specimen whose toughness is nearest to the mean; empty when none
+};
+
+/// Groups valid specimens by design and conditions (modulus, toughness specimens of one design come together). Sorted by design
+/// name, then conditions, so that the order of arrival never matters. `tensile` coupons are not included.
+std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens);
+
+/// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
+std::optional<double> toughness_of(const SpecimenRecord& specimen);
+
+/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`.
+double observe_modulus(double modulus_pa, const material::Extensions& extensions);
+/// The same for a curve.
+tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions);
+
+}  // namespace nacre::measurement
