@@ -1,0 +1,128 @@
+// The rules of docs/ARCHITECTURE.md that a compiler does not check.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/files.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRoot = NACRE_SOURCE_DIR;
+
+/// The source files below a folder of the project, by path relative to the root.
+std::vector<fs::path> sources_below(const fs::path& folder) {
+  static const std::set<std::string> kExtensions = {".hpp", ".cpp", ".inc", ".cu"};
+  std::vector<fs::path> files;
+  if (!fs::exists(kRoot / folder)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    if (entry.is_regular_file() && kExtensions.contains(entry.path().extension().string())) {
+      files.push_back(fs::relative(entry.path(), kRoot));
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> includes_of(const fs::path& file) {
+  static const std::regex kInclude(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
+  std::vector<std::string> includes;
+  std::istringstream lines(read_file(kRoot / file));
+  for (std::string line; std::getline(lines, line);) {
+    if (std::smatch match; std::regex_search(line, match, kInclude)) includes.push_back(match[1]);
+  }
+  return includes;
+}
+
+/// Module -> rank, in the order of NACRE_MODULES.
+std::map<std::string, int> module_ranks() {
+  const std::string text = read_file(kRoot / "cmake/NacreModules.cmake");
+  std::smatch match;
+  EXPECT_TRUE(std::regex_search(text, match, std::regex(R"(set\(NACRE_MODULES([^)]*)\))")));
+  std::istringstream words(match[1]);
+  std::map<std::string, int> ranks;
+  for (std::string word; words >> word;) ranks.emplace(word, static_cast<int>(ranks.size()));
+  return ranks;
+}
+
+std::string first_part(const std::string& include) { return include.substr(0, include.find('/')); }
+
+TEST(Architecture, EveryFolderOfLibIsAModule) {
+  const auto ranks = module_ranks();
+  for (const auto& entry : fs::directory_iterator(kRoot / "lib")) {
+    if (entry.is_directory()) EXPECT_TRUE(ranks.contains(entry.path().filename().string())) << entry.path();
+  }
+}
+
+TEST(Architecture, ModulesIncludeOnlyModulesThatStandBeforeThem) {
+  const auto ranks = module_ranks();
+  int checked = 0;
+  for (const fs::path& file : sources_below("lib")) {
+    const std::string own = (++file.begin())->string();
+    for (const std::string& include : includes_of(file)) {
+      const auto other = ranks.find(first_part(include));
+      if (other == ranks.end() || include.find('/') == std::string::npos) continue;
+      ++checked;
+      EXPECT_LE(other->second, ranks.at(own)) << file << " includes " << include;
+    }
+  }
+  EXPECT_GT(checked, 50);
+}
+
+TEST(Architecture, OnlyRuntimeIncludesLcmAndClocks) {
+  for (const fs::path& file : sources_below("lib")) {
+    if (file.string().starts_with("lib/runtime/")) continue;
+    for (const std::string& include : includes_of(file)) {
+      // lcm_coretypes.h holds the encoding alone; wire needs it.
+      if (include.starts_with("lcm/")) EXPECT_TRUE(file.string().starts_with("lib/wire/") && include == "lcm/lcm_coretypes.h") << file;
+      EXPECT_NE(include, "chrono") << file << ": clocks belong to runtime";
+    }
+  }
+}
+
+TEST(Architecture, NodesDoNotIncludeLcm) {
+  for (const fs::path& file : sources_below("nodes")) {
+    for (const std::string& include : includes_of(file)) EXPECT_FALSE(include.starts_with("lcm/")) << file;
+  }
+}
+
+TEST(Architecture, OnlyTheLaboratoryAndItsToolsReadTheTruth) {
+  // The sealed answer: agents, analyser and diagnosis must not be able to look at it.
+  const std::vector<std::string> allowed = {"nodes/virtual_lab/", "nodes/cli/measure", "bench/", "tests/"};
+  for (const char* folder : {"lib", "nodes", "bench", "tests"}) {
+    for (const fs::path& file : sources_below(folder)) {
+      if (std::any_of(allowed.begin(), allowed.end(), [&](const auto& p) { return file.string().starts_with(p); })) continue;
+      const std::string text = read_file(kRoot / file);
+      EXPECT_EQ(text.find("truth.toml"), std::string::npos) << file;
+      for (const std::string& include : includes_of(file)) EXPECT_FALSE(include.starts_with("virtual_lab/")) << file;
+    }
+  }
+}
+
+TEST(Architecture, NoFileIsLongerThanFiveHundredLines) {
+  for (const char* folder : {"lib", "nodes"}) {
+    for (const fs::path& file : sources_below(folder)) {
+      const std::string text = read_file(kRoot / file);
+      EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500) << file;
+    }
+  }
+}
+
+TEST(Architecture, EveryModuleHasAReadme) {
+  for (const auto& [name, rank] : module_ranks()) {
+    if (fs::exists(kRoot / "lib" / name / "CMakeLists.txt")) EXPECT_TRUE(fs::exists(kRoot / "lib" / name / "README.md")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace nacre
