@@ -16,6 +16,7 @@ struct ProposalSettings {
   int seeds = 2;                    ///< independent searches merged into one gamut
   int population = 20;              ///< of each search
   int designs = 4;                  ///< selected for the laboratory each round
+  bool operator==(const ProposalSettings&) const = default;
 };
 
 struct ValidationSettings {
@@ -27,17 +28,20 @@ struct ValidationSettings {
   int calibration_batch = 3;        ///< evaluations asked for at once
   std::vector<double> mixtures = {0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9};  ///< homogeneous benchmark, measured in round 1
   bool approval = false;            ///< proposals wait for a person's yes
+  bool operator==(const ValidationSettings&) const = default;
 };
 
 struct DiagnosisSettings {
   bool enabled = true;
   int discrimination_orders = 2;  ///< extra specimens a round that separate rival causes
   int bootstraps = 2000;
+  bool operator==(const DiagnosisSettings&) const = default;
 };
 
 struct LaboratorySettings {
   bool virtual_lab = true;  ///< false: a person measures, `nacre inject` brings the results
   std::string file;         ///< LAB.toml of the virtual laboratory, relative to the scenario; empty: drawn from the seed
+  bool operator==(const LaboratorySettings&) const = default;
 };
 
 /// The whole scenario, as in launch/README.md.
@@ -58,15 +62,18 @@ struct Scenario {
   LaboratorySettings laboratory;
   /// Nodes that take part, in start order.
   std::vector<std::string> nodes() const;
+  bool operator==(const Scenario&) const = default;
 };
 
 /// Reads and validates a scenario. Unknown keys and values out of range throw InputError with file, line, key, value, range.
+/// Files that it names are looked for beside the scenario, in the folders above it, in the working folder and in the folders
+/// above it and above the program, in this order; the result holds the paths found. A file that is nowhere is an InputError.
 Scenario read_scenario(const std::filesystem::path& path);
 
-/// The same from text; `source` names the place in errors.
+/// The same from text, with file names left as written; `source` names the place in errors.
 Scenario parse_scenario(std::string_view toml, std::string_view source);
 
-/// Every key with its value and a comment: read_scenario(to_toml(s)) == s.
+/// Every key with its value and a comment: parse_scenario(to_toml(s), place) == s.
 std::string to_toml(const Scenario& scenario);
 
 }  // namespace nacre::game

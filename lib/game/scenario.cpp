@@ -1,0 +1,180 @@
+#include "game/scenario.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "game/scenario_keys.hpp"
+
+namespace nacre::game {
+namespace {
+
+/// Where something stands, `demo.toml:12`.
+std::string place(std::string_view source, const toml::node& node) {
+  return fmt::format("{}:{}", source, node.source().begin.line);
+}
+
+/// A value as a person wrote it, on one line.
+std::string shown(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&](const auto& value) { out << value; });
+  std::string text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+std::string names_in_table(std::string_view table) {
+  std::string names;
+  for (const ScenarioKey& key : scenario_keys()) {
+    if (key.table == table) names += (names.empty() ? "" : ", ") + std::string(key.name);
+  }
+  return names;
+}
+
+bool is_table_name(std::string_view name) {
+  const auto keys = scenario_keys();
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const ScenarioKey& key) { return key.table == name && !name.empty(); });
+}
+
+std::string table_names() {
+  std::set<std::string> names;
+  for (const ScenarioKey& key : scenario_keys()) {
+    if (!key.table.empty()) names.insert(fmt::format("[{}]", key.table));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void read_entry(std::string_view source, std::string_view table, std::string_view name, const toml::node& node,
+                Scenario& scenario) {
+  for (const ScenarioKey& key : scenario_keys()) {
+    if (key.table != table || key.name != name) continue;
+    if (key.read(node, scenario)) return;
+    throw InputError::format("{}: {} = {}: expected {}", place(source, node), key.path(), shown(node), key.allowed);
+  }
+  const std::string kind = table.empty() ? "at the top level" : fmt::format("in [{}]", table);
+  throw InputError::format("{}: unknown key {} {}: expected one of {}{}", place(source, node), name, kind,
+                           names_in_table(table), table.empty() ? ", or a table " + table_names() : "");
+}
+
+void read_table(std::string_view source, std::string_view table, const toml::table& entries, Scenario& scenario) {
+  for (const auto& [name, node] : entries) {
+    const toml::table* inner = node.as_table();
+    if (table.empty() && is_table_name(name.str())) {
+      if (inner == nullptr) {
+        throw InputError::format("{}: {} = {}: expected a table [{}]", place(source, node), name.str(), shown(node),
+                                 name.str());
+      }
+      read_table(source, name.str(), *inner, scenario);
+    } else if (inner != nullptr && table.empty()) {
+      throw InputError::format("{}: unknown table [{}]: expected one of {}", place(source, node), name.str(),
+                               table_names());
+    } else {
+      read_entry(source, table, name.str(), node, scenario);
+    }
+  }
+}
+
+/// What no key shows by itself.
+void check_together(std::string_view source, const Scenario& scenario) {
+  const ValidationSettings& validation = scenario.validation;
+  if (validation.enough_valid > validation.replicates) {
+    throw InputError::format("{}: validation.enough_valid = {}: expected at most validation.replicates = {}", source,
+                             validation.enough_valid, validation.replicates);
+  }
+  const ProposalSettings& proposal = scenario.proposal;
+  if (proposal.seeds > proposal.samples) {
+    throw InputError::format("{}: proposal.seeds = {}: expected at most proposal.samples = {}", source, proposal.seeds,
+                             proposal.samples);
+  }
+}
+
+/// Folders that a file named in a scenario is looked for in, nearest first.
+std::vector<std::filesystem::path> search_folders(const std::filesystem::path& scenario_path) {
+  std::vector<std::filesystem::path> folders;
+  const auto add_with_parents = [&](std::filesystem::path folder) {
+    while (true) {
+      folders.push_back(folder);
+      if (folder == folder.parent_path()) return;
+      folder = folder.parent_path();
+    }
+  };
+  add_with_parents(std::filesystem::absolute(scenario_path).parent_path());
+  add_with_parents(std::filesystem::current_path());
+  std::error_code no_such_link;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", no_such_link);
+  if (!no_such_link) add_with_parents(program.parent_path());
+  return folders;
+}
+
+void resolve_file(std::string_view source, std::string_view key, const std::filesystem::path& scenario_path,
+                  std::string& file) {
+  if (file.empty()) return;
+  const auto is_file = [](const std::filesystem::path& path) {
+    std::error_code unreadable;
+    return std::filesystem::is_regular_file(path, unreadable);
+  };
+  const std::filesystem::path name(file);
+  if (name.is_absolute() && is_file(name)) return;
+  if (name.is_relative()) {
+    for (const auto& folder : search_folders(scenario_path)) {
+      const auto candidate = (folder / name).lexically_normal();
+      if (!is_file(candidate)) continue;
+      file = candidate.string();
+      return;
+    }
+  }
+  throw InputError::format(
+      "{}: {} = \"{}\": no such file; expected a path, absolute or relative to the scenario, to a "
+      "folder above it or to the working folder",
+      source, key, file);
+}
+
+}  // namespace
+
+std::vector<std::string> Scenario::nodes() const {
+  std::vector<std::string> names = {"simulator_farm", "analyser", "proposal_agent", "validation_agent"};
+  if (laboratory.virtual_lab) names.insert(names.begin(), "virtual_lab");
+  return names;
+}
+
+Scenario parse_scenario(std::string_view text, std::string_view source) {
+  toml::table entries;
+  try {
+    entries = toml::parse(text, source);
+  } catch (const toml::parse_error& error) {
+    throw InputError::format("{}:{}:{}: not TOML: {}", source, error.source().begin.line, error.source().begin.column,
+                             error.description());
+  }
+  Scenario scenario;
+  read_table(source, "", entries, scenario);
+  check_together(source, scenario);
+  return scenario;
+}
+
+Scenario read_scenario(const std::filesystem::path& path) {
+  Scenario scenario = parse_scenario(read_file(path), path.string());
+  resolve_file(path.string(), "benchmark_file", path, scenario.benchmark_file);
+  resolve_file(path.string(), "base_materials_file", path, scenario.base_materials_file);
+  resolve_file(path.string(), "laboratory.file", path, scenario.laboratory.file);
+  return scenario;
+}
+
+std::string to_toml(const Scenario& scenario) {
+  std::string text = "# Scenario of nacre; launch/README.md explains how to write one.\n";
+  std::string_view table;
+  for (const ScenarioKey& key : scenario_keys()) {
+    if (key.table != table) {
+      table = key.table;
+      text += fmt::format("\n[{}]\n", table);
+    }
+    text += fmt::format("{} = {}  # {}; {}\n", key.name, key.write(scenario), key.meaning, key.allowed);
+  }
+  return text;
+}
+
+}  // namespace nacre::game

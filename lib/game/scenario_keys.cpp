@@ -1,0 +1,262 @@
+#include "game/scenario_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <vector>
+
+namespace nacre::game {
+namespace {
+
+/// Reference to one member of a scenario, so that a key can both read and write it.
+template <class T>
+using Access = std::function<T&(Scenario&)>;
+
+/// Access to a member of one of a scenario's tables, or of the scenario itself.
+template <class T>
+Access<T> at(T Scenario::*member) {
+  return [member](Scenario& scenario) -> T& { return scenario.*member; };
+}
+template <class Table, class T>
+Access<T> at(Table Scenario::*table, T Table::*member) {
+  return [table, member](Scenario& scenario) -> T& { return scenario.*table.*member; };
+}
+
+template <class T>
+const T& value_in(const Access<T>& access, const Scenario& scenario) {
+  return access(const_cast<Scenario&>(scenario));  // NOLINT: only read here
+}
+
+std::string toml_string(const std::string& text) {
+  const toml::value<std::string> value(text);
+  std::ostringstream out;
+  out << toml::toml_formatter(value, toml::format_flags::none);
+  return out.str();
+}
+
+/// A floating-point number in the shortest form that reads back equal, with the point that TOML asks for.
+std::string toml_float(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+template <class Integer>
+ScenarioKey whole_number(std::string_view table, std::string_view name, std::string_view meaning, Integer minimum,
+                         std::int64_t maximum, Access<Integer> access) {
+  const auto low = static_cast<std::int64_t>(minimum);
+  return {table,
+          name,
+          meaning,
+          fmt::format("a whole number from {} to {}", low, maximum),
+          [=](const toml::node& node, Scenario& scenario) {
+            const auto value = node.value_exact<std::int64_t>();
+            if (!value || *value < low || *value > maximum) return false;
+            access(scenario) = static_cast<Integer>(*value);
+            return true;
+          },
+          [=](const Scenario& scenario) { return fmt::format("{}", value_in(access, scenario)); }};
+}
+
+ScenarioKey flag(std::string_view table, std::string_view name, std::string_view meaning, Access<bool> access) {
+  return {table,
+          name,
+          meaning,
+          "true or false",
+          [=](const toml::node& node, Scenario& scenario) {
+            const auto value = node.value_exact<bool>();
+            if (value) access(scenario) = *value;
+            return value.has_value();
+          },
+          [=](const Scenario& scenario) { return value_in(access, scenario) ? "true" : "false"; }};
+}
+
+ScenarioKey text(std::string_view table, std::string_view name, std::string_view meaning, std::string allowed,
+                 std::function<bool(const std::string&)> is_allowed, Access<std::string> access) {
+  return {table,
+          name,
+          meaning,
+          std::move(allowed),
+          [=](const toml::node& node, Scenario& scenario) {
+            const auto value = node.value_exact<std::string>();
+            if (!value || !is_allowed(*value)) return false;
+            access(scenario) = *value;
+            return true;
+          },
+          [=](const Scenario& scenario) { return toml_string(value_in(access, scenario)); }};
+}
+
+ScenarioKey choice(std::string_view table, std::string_view name, std::string_view meaning,
+                   std::vector<std::string> choices, Access<std::string> access) {
+  std::string allowed;
+  for (const std::string& one : choices) allowed += (allowed.empty() ? "\"" : ", \"") + one + "\"";
+  const auto is_choice = [choices](const std::string& value) {
+    return std::find(choices.begin(), choices.end(), value) != choices.end();
+  };
+  return text(table, name, meaning, "one of " + allowed, is_choice, std::move(access));
+}
+
+ScenarioKey file_name(std::string_view table, std::string_view name, std::string_view meaning,
+                      Access<std::string> access) {
+  const auto without_null = [](const std::string& value) { return value.find('\0') == std::string::npos; };
+  return text(table, name, meaning, "the name of a file, or \"\" for none", without_null, std::move(access));
+}
+
+ScenarioKey fidelity_key() {
+  return {"",
+          "fidelity",
+          "size of the simulated and measured specimens",
+          R"(one of "tiny", "preview", "full")",
+          [](const toml::node& node, Scenario& scenario) {
+            const auto value = node.value_exact<std::string>();
+            const auto fidelity = tester::fidelity_from_string(value.value_or(""));
+            if (!value || !fidelity) return false;
+            scenario.fidelity = *fidelity;
+            return true;
+          },
+          [](const Scenario& scenario) { return toml_string(std::string(tester::to_string(scenario.fidelity))); }};
+}
+
+std::optional<std::vector<double>> rigid_fractions(const toml::node& node) {
+  constexpr std::size_t kMost = 32;
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() > kMost) return std::nullopt;
+  std::vector<double> fractions;
+  std::set<double> seen;
+  for (const toml::node& element : *array) {
+    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !(*value >= 0.0 && *value <= 1.0) || !seen.insert(*value).second) return std::nullopt;
+    fractions.push_back(*value);
+  }
+  return fractions;
+}
+
+ScenarioKey mixtures_key() {
+  return {"validation",
+          "mixtures",
+          "homogeneous mixtures measured in round 1 (rigid fractions): the benchmark line",
+          "an array of at most 32 different numbers from 0 to 1",
+          [](const toml::node& node, Scenario& scenario) {
+            const auto fractions = rigid_fractions(node);
+            if (fractions) scenario.validation.mixtures = *fractions;
+            return fractions.has_value();
+          },
+          [](const Scenario& scenario) {
+            std::string list;
+            for (const double fraction : scenario.validation.mixtures) {
+              list += (list.empty() ? "" : ", ") + toml_float(fraction);
+            }
+            return "[" + list + "]";
+          }};
+}
+
+/// Run folders and messages carry the name.
+bool is_plain_name(const std::string& name) {
+  constexpr std::size_t kLongest = 40;
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), is_plain);
+}
+
+std::vector<ScenarioKey> make_top_level_keys() {
+  constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
+  return {
+      text("", "name", "name of the scenario, part of the run's name",
+           "1 to 40 of the characters A-Z, a-z, 0-9, _ and -", is_plain_name, at(&Scenario::name)),
+      whole_number<std::uint64_t>("", "seed", "every random choice of the run follows from it", 0, kLargestSeed,
+                                  at(&Scenario::seed)),
+      whole_number<int>("", "rounds", "number of the last round; round 0 is the base materials", 0, 1000,
+                        at(&Scenario::rounds)),
+      fidelity_key(),
+      flag("", "stop_at_equilibrium", "end before the last round when measurements and predictions agree",
+           at(&Scenario::stop_at_equilibrium)),
+      choice("", "hosts", "where the nodes run: this machine, or machines of one local network", {"local", "lan"},
+             at(&Scenario::hosts)),
+      whole_number<int>("", "port", "UDP port of the run; 0: the launcher takes a free one", 0, 65535,
+                        at(&Scenario::port)),
+      whole_number<int>("", "farm_threads", "threads of the simulator farm; 0: all allowed cores", 0, 4096,
+                        at(&Scenario::farm_threads)),
+      file_name("", "benchmark_file", "measured homogeneous line for the selection when no mixtures are measured",
+                at(&Scenario::benchmark_file)),
+      file_name("", "base_materials_file", "measured base materials that round 0 is fitted to",
+                at(&Scenario::base_materials_file)),
+  };
+}
+
+std::vector<ScenarioKey> make_proposal_keys() {
+  constexpr auto table = &Scenario::proposal;
+  return {
+      choice("proposal", "algorithm", "how the gamut is searched",
+             {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"}, at(table, &ProposalSettings::algorithm)),
+      whole_number<int>("proposal", "samples", "simulations per gamut, all searches together", 1, 1'000'000,
+                        at(table, &ProposalSettings::samples)),
+      whole_number<int>("proposal", "seeds", "independent searches merged into one gamut", 1, 64,
+                        at(table, &ProposalSettings::seeds)),
+      whole_number<int>("proposal", "population", "population of each search", 2, 10'000,
+                        at(table, &ProposalSettings::population)),
+      whole_number<int>("proposal", "designs", "designs chosen for the laboratory each round", 1, 100,
+                        at(table, &ProposalSettings::designs)),
+  };
+}
+
+std::vector<ScenarioKey> make_validation_keys() {
+  constexpr auto table = &Scenario::validation;
+  return {
+      whole_number<int>("validation", "random_patterns", "stratified random patterns measured in round 1", 0, 1000,
+                        at(table, &ValidationSettings::random_patterns)),
+      whole_number<int>("validation", "replicates", "specimens per design and test", 1, 100,
+                        at(table, &ValidationSettings::replicates)),
+      whole_number<int>("validation", "enough_valid",
+                        "an order is also complete with so many valid specimens; 0: all replicates", 0, 100,
+                        at(table, &ValidationSettings::enough_valid)),
+      whole_number<int>("validation", "calibration_evaluations", "evaluations of the toughness set per round", 0,
+                        100'000, at(table, &ValidationSettings::calibration_evaluations)),
+      whole_number<int>("validation", "modulus_evaluations", "evaluations of the modulus set per round", 0, 100'000,
+                        at(table, &ValidationSettings::modulus_evaluations)),
+      whole_number<int>("validation", "calibration_batch", "parameter sets asked for at once", 1, 64,
+                        at(table, &ValidationSettings::calibration_batch)),
+      mixtures_key(),
+      flag("validation", "approval", "proposed designs wait for a person's `nacre approve`",
+           at(table, &ValidationSettings::approval)),
+  };
+}
+
+std::vector<ScenarioKey> make_remaining_keys() {
+  constexpr auto diagnosis = &Scenario::diagnosis;
+  constexpr auto laboratory = &Scenario::laboratory;
+  return {
+      flag("diagnosis", "enabled", "ask each round what the simulation gets wrong and why",
+           at(diagnosis, &DiagnosisSettings::enabled)),
+      whole_number<int>("diagnosis", "discrimination_orders", "extra specimens a round that tell rival causes apart", 0,
+                        20, at(diagnosis, &DiagnosisSettings::discrimination_orders)),
+      whole_number<int>("diagnosis", "bootstraps", "resamplings behind the decision threshold", 100, 1'000'000,
+                        at(diagnosis, &DiagnosisSettings::bootstraps)),
+      flag("laboratory", "virtual_lab", "true: the virtual laboratory measures; false: a person does (nacre inject)",
+           at(laboratory, &LaboratorySettings::virtual_lab)),
+      file_name("laboratory", "file", "LAB.toml of the virtual laboratory; \"\": its truth is drawn from the seed",
+                at(laboratory, &LaboratorySettings::file)),
+  };
+}
+
+std::vector<ScenarioKey> make_keys() {
+  std::vector<ScenarioKey> keys = make_top_level_keys();
+  for (auto part : {make_proposal_keys(), make_validation_keys(), make_remaining_keys()}) {
+    keys.insert(keys.end(), part.begin(), part.end());
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::string ScenarioKey::path() const { return table.empty() ? std::string(name) : fmt::format("{}.{}", table, name); }
+
+std::span<const ScenarioKey> scenario_keys() {
+  static const std::vector<ScenarioKey> keys = make_keys();
+  return keys;
+}
+
+}  // namespace nacre::game
