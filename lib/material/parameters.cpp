@@ -1,0 +1,167 @@
+#include "material/parameters.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "material/extensions.hpp"
+
+namespace nacre::material {
+namespace {
+
+constexpr std::array<std::string_view, kModulusParameterCount> kModulusNames = {"e_tb_pa", "e_vw_pa", "e_if_pa",    "nu_tb",
+                                                                                "nu_vw",   "nu_if",   "gamma_per_s"};
+constexpr std::array<std::string_view, kToughnessParameterCount> kToughnessNames = {
+    "e_tb_pa", "e_vw_pa",       "e_if_pa",       "nu_tb",         "nu_vw",
+    "nu_if",   "w_tb_j_per_m3", "w_vw_j_per_m3", "w_if_j_per_m3", "gamma_per_s"};
+
+// Table A.1, Young's modulus.
+constexpr std::array<ParameterRange, kModulusParameterCount> kModulusBase = {{{"e_tb_pa", 8.08e5, 1.21e6},
+                                                                              {"e_vw_pa", 2.13e9, 3.19e9},
+                                                                              {"e_if_pa", 4.51e8, 6.77e8},
+                                                                              {"nu_tb", 0.4, 0.5},
+                                                                              {"nu_vw", 0.2, 0.4},
+                                                                              {"nu_if", 0.3, 0.4},
+                                                                              {"gamma_per_s", 2e4, 2e6}}};
+// Table A.1, toughness.
+constexpr std::array<ParameterRange, kToughnessParameterCount> kToughnessBase = {{{"e_tb_pa", 1e5, 2e6},
+                                                                                  {"e_vw_pa", 1e7, 1e9},
+                                                                                  {"e_if_pa", 1e7, 1e9},
+                                                                                  {"nu_tb", 0.4, 0.5},
+                                                                                  {"nu_vw", 0.2, 0.4},
+                                                                                  {"nu_if", 0.3, 0.4},
+                                                                                  {"w_tb_j_per_m3", 5e4, 1e6},
+                                                                                  {"w_vw_j_per_m3", 5e4, 1e7},
+                                                                                  {"w_if_j_per_m3", 1e6, 1e8},
+                                                                                  {"gamma_per_s", 2e4, 4e6}}};
+// Table A.2, Young's modulus.
+constexpr std::array<ParameterRange, kModulusParameterCount> kModulusMicrostructures = {{{"e_tb_pa", 8e5, 1.2e6},
+                                                                                         {"e_vw_pa", 2.08e9, 3.12e9},
+                                                                                         {"e_if_pa", 4.48e8, 6.72e8},
+                                                                                         {"nu_tb", 0.4, 0.5},
+                                                                                         {"nu_vw", 0.2, 0.4},
+                                                                                         {"nu_if", 0.3, 0.4},
+                                                                                         {"gamma_per_s", 2e4, 2e6}}};
+// Table A.2, toughness.
+constexpr std::array<ParameterRange, kToughnessParameterCount> kToughnessMicrostructures = {{{"e_tb_pa", 5e5, 5e8},
+                                                                                             {"e_vw_pa", 5e7, 1e9},
+                                                                                             {"e_if_pa", 1e7, 5e8},
+                                                                                             {"nu_tb", 0.4, 0.5},
+                                                                                             {"nu_vw", 0.2, 0.4},
+                                                                                             {"nu_if", 0.3, 0.4},
+                                                                                             {"w_tb_j_per_m3", 5e4, 1e6},
+                                                                                             {"w_vw_j_per_m3", 5e5, 1e7},
+                                                                                             {"w_if_j_per_m3", 1e6, 1e8},
+                                                                                             {"gamma_per_s", 2e4, 4e6}}};
+
+/// A sentence about the first value that the testers cannot compute with.
+template <class Vector>
+std::string vector_fault(std::string_view table, std::span<const std::string_view> names, const Vector& vector) {
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    const double value = vector[i];
+    const bool is_poisson = names[i].starts_with("nu_");
+    const bool is_damping = names[i] == "gamma_per_s";
+    const bool usable = std::isfinite(value) && (is_poisson ? value >= 0.0 && value <= 0.5 : is_damping ? value >= 0.0 : value > 0.0);
+    if (!usable)
+      return fmt::format("{}.{} = {} is not usable: expected a finite number {}", table, names[i], value,
+                         is_poisson   ? "between 0 and 0.5"
+                         : is_damping ? "not below 0"
+                                      : "above 0");
+  }
+  return {};
+}
+
+std::string extension_fault(std::string_view name, const std::vector<double>& values) {
+  const Effect* effect = find_effect(name);
+  if (effect == nullptr) return fmt::format("unknown extension '{}'", name);
+  if (values.size() != effect->parameters.size())
+    return fmt::format("extension {} takes {} value(s), not {}", name, effect->parameters.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const EffectParameter& parameter = effect->parameters[i];
+    if (!(values[i] >= parameter.minimum && values[i] <= parameter.maximum))
+      return fmt::format("extension {} = {} {}: expected {} to {}", name, values[i], parameter.unit, parameter.minimum,
+                         parameter.maximum);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const std::string_view> modulus_parameter_names() { return kModulusNames; }
+std::span<const std::string_view> toughness_parameter_names() { return kToughnessNames; }
+
+ModulusVector to_vector(const ModulusParameters& p) {
+  return {p.e_tb_pa, p.e_vw_pa, p.e_if_pa, p.nu_tb, p.nu_vw, p.nu_if, p.gamma_per_s};
+}
+
+ToughnessVector to_vector(const ToughnessParameters& p) {
+  return {p.e_tb_pa, p.e_vw_pa,       p.e_if_pa,       p.nu_tb,         p.nu_vw,
+          p.nu_if,   p.w_tb_j_per_m3, p.w_vw_j_per_m3, p.w_if_j_per_m3, p.gamma_per_s};
+}
+
+ModulusParameters modulus_from_vector(const ModulusVector& v) {
+  return {.e_tb_pa = v[0], .e_vw_pa = v[1], .e_if_pa = v[2], .nu_tb = v[3], .nu_vw = v[4], .nu_if = v[5], .gamma_per_s = v[6]};
+}
+
+ToughnessParameters toughness_from_vector(const ToughnessVector& v) {
+  return {.e_tb_pa = v[0],
+          .e_vw_pa = v[1],
+          .e_if_pa = v[2],
+          .nu_tb = v[3],
+          .nu_vw = v[4],
+          .nu_if = v[5],
+          .w_tb_j_per_m3 = v[6],
+          .w_vw_j_per_m3 = v[7],
+          .w_if_j_per_m3 = v[8],
+          .gamma_per_s = v[9]};
+}
+
+std::span<const ParameterRange> modulus_ranges(FitTarget target) {
+  return target == FitTarget::base ? std::span<const ParameterRange>(kModulusBase) : kModulusMicrostructures;
+}
+
+std::span<const ParameterRange> toughness_ranges(FitTarget target) {
+  return target == FitTarget::base ? std::span<const ParameterRange>(kToughnessBase) : kToughnessMicrostructures;
+}
+
+double to_unit(const ParameterRange& range, double value) {
+  if (!range.logarithmic()) return (value - range.minimum) / (range.maximum - range.minimum);
+  return std::log(value / range.minimum) / std::log(range.maximum / range.minimum);
+}
+
+double from_unit(const ParameterRange& range, double unit) {
+  if (!range.logarithmic()) return range.minimum + unit * (range.maximum - range.minimum);
+  return range.minimum * std::pow(range.maximum / range.minimum, unit);
+}
+
+ParameterSet default_parameters() {
+  // theta: moduli measured on base materials (Table 3.4), the rest the middle of Table A.2. eta: the middle of Table A.2,
+  // in log10 where the range is searched so; four digits, as in data/defaults.toml.
+  return {.modulus = {.e_tb_pa = 1.0094e6,
+                      .e_vw_pa = 2.6613e9,
+                      .e_if_pa = 5.642e8,
+                      .nu_tb = 0.45,
+                      .nu_vw = 0.3,
+                      .nu_if = 0.35,
+                      .gamma_per_s = 2e5},
+          .toughness = {.e_tb_pa = 1.581e7,
+                        .e_vw_pa = 2.236e8,
+                        .e_if_pa = 7.071e7,
+                        .nu_tb = 0.45,
+                        .nu_vw = 0.3,
+                        .nu_if = 0.35,
+                        .w_tb_j_per_m3 = 2.236e5,
+                        .w_vw_j_per_m3 = 2.236e6,
+                        .w_if_j_per_m3 = 1e7,
+                        .gamma_per_s = 2.828e5},
+          .extensions = {}};
+}
+
+std::string parameter_fault(const ParameterSet& parameters) {
+  if (std::string fault = vector_fault("modulus", kModulusNames, to_vector(parameters.modulus)); !fault.empty()) return fault;
+  if (std::string fault = vector_fault("toughness", kToughnessNames, to_vector(parameters.toughness)); !fault.empty()) return fault;
+  for (const auto& [name, values] : parameters.extensions)
+    if (std::string fault = extension_fault(name, values); !fault.empty()) return fault;
+  return {};
+}
+
+}  // namespace nacre::material
