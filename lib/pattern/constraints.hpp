@@ -1,0 +1,32 @@
+#pragma once
+// Structural constraints of the design space (thesis 2.1, Figure 2-1C). They bind proposals; a pattern from elsewhere
+// that violates them is measured and simulated all the same, with a warning.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pattern/layout.hpp"
+
+namespace nacre::pattern {
+
+/// Rigid pixels of 400 that a proposal may have: 50 % to 85 %, both included.
+inline constexpr int kMinimumRigidCount = kPixels * 50 / 100;
+inline constexpr int kMaximumRigidCount = kPixels * 85 / 100;
+/// From this many rigid pixels on (80 %, itself included) the corner rule covers the corner region, below it the corner
+/// pixel alone. The thesis says "below 80 % ... otherwise (above 80 %)": exactly 80 % is not below, so it falls under
+/// "otherwise".
+inline constexpr int kCornerRegionRigidCount = kPixels * 80 / 100;
+/// Radius of the corner region about the corner vertex, in pixels, for pixel centres.
+inline constexpr double kCornerRadiusPixels = 4.0;
+
+/// Free pixels (bits of Pattern) that must be rigid in a pattern with this many rigid pixels.
+std::uint64_t required_rigid_bits(int rigid_count);
+
+/// Whether a proposal may have this pattern.
+bool is_feasible(const Pattern& pattern);
+
+/// What forbids the pattern, as a sentence for a person; nothing when it lies in the design space.
+std::optional<std::string> violation(const Pattern& pattern);
+
+}  // namespace nacre::pattern

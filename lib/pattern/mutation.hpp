@@ -1,0 +1,39 @@
+#pragma once
+// The mutation operator of the exploration (thesis 2.3.3) and its two simpler baselines (3.2.5).
+
+#include <optional>
+
+#include "base/random.hpp"
+#include "pattern/layout.hpp"
+
+namespace nacre::pattern {
+
+/// What one mutation attempt does to a pattern.
+enum class MutationKind {
+  three_way,    ///< flip a pixel, rewrite a line or rewrite a square
+  single_pixel  ///< flip a pixel
+};
+
+/// Probabilities of the three ways (2.3.3): p1 flips a pixel, p2 rewrites a line, p3 rewrites a square.
+inline constexpr double kFlipProbability = 0.86;
+inline constexpr double kLineProbability = 0.11;
+inline constexpr double kSquareProbability = 0.03;
+
+/// One attempt, mirrored over the whole pattern, constraints not looked at. The result may equal the parent (a line
+/// rewritten by what it was). Pixels, line ends and a square's corner are uniform over the 20 x 20 pixels, the size of
+/// a square uniform from 1 to the largest that fits.
+Pattern mutation_attempt(const Pattern& parent, MutationKind kind, RandomStream& random);
+
+/// Repair rule 1: below 50 % rigid, every pixel is flipped and the four corner pixels are made rigid.
+Pattern flipped_if_mostly_soft(const Pattern& pattern);
+
+/// A mutation with repair: attempts, each followed by rule 1, are heaped upon one another until no constraint is
+/// violated. Ends with probability one; from a random feasible parent it takes 1.0 to 1.4 attempts on average,
+/// 2.5 at 85 % rigid (measured over 5000 parents; the longest run was 121).
+Pattern mutate(const Pattern& parent, MutationKind kind, RandomStream& random);
+
+/// One attempt followed by rule 1, or nothing when the result violates a constraint: the attempt is rolled back.
+/// Repeated on the same parent this never leaves the parent's neighbourhood (baseline 2).
+std::optional<Pattern> mutate_or_roll_back(const Pattern& parent, MutationKind kind, RandomStream& random);
+
+}  // namespace nacre::pattern

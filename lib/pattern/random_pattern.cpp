@@ -1,0 +1,73 @@
+#include "pattern/random_pattern.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "pattern/constraints.hpp"
+
+namespace nacre::pattern {
+namespace {
+
+/// The free pixels in random order (Fisher-Yates).
+std::array<int, kFreePixels> shuffled_free_pixels(RandomStream& random) {
+  std::array<int, kFreePixels> order{};
+  std::iota(order.begin(), order.end(), 0);
+  for (int i = kFreePixels - 1; i > 0; --i) {
+    std::swap(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(random.index(i + 1))]);
+  }
+  return order;
+}
+
+constexpr std::uint64_t bit(int free_pixel) { return std::uint64_t{1} << free_pixel; }
+
+}  // namespace
+
+Pattern random_pattern(int rigid_percent, RandomStream& random) {
+  assert(rigid_percent >= 50 && rigid_percent <= 85);
+  const int wanted = rigid_percent * kPixels / 100;
+  const std::uint64_t required = required_rigid_bits(wanted);
+  const auto order = shuffled_free_pixels(random);
+  std::uint64_t bits = required;
+  int missing = wanted - Pattern(bits).rigid_count();
+  for (const int free_pixel : order) {
+    const int size = Pattern::orbit_size(free_pixel);
+    if ((bits & bit(free_pixel)) != 0 || size > missing) continue;
+    bits |= bit(free_pixel);
+    missing -= size;
+  }
+  if (missing > 0) {
+    // Only 4 can be missing, with the whole diagonal rigid: a diagonal pixel gives way to one with 8 images.
+    const auto diagonal = std::find_if(order.begin(), order.end(), [&](int free_pixel) {
+      return Pattern::orbit_size(free_pixel) == 4 && (required & bit(free_pixel)) == 0;
+    });
+    const auto soft =
+        std::find_if(order.begin(), order.end(), [&](int free_pixel) { return (bits & bit(free_pixel)) == 0; });
+    bits ^= bit(*diagonal) | bit(*soft);
+  }
+  const Pattern pattern(bits);
+  assert(pattern.rigid_count() == wanted && is_feasible(pattern));
+  return pattern;
+}
+
+Pattern random_pattern(RandomStream& random) {
+  const int lowest = kStrata[0].minimum_percent, highest = std::rbegin(kStrata)->maximum_percent;
+  return random_pattern(lowest + random.index(highest - lowest + 1), random);
+}
+
+std::vector<Pattern> stratified_patterns(int count, RandomStream& random) {
+  std::vector<Pattern> patterns;
+  while (static_cast<int>(patterns.size()) < count) {
+    const Stratum& stratum = kStrata[patterns.size() % std::size(kStrata)];
+    const int percents = stratum.maximum_percent - stratum.minimum_percent + 1;
+    const Pattern pattern = random_pattern(stratum.minimum_percent + random.index(percents), random);
+    if (std::find(patterns.begin(), patterns.end(), pattern) == patterns.end()) patterns.push_back(pattern);
+  }
+  return patterns;
+}
+
+}  // namespace nacre::pattern

@@ -1,0 +1,54 @@
+#include "pattern/random_pattern.hpp"
+
+#include <array>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "pattern/constraints.hpp"
+
+namespace nacre::pattern {
+namespace {
+
+TEST(RandomPattern, HasExactlyTheWantedPercentageAndIsFeasible) {
+  RandomStream random(1, "test");
+  for (int percent = 50; percent <= 85; ++percent) {
+    for (int i = 0; i < 200; ++i) {
+      const Pattern pattern = random_pattern(percent, random);
+      ASSERT_EQ(pattern.rigid_count(), 4 * percent);
+      ASSERT_EQ(violation(pattern), std::nullopt);
+    }
+  }
+}
+
+TEST(RandomPattern, EveryFreePixelIsSometimesSoftUnlessRequired) {
+  RandomStream random(2, "test");
+  std::uint64_t ever_soft = 0;
+  for (int i = 0; i < 2000; ++i) ever_soft |= ~random_pattern(80, random).bits();
+  EXPECT_EQ(ever_soft & ((std::uint64_t{1} << kFreePixels) - 1),
+            ((std::uint64_t{1} << kFreePixels) - 1) & ~required_rigid_bits(320));
+}
+
+TEST(StratifiedPatterns, TenSpreadThreeThreeTwoTwoOverTheIntervalsOfTable32) {
+  RandomStream random(3, "test");
+  const std::vector<Pattern> patterns = stratified_patterns(10, random);
+  std::array<int, 4> counts{};
+  for (const Pattern& pattern : patterns) {
+    const int percent = pattern.rigid_count() / 4;
+    ++counts[static_cast<std::size_t>(percent < 60 ? 0 : percent < 70 ? 1 : percent < 80 ? 2 : 3)];
+    EXPECT_EQ(violation(pattern), std::nullopt);
+  }
+  EXPECT_EQ(counts, (std::array<int, 4>{3, 3, 2, 2}));
+}
+
+TEST(StratifiedPatterns, AreDifferentAndReproducible) {
+  RandomStream random(4, "test"), same(4, "test"), other(5, "test");
+  const std::vector<Pattern> patterns = stratified_patterns(300, random);
+  EXPECT_EQ(std::set<Pattern>(patterns.begin(), patterns.end()).size(), 300u);
+  EXPECT_EQ(stratified_patterns(300, same), patterns);
+  EXPECT_NE(stratified_patterns(300, other), patterns);
+  EXPECT_TRUE(stratified_patterns(0, random).empty());
+}
+
+}  // namespace
+}  // namespace nacre::pattern
