@@ -35,6 +35,21 @@ std::string read_file(const std::filesystem::path& path) {
   }
 }
 
+std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_bytes) {
+  std::error_code failure;
+  const std::filesystem::file_status status = std::filesystem::status(path, failure);
+  if (!std::filesystem::exists(status)) throw InputError::format("{}: there is no such file", path.string());
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError::format("{}: expected a regular file", path.string());
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, failure);
+  if (failure) throw InputError::format("{}: cannot be read: {}", path.string(), failure.message());
+  if (size > most_bytes) {
+    throw InputError::format("{}: has {} bytes, expected at most {}", path.string(), size, most_bytes);
+  }
+  return read_file(path);
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
   const std::filesystem::path aside = path.string() + ".part";
   const auto give_up = [&](int reason) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@ namespace nacre {
 
 /// The whole file as bytes. Throws InputError naming the file and the system's reason.
 std::string read_file(const std::filesystem::path& path);
+
+/// The same for a regular file of at most `most_bytes`: a device, a pipe or a larger file is an InputError.
+std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_bytes);
 
 /// Writes aside, syncs to disk, renames: a reader sees the old or the new content, never a part, and a full disk loses
 /// nothing. Throws InputError naming the file and the system's reason.
