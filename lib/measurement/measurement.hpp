@@ -2,6 +2,7 @@
 // Physical (or virtual-laboratory) measurements: one row per specimen.
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct SpecimenRecord {
   tester::Curve curve;                 ///< empty when none was recorded
   bool valid = true;
   std::string note;
+  /// Columns of the file that nacre does not know, by name, empty cells left out; written back as they were.
+  std::map<std::string, std::string> other_columns;
   bool operator==(const SpecimenRecord&) const = default;
 };
 
@@ -41,8 +44,8 @@ struct MeasurementSet {
   std::vector<std::string> warnings;
 };
 
-/// Reads a measurement set: a folder with measurements.csv and the curve files it names (format: docs/FORMATS.md). One bad row
-/// does not lose the others. Throws InputError when the folder or the table cannot be read or no row is usable.
+/// Reads a measurement set: a folder with measurements.csv and the curve files it names (format: docs/FORMATS.md). One
+/// bad row does not lose the others. Throws InputError when the folder or the table cannot be read or no row is usable.
 MeasurementSet read_measurement_set(const std::filesystem::path& folder);
 
 /// Writes measurements.csv and curves/SPECIMEN.csv. Throws InputError when the folder cannot be written.
@@ -52,24 +55,29 @@ void write_measurement_set(const std::filesystem::path& folder, const std::vecto
 struct Replicates {
   pattern::Design design;
   tester::TestConditions conditions;
-  std::string batch_list;                  ///< batches joined by a comma
-  std::vector<std::string> specimens;      ///< names of the valid specimens, sorted
+  std::string batch_list;              ///< batches joined by a comma
+  std::vector<std::string> specimens;  ///< names of the valid specimens, sorted
   int modulus_count = 0, toughness_count = 0;
-  double modulus_pa = 0.0, modulus_sd_pa = 0.0;      ///< mean and sample standard deviation; 0 when not measured
+  double modulus_pa = 0.0, modulus_sd_pa = 0.0;  ///< mean and sample standard deviation; 0 when not measured
   double toughness_pa = 0.0, toughness_sd_pa = 0.0;
   tester::Curve representative_curve;  ///< of the specimen whose toughness is nearest to the mean; empty when none
 };
 
-/// Groups valid specimens by design and conditions (modulus, toughness specimens of one design come together). Sorted by design
-/// name, then conditions, so that the order of arrival never matters. `tensile` coupons are not included.
+/// Groups valid specimens by design and conditions (modulus, toughness specimens of one design come together). Sorted
+/// by design name, then conditions, so that the order of arrival never matters. `tensile` coupons are not included.
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens);
+
+/// Modulus of a specimen of a modulus test: the given value, else the least-squares slope of its curve between 0.05 and
+/// 0.25 % strain (the interval of ISO 527); nothing when it has neither or fewer than three points lie there.
+std::optional<double> modulus_of(const SpecimenRecord& specimen);
 
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
 std::optional<double> toughness_of(const SpecimenRecord& specimen);
 
-/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`.
+/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`. A
+/// machine of compliance c (1/Pa) is a spring in series, 1/E_shown = 1/E + c. Exactly the identity without extensions.
 double observe_modulus(double modulus_pa, const material::Extensions& extensions);
-/// The same for a curve.
+/// The same for a curve: strain_shown = strain + c stress. Strain may decrease where stress falls steeply.
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions);
 
 }  // namespace nacre::measurement

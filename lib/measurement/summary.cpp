@@ -1,0 +1,120 @@
+// Replicates: what was measured of one design, whatever the order in which its specimens arrived.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <span>
+#include <tuple>
+
+#include "measurement/measurement.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+using GroupKey = std::tuple<std::string, double, double, double>;
+
+GroupKey group_of(const SpecimenRecord& specimen) {
+  const tester::TestConditions& conditions = specimen.conditions;
+  return {specimen.design.name(), conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm};
+}
+
+double mean_of(std::span<const double> values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Sample standard deviation; 0 below two values.
+double deviation_of(std::span<const double> values) {
+  if (values.size() < 2) return 0.0;
+  const double mean = mean_of(values);
+  double sum = 0.0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+/// The thesis' representative curve (2.2.2), chosen as that of the specimen nearest to the mean toughness.
+tester::Curve representative(std::span<const SpecimenRecord* const> specimens, double mean_toughness_pa) {
+  const SpecimenRecord* nearest = nullptr;
+  double smallest = 0.0;
+  for (const SpecimenRecord* specimen : specimens) {
+    if (specimen->test != tester::TestKind::toughness || specimen->curve.empty()) continue;
+    const double distance = std::abs(toughness_of(*specimen).value_or(0.0) - mean_toughness_pa);
+    if (nearest == nullptr || distance < smallest) {
+      nearest = specimen;
+      smallest = distance;
+    }
+  }
+  return nearest == nullptr ? tester::Curve{} : nearest->curve;
+}
+
+Replicates summarise_group(std::span<const SpecimenRecord* const> specimens) {
+  Replicates group;
+  group.design = specimens.front()->design;
+  group.conditions = specimens.front()->conditions;
+  std::set<std::string> batches;
+  std::vector<double> moduli, toughnesses;
+  for (const SpecimenRecord* specimen : specimens) {
+    group.specimens.push_back(specimen->specimen);
+    if (!specimen->batch.empty()) batches.insert(specimen->batch);
+    const bool is_modulus = specimen->test == tester::TestKind::modulus;
+    const std::optional<double> value = is_modulus ? modulus_of(*specimen) : toughness_of(*specimen);
+    if (value) (is_modulus ? moduli : toughnesses).push_back(*value);
+  }
+  for (const std::string& batch : batches) group.batch_list += (group.batch_list.empty() ? "" : ",") + batch;
+  group.modulus_count = static_cast<int>(moduli.size());
+  group.modulus_pa = mean_of(moduli);
+  group.modulus_sd_pa = deviation_of(moduli);
+  group.toughness_count = static_cast<int>(toughnesses.size());
+  group.toughness_pa = mean_of(toughnesses);
+  group.toughness_sd_pa = deviation_of(toughnesses);
+  group.representative_curve = representative(specimens, group.toughness_pa);
+  return group;
+}
+
+}  // namespace
+
+std::optional<double> modulus_of(const SpecimenRecord& specimen) {
+  if (specimen.modulus_pa) return specimen.modulus_pa;
+  if (specimen.test != tester::TestKind::modulus) return std::nullopt;
+  constexpr double kFirstStrain = 0.0005, kLastStrain = 0.0025;
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < specimen.curve.size(); ++i) {
+    const double strain = specimen.curve.strain[i], stress = specimen.curve.stress_pa[i];
+    if (strain < kFirstStrain || strain > kLastStrain) continue;
+    n += 1.0;
+    x += strain;
+    y += stress;
+    xx += strain * strain;
+    xy += strain * stress;
+  }
+  const double spread = n * xx - x * x;
+  if (n < 3.0 || spread <= 0.0) return std::nullopt;
+  const double slope = (n * xy - x * y) / spread;
+  return slope > 0.0 ? std::optional(slope) : std::nullopt;
+}
+
+std::optional<double> toughness_of(const SpecimenRecord& specimen) {
+  if (specimen.toughness_pa) return specimen.toughness_pa;
+  if (specimen.curve.empty()) return std::nullopt;
+  return tester::area_under(specimen.curve);
+}
+
+std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {
+  std::map<GroupKey, std::vector<const SpecimenRecord*>> groups;
+  for (const SpecimenRecord& specimen : specimens) {
+    if (specimen.valid && specimen.test != tester::TestKind::tensile) groups[group_of(specimen)].push_back(&specimen);
+  }
+  std::vector<Replicates> replicates;
+  for (auto& entry : groups) {
+    auto& members = entry.second;
+    std::sort(members.begin(), members.end(), [](const auto* a, const auto* b) { return a->specimen < b->specimen; });
+    const auto repeat = [](const auto* a, const auto* b) { return *a == *b; };
+    members.erase(std::unique(members.begin(), members.end(), repeat), members.end());
+    replicates.push_back(summarise_group(members));
+  }
+  return replicates;
+}
+
+}  // namespace nacre::measurement
