@@ -1,0 +1,63 @@
+#pragma once
+// Every specimen that was ever reported, whoever tested it, and what is still missing. What the book says depends on the set of
+// entries alone, never on their order.
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/rounds.hpp"
+#include "measurement/measurement.hpp"
+
+namespace nacre::game {
+
+/// A person's judgement on one specimen; the highest revision wins, "not valid" wins a tie.
+struct Review {
+  int revision = 0;
+  bool valid = true;
+  std::string why;
+};
+
+/// How far an order has got.
+struct OrderProgress {
+  int arrived = 0;  ///< specimens, valid or not
+  int valid = 0;
+  bool complete = false;
+};
+
+class MeasurementBook {
+ public:
+  enum class Entry {
+    accepted,
+    repeated,     ///< the same specimen with the same content: nothing changes
+    conflicting,  ///< the same specimen with other content: refused
+  };
+
+  /// `order_id` is empty when nacre did not order the specimen, or when the laboratory does not know.
+  Entry enter(const measurement::SpecimenRecord& record, const std::string& order_id);
+
+  /// Reviews may come before the measurement they judge. Returns whether the specimen's validity may have changed.
+  bool review(const std::string& specimen, const Review& review);
+
+  /// All specimens, sorted by name, with validity as reviewed.
+  std::vector<measurement::SpecimenRecord> specimens() const;
+
+  /// Progress of each order: complete when all replicates have arrived, or `enough_valid` > 0 valid ones. Specimens that carry an
+  /// order's id count for it; others count for the orders, in the given sequence, that asked the same question.
+  std::vector<OrderProgress> progress(std::span<const Order> orders, int enough_valid) const;
+
+  int size() const { return static_cast<int>(entries_.size()); }
+
+ private:
+  struct Reported {
+    measurement::SpecimenRecord record;
+    std::string order_id;
+  };
+  bool valid(const Reported& reported) const;
+
+  std::map<std::string, Reported> entries_;  // by specimen
+  std::map<std::string, Review> reviews_;    // by specimen
+};
+
+}  // namespace nacre::game

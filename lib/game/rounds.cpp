@@ -1,0 +1,130 @@
+#include "game/rounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace nacre::game {
+namespace {
+
+using pattern::Design;
+using tester::TestKind;
+
+void order_both_tests(std::vector<Order>& orders, const Scenario& scenario, int round, const Design& design,
+                      OrderReason reason) {
+  for (TestKind test : {TestKind::modulus, TestKind::toughness}) {
+    orders.push_back({.id = order_id(round, design, test, {}),
+                      .round = round,
+                      .design = design,
+                      .test = test,
+                      .conditions = {},
+                      .replicates = scenario.validation.replicates,
+                      .batch = fmt::format("round-{}", round),
+                      .reason = reason});
+  }
+}
+
+// Pairs of unlike neighbouring pixels in the periodic tile.
+int interface_length(const pattern::Pattern& pattern) {
+  int length = 0;
+  for (int row = 0; row < pattern::kSide; ++row) {
+    for (int column = 0; column < pattern::kSide; ++column) {
+      const bool here = pattern.rigid(row, column);
+      length += here != pattern.rigid((row + 1) % pattern::kSide, column);
+      length += here != pattern.rigid(row, (column + 1) % pattern::kSide);
+    }
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string_view to_string(OrderReason reason) {
+  switch (reason) {
+    case OrderReason::base: return "base";
+    case OrderReason::mixture: return "mixture";
+    case OrderReason::random: return "random";
+    case OrderReason::proposal: return "proposal";
+    case OrderReason::discrimination: return "discrimination";
+  }
+  return "proposal";
+}
+
+std::string order_id(int round, const Design& design, TestKind test, const tester::TestConditions& conditions) {
+  const bool turned = std::abs(conditions.orientation_deg - 90.0) < 0.5;
+  return fmt::format("r{}/{}/{}{}", round, design.name(), tester::to_string(test), turned ? "/turned" : "");
+}
+
+std::vector<Order> opening_orders(const Scenario& scenario, std::span<const pattern::Pattern> random_patterns) {
+  std::vector<Order> orders;
+  std::set<std::string> homogeneous;
+  for (double fraction : {0.0, 0.5, 1.0}) {
+    const Design design = pattern::Mixture{fraction};
+    homogeneous.insert(design.name());
+    order_both_tests(orders, scenario, 1, design, OrderReason::base);
+  }
+  for (double fraction : scenario.validation.mixtures) {
+    const Design design = pattern::Mixture{fraction};
+    if (homogeneous.insert(design.name()).second) order_both_tests(orders, scenario, 1, design, OrderReason::mixture);
+  }
+  for (const pattern::Pattern& random : random_patterns) {
+    order_both_tests(orders, scenario, 1, random, OrderReason::random);
+  }
+  return orders;
+}
+
+std::vector<Order> proposal_orders(const Scenario& scenario, int round, std::span<const Design> designs) {
+  std::vector<Order> orders;
+  for (const Design& design : designs) order_both_tests(orders, scenario, round, design, OrderReason::proposal);
+  return orders;
+}
+
+std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments) {
+  std::vector<Order> orders;
+  for (const Experiment& experiment : experiments) {
+    if (static_cast<int>(orders.size()) >= scenario.diagnosis.discrimination_orders) break;
+    const auto same_question = [&](const Order& order) {
+      return order.design == experiment.design && order.test == experiment.test &&
+             answers(experiment.conditions, order.conditions);
+    };
+    if (std::any_of(orders.begin(), orders.end(), same_question)) continue;
+    // The number keeps the id apart from a proposal's and from the same design's at another rate or thickness.
+    orders.push_back({.id = fmt::format("{}/discrimination-{}",
+                                        order_id(round, experiment.design, experiment.test, experiment.conditions),
+                                        orders.size() + 1),
+                      .round = round,
+                      .design = experiment.design,
+                      .test = experiment.test,
+                      .conditions = experiment.conditions,
+                      .replicates = experiment.replicates > 0 ? experiment.replicates : scenario.validation.replicates,
+                      .batch = fmt::format("round-{}", round),
+                      .reason = OrderReason::discrimination});
+  }
+  return orders;
+}
+
+std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates) {
+  std::vector<pattern::Pattern> ordered(patterns.begin(), patterns.end());
+  std::sort(ordered.begin(), ordered.end(), [](const pattern::Pattern& a, const pattern::Pattern& b) {
+    const int length_a = interface_length(a);
+    const int length_b = interface_length(b);
+    return length_a != length_b ? length_a > length_b : a < b;
+  });
+  std::vector<Experiment> experiments;
+  for (const pattern::Pattern& each : ordered) {
+    experiments.push_back({.design = each, .test = TestKind::modulus, .conditions = {.orientation_deg = 90.0},
+                           .replicates = replicates});
+  }
+  return experiments;
+}
+
+bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
+  const auto near = [](double a, double b, double relative) { return std::abs(a - b) <= relative * b; };
+  return std::abs(tested.orientation_deg - ordered.orientation_deg) < 0.5 &&
+         near(tested.strain_rate_per_s, ordered.strain_rate_per_s, 0.25) &&
+         near(tested.thickness_mm, ordered.thickness_mm, 0.1);
+}
+
+}  // namespace nacre::game

@@ -1,0 +1,108 @@
+#include "game/standings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.hpp"
+
+namespace nacre::game {
+namespace {
+
+bool upright(const tester::TestConditions& conditions) { return std::abs(conditions.orientation_deg) < 0.5; }
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double redrawn_mean(const std::vector<double>& values, RandomStream& random) {
+  const int count = static_cast<int>(values.size());
+  if (count < 2) return values.front();
+  double sum = 0.0;
+  for (int draw = 0; draw < count; ++draw) sum += values[static_cast<std::size_t>(random.index(count))];
+  const double centre = mean(values);
+  const double widening = std::sqrt(count / (count - 1.0));
+  return std::max(0.0, centre + widening * (sum / count - centre));
+}
+
+}  // namespace
+
+std::map<pattern::Pattern, MeasuredValues> measured_values(std::span<const measurement::SpecimenRecord> specimens) {
+  std::map<pattern::Pattern, MeasuredValues> values;
+  for (const measurement::SpecimenRecord& specimen : specimens) {
+    const pattern::Layout* layout = specimen.design.layout();
+    if (!specimen.valid || layout == nullptr || !upright(specimen.conditions)) continue;
+    const auto pattern = pattern::Pattern::from_layout(*layout);
+    if (!pattern) continue;
+    if (specimen.test == tester::TestKind::modulus && specimen.modulus_pa) {
+      values[*pattern].modulus_pa.push_back(*specimen.modulus_pa);
+    } else if (specimen.test == tester::TestKind::toughness) {
+      if (const auto toughness_pa = measurement::toughness_of(specimen)) values[*pattern].toughness_pa.push_back(*toughness_pa);
+    }
+  }
+  return values;
+}
+
+std::vector<optimize::Performance> measured_performances(const std::map<pattern::Pattern, MeasuredValues>& values) {
+  std::vector<optimize::Performance> performances;
+  for (const auto& [pattern, measured] : values) {
+    if (measured.modulus_pa.empty() || measured.toughness_pa.empty()) continue;
+    performances.push_back({mean(measured.modulus_pa), mean(measured.toughness_pa)});
+  }
+  return performances;
+}
+
+double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& values, std::uint64_t seed, int resamples) {
+  RandomStream random(seed, "hypervolume bootstrap");
+  std::vector<double> hypervolumes;
+  for (int resample = 0; resample < resamples; ++resample) {
+    std::vector<optimize::Performance> drawn;
+    for (const auto& [pattern, measured] : values) {
+      if (measured.modulus_pa.empty() || measured.toughness_pa.empty()) continue;
+      const double modulus_pa = redrawn_mean(measured.modulus_pa, random);
+      drawn.push_back({modulus_pa, redrawn_mean(measured.toughness_pa, random)});
+    }
+    hypervolumes.push_back(optimize::hypervolume_staircase_gpa_mpa(drawn));
+  }
+  if (hypervolumes.size() < 2) return 0.0;
+  const double centre = mean(hypervolumes);
+  double squares = 0.0;
+  for (double hypervolume : hypervolumes) squares += (hypervolume - centre) * (hypervolume - centre);
+  return std::sqrt(squares / static_cast<double>(hypervolumes.size() - 1));
+}
+
+std::vector<optimize::Performance> benchmark_line(std::span<const measurement::Replicates> measured) {
+  std::map<double, optimize::Performance> by_fraction;
+  for (const measurement::Replicates& each : measured) {
+    const pattern::Mixture* mixture = each.design.mixture();
+    if (mixture == nullptr || !upright(each.conditions) || each.modulus_count == 0 || each.toughness_count == 0) continue;
+    by_fraction.try_emplace(mixture->rigid_fraction, optimize::Performance{each.modulus_pa, each.toughness_pa});
+  }
+  std::vector<optimize::Performance> line;
+  for (const auto& [fraction, performance] : by_fraction) line.push_back(performance);
+  return line;
+}
+
+std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens) {
+  std::vector<measurement::Replicates> set = measurement::summarise(specimens);
+  std::erase_if(set, [](const measurement::Replicates& each) {
+    return each.design.layout() == nullptr || !upright(each.conditions) ||
+           (each.modulus_count == 0 && each.toughness_count == 0);
+  });
+  return set;
+}
+
+sysid::PredictionErrors held_out_errors(const std::vector<measurement::Replicates>& measured,
+                                        const std::map<std::string, sysid::Prediction>& predictions) {
+  std::vector<measurement::Replicates> found;
+  std::vector<sysid::Prediction> predicted;
+  for (const measurement::Replicates& each : measured) {
+    const auto prediction = predictions.find(each.design.name());
+    if (prediction == predictions.end()) continue;
+    found.push_back(each);
+    predicted.push_back(prediction->second);
+  }
+  return sysid::prediction_errors(found, predicted);
+}
+
+}  // namespace nacre::game
