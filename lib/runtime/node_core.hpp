@@ -9,8 +9,9 @@
 
 namespace nacre::runtime {
 
-/// A message without its header: `payload` is the LCM encoding of the type of `channel` with a default header_t. The shell stamps
-/// the header on sending and blanks it on receiving, so that equal contents are equal bytes with an equal hash.
+/// A message without its header: `payload` is the LCM encoding of the type of `channel` with a default header_t. The
+/// shell stamps the header on sending and blanks it on receiving, so that equal contents are equal bytes with an equal
+/// hash.
 struct Message {
   std::string channel;
   std::string payload;
@@ -30,8 +31,8 @@ struct WorkDone {
 
 using Input = std::variant<Message, Tick, WorkDone>;
 
-/// Long work: a pure function of its spec, run by the shell on a worker thread. `kind` selects the function among those that the
-/// node registered; `id` is unique within the run.
+/// Long work: a pure function of its spec, run by the shell on a worker thread. `kind` selects the function among those
+/// that the node registered; `id` is unique within the run.
 struct Compute {
   std::string id;
   std::string kind;
@@ -64,13 +65,16 @@ struct Status {
   bool finished = false;
 };
 
-/// The pure core of a node. It never logs, sleeps, reads a clock or a file, or draws unseeded random numbers: its outputs are a
-/// function of the inputs so far. Messages that it cannot decode or validate are returned as a warning and change nothing.
+/// The pure core of a node. It never logs, sleeps, reads a clock or a file, or draws unseeded random numbers: its
+/// outputs are a function of the inputs so far. Messages that it cannot decode or validate are returned as a warning
+/// and change nothing.
 class NodeCore {
  public:
   virtual ~NodeCore() = default;
   virtual Outputs step(const Input& input) = 0;
   virtual Status status() const = 0;
+  /// Seconds between ticks; 0 for a core that needs none (most).
+  virtual double tick_period_s() const { return 0.0; }
 };
 
 /// A function for one kind of long work. Deterministic, thread-safe, and free to use all it needs to read from `spec`.

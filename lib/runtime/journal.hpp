@@ -1,0 +1,114 @@
+#pragma once
+// A node's journal: everything that went into its core and came out of it, in the LCM log format.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace nacre::runtime {
+
+// Channels of the journal's own records. Inputs from the bus stand under their own channel with the bytes that came.
+inline constexpr std::string_view kJournalChannel =
+    "~journal";                                            ///< identity of the journal: begins it, and follows a cut
+inline constexpr std::string_view kTickChannel = "~tick";  ///< input: utime
+inline constexpr std::string_view kWorkChannel = "~work";  ///< input: id, result
+inline constexpr std::string_view kOutPrefix =
+    "~out/";  ///< output message, channel appended: payload with blank header
+inline constexpr std::string_view kComputeChannel = "~compute";  ///< output: id, kind, spec
+inline constexpr std::string_view kAckedChannel = "~acked";      ///< hash, node
+inline constexpr std::string_view kPeerChannel = "~peer";        ///< node, its journal's identity
+
+/// Fields of a record in one string, closed by a checksum.
+std::string pack(const std::vector<std::string>& fields);
+/// The fields again; the error says that the record is damaged.
+Result<std::vector<std::string>> unpack(std::string_view record);
+
+/// One record of a log.
+struct LogRecord {
+  std::int64_t number = 0;
+  std::int64_t utime = 0;
+  std::string channel;
+  std::string data;
+  std::int64_t offset = 0;  ///< where it starts in the file
+};
+
+/// How a log ends.
+struct LogEnd {
+  std::int64_t sound_bytes = 0;  ///< up to the end of the last whole record
+  std::int64_t torn_bytes = 0;   ///< behind it: a record that was being written
+};
+
+/// Reads an LCM log one record at a time. A torn tail ends the log; damage in the middle is an error.
+class LogReader {
+ public:
+  /// Throws InputError when the file cannot be read.
+  explicit LogReader(const std::filesystem::path& path);
+  ~LogReader();
+  /// The next record; nothing at the end. Throws InputError naming file and offset when the log is damaged in the
+  /// middle, and where it goes on (see resync).
+  std::optional<LogRecord> next();
+  /// After damage: goes on at the next sound record.
+  void resync();
+  LogEnd end() const;  ///< after next() returned nothing
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Writes an LCM log.
+class LogWriter {
+ public:
+  /// Appends to `path` (created when absent), numbering from `next_number`. Throws InputError.
+  LogWriter(const std::filesystem::path& path, std::int64_t next_number = 0);
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+  /// Adds a record; it may stay in memory until flush().
+  Result<void> append(std::int64_t utime, std::string_view channel, std::string_view data);
+  /// Hands everything to the operating system: it survives this process.
+  Result<void> flush();
+  /// Waits until the disk has it: it survives the machine.
+  Result<void> sync();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A node's journal, opened for going on: locked against a second process, torn tail cut off.
+class Journal {
+ public:
+  /// Opens FOLDER/journal.lcm. Throws InputError: locked by another process, damaged in the middle, not writable.
+  static std::unique_ptr<Journal> open(const std::filesystem::path& folder, std::int64_t now_utime);
+  ~Journal();
+  /// Records found when opening, oldest first. Read once, then release().
+  const std::vector<LogRecord>& records() const { return records_; }
+  void release() {
+    records_.clear();
+    records_.shrink_to_fit();
+  }
+  /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off.
+  std::int64_t identity() const { return identity_; }
+  /// What was cut off, as a sentence; empty when nothing was.
+  const std::string& warning() const { return warning_; }
+  /// Adds a record and flushes; `to_disk` also waits for the disk.
+  Result<void> append(std::int64_t utime, std::string_view channel, std::string_view data, bool to_disk = false);
+
+ private:
+  Journal() = default;
+  std::vector<LogRecord> records_;
+  std::unique_ptr<LogWriter> writer_;
+  std::filesystem::path path_;
+  std::int64_t identity_ = 0;
+  std::string warning_;
+  int lock_fd_ = -1;
+};
+
+}  // namespace nacre::runtime

@@ -1,0 +1,62 @@
+#pragma once
+// The shell around a pure core: bus, journal, reliable delivery, worker threads, text log, orderly stop.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/node_core.hpp"
+
+namespace CLI {
+class App;
+}
+namespace nacre::game {
+struct Scenario;
+}
+
+namespace nacre::runtime {
+
+/// The command line that all nodes share.
+struct NodeOptions {
+  std::string node;                     ///< name of the node, e.g. validation_agent
+  std::filesystem::path run_dir;        ///< --run-dir: logs/RUN
+  std::filesystem::path scenario_file;  ///< --scenario; default RUN_DIR/scenario.toml
+  std::string run_id;                   ///< --run-id; default the last part of run_dir
+  int port = 0;                         ///< --port of the run's bus
+  int threads = 0;                      ///< --threads for long work; 0 all allowed cores
+  std::int64_t epoch = 0;               ///< --epoch; 0: now
+  bool lan = false;                     ///< the run spans hosts (from the scenario)
+  bool follow_parent = true;  ///< --detached turns it off: else the node ends when the process that started it does
+  std::vector<std::string> participants;  ///< nodes of the run (from the scenario)
+  std::string url;                        ///< --url overrides port; for tests
+
+  std::filesystem::path node_dir() const { return run_dir / "nodes" / node; }
+};
+
+/// Runs the node until SIGINT or SIGTERM. Journal and text log stand in RUN_DIR/nodes/NODE. Returns the exit status: 0
+/// stopped in order, 1 something failed while running (disk full, an output that breaks the rules), 2 bad input
+/// (journal damaged or in use, a core that no longer reproduces its journal, no multicast). The sentence goes to
+/// standard error and the text log.
+int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work);
+
+/// What a node's main makes of options and scenario.
+struct NodeProgram {
+  std::unique_ptr<NodeCore> core;
+  std::map<std::string, WorkFunction> work;
+  int default_threads = 0;  ///< for long work when --threads is not given; 0 all allowed cores
+};
+using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scenario&)>;
+
+/// A node's whole main: command line, scenario, core, run_node. InputError becomes a sentence and exit status 2.
+/// `add_options` may add options of the node's own.
+int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
+              const std::function<void(CLI::App&)>& add_options = {});
+
+/// Takes part in `node_main`; for programs that build their own command line.
+void add_node_options(CLI::App& app, NodeOptions& options);
+
+}  // namespace nacre::runtime

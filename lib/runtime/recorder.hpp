@@ -1,0 +1,47 @@
+#pragma once
+// Records everything on the bus of a run in RUN/run.lcm, for people: bursts without loss, flushed on a timer, gaps
+// reported.
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "runtime/bus.hpp"
+
+namespace nacre::runtime {
+
+struct RecorderOptions {
+  std::filesystem::path log;  ///< appended to when it exists (a torn tail is cut off)
+  std::string url;
+  double flush_every_s = 0.2;
+  std::function<void(LogLevel, const std::string&)> report = {};
+};
+
+struct RecorderCounters {
+  std::int64_t messages = 0;
+  std::int64_t bytes = 0;
+  std::int64_t lost = 0;  ///< gaps in publishers' sequence numbers
+};
+
+/// A recorder that the launcher pumps, or that runs in a thread or process of its own.
+class Recorder {
+ public:
+  /// Throws InputError: file not writable, no multicast.
+  explicit Recorder(RecorderOptions options);
+  ~Recorder();
+  /// Records what arrives within timeout_ms. The error: the disk is full.
+  Result<void> pump(int timeout_ms);
+  RecorderCounters counters() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Records until `stop` or SIGINT/SIGTERM (when `handle_signals`). Exit status as of a node.
+int run_recorder(const RecorderOptions& options, const std::atomic<bool>* stop = nullptr, bool handle_signals = true);
+
+}  // namespace nacre::runtime

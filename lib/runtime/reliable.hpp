@@ -1,0 +1,103 @@
+#pragma once
+// Reliable delivery over a bus that drops, repeats and reorders: pure state machines, time passed in as microseconds.
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "runtime/node_core.hpp"
+
+namespace nacre::runtime {
+
+struct ReliableSettings {
+  std::int64_t first_retry_us = 50'000;
+  std::int64_t last_retry_us = 1'000'000;
+  std::size_t window_bytes = 200'000;  ///< sent and not acknowledged; the others wait in order
+  std::int64_t ack_delay_us = 20'000;
+};
+
+/// Messages on their way out, each until every receiver has acknowledged it.
+class Outbox {
+ public:
+  explicit Outbox(ReliableSettings settings = {}) : settings_(settings) {}
+
+  /// Takes a message. One that is already known (same hash) is not taken twice.
+  void offer(const std::string& hash, Message message, const std::vector<std::string>& receivers);
+
+  /// `node` has the message in its journal. True when that was news.
+  bool acknowledge(const std::string& hash, const std::string& node);
+
+  /// What was seen of `node` in its STATUS. A new epoch: what it has not acknowledged is due at once. Another journal:
+  /// what the older one acknowledged is offered again. True when the journal was news (worth writing down).
+  bool saw(const std::string& node, std::int64_t epoch, std::int64_t journal);
+
+  /// `node` asked again with a new process: the answers to its request are offered to it once more.
+  void answer_again(const std::string& request_id, const std::string& node);
+
+  /// Messages to send now; each counts as sent.
+  std::vector<const Message*> due(std::int64_t now_us);
+  /// When due() has something next; nothing when it will not before something happens.
+  std::optional<std::int64_t> next_due() const;
+
+  int unacknowledged() const { return waiting_count_; }
+  std::int64_t retries() const { return retries_; }
+  /// Nodes that a message is still waiting for.
+  std::set<std::string> waiting_for(const std::string& hash) const;
+  bool knows(const std::string& hash) const { return entries_.count(hash) != 0; }
+
+ private:
+  struct Entry {
+    Message message;
+    std::string request_id;                            ///< of an answer
+    std::set<std::string> waiting;                     ///< receivers that have not acknowledged
+    std::map<std::string, std::int64_t> acknowledged;  ///< receiver -> its epoch then
+    std::int64_t next_us = 0;
+    std::int64_t interval_us = 0;  ///< 0: not sent yet
+    std::uint64_t order = 0;
+  };
+  struct Peer {
+    std::int64_t epoch = 0;
+    std::int64_t journal = 0;
+  };
+  void restart(Entry& entry);
+
+  ReliableSettings settings_;
+  std::unordered_map<std::string, Entry> entries_;
+  std::map<std::uint64_t, Entry*> active_;  ///< not yet acknowledged by all, in the order offered
+  std::map<std::string, Peer> peers_;
+  std::uint64_t next_order_ = 0;
+  std::int64_t retries_ = 0;
+  int waiting_count_ = 0;
+};
+
+/// Messages that came in: which are known, which acknowledgements are owed.
+class Inbox {
+ public:
+  explicit Inbox(ReliableSettings settings = {}) : settings_(settings) {}
+  /// True for a message not seen before.
+  bool is_new(const std::string& hash) const { return known_.count(hash) == 0; }
+  /// The message is in the journal.
+  void remember(const std::string& hash) { known_.insert(hash); }
+  /// Owes an acknowledgement (also for duplicates: the first one may be lost).
+  void owe(const std::string& hash, std::int64_t now_us);
+  /// The hashes to acknowledge now, at most 1000; empty before the delay is over.
+  std::vector<std::string> due(std::int64_t now_us);
+  std::optional<std::int64_t> next_due() const;
+  std::size_t size() const { return known_.size(); }
+  std::int64_t duplicates = 0;
+
+ private:
+  ReliableSettings settings_;
+  std::unordered_set<std::string> known_;
+  std::deque<std::string> owed_;
+  std::unordered_set<std::string> owed_set_;
+  std::int64_t owed_since_us_ = 0;
+};
+
+}  // namespace nacre::runtime

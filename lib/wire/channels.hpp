@@ -1,0 +1,52 @@
+#pragma once
+// The channel table of lcmtypes/README.md as data: what travels on a channel, who must acknowledge it, how it is
+// validated.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace nacre::wire {
+
+/// Receiver that stands for every node of the run.
+inline constexpr std::string_view kEveryNode = "*";
+/// Receiver that stands for the node that `request_id` names before its first '/'.
+inline constexpr std::string_view kRequester = "requester";
+
+struct Channel {
+  std::string_view name;
+  std::string_view type;
+  std::int64_t fingerprint = 0;
+  std::vector<std::string_view> receivers;  ///< node names, kEveryNode or kRequester
+  bool reliable = false;                    ///< repeated until every receiver that takes part has acknowledged
+  bool synced = false;                      ///< acknowledged only when on disk
+  /// Everything that can be wrong with a payload: structure, finite numbers, enumerations, physical ranges, design
+  /// names.
+  Result<void> (*validate)(std::string_view payload) = nullptr;
+};
+
+/// All channels, in the order of the table.
+std::span<const Channel> channels();
+
+/// The channel of that name, or nullptr.
+const Channel* find_channel(std::string_view name);
+
+/// Whether `node` listens to the channel at all (for a requester's channel: every node may be one).
+bool listens(const Channel& channel, std::string_view node);
+
+/// Those of `participants` that must acknowledge a message that `sender` publishes.
+std::vector<std::string> receivers_of(const Channel& channel, std::string_view payload,
+                                      std::span<const std::string> participants, std::string_view sender);
+
+/// Whether this very message is meant for `node`: as listens(), and for a requester's channel the request must be the
+/// node's own.
+bool is_meant_for(const Channel& channel, std::string_view payload, std::string_view node);
+
+/// The name before the first '/' of a request id; empty when there is none.
+std::string_view requester_of(std::string_view request_id);
+
+}  // namespace nacre::wire
