@@ -1,6 +1,7 @@
 #pragma once
-// The finite-element grid shared by all solvers: columns x rows square four-node elements, row 0 at the bottom (the fixed
-// grip), column 0 at the left (the notch). Element e = row * columns + column; node n = row * (columns + 1) + column.
+// The finite-element grid shared by all solvers: columns x rows square four-node elements, row 0 at the bottom (the
+// fixed grip), column 0 at the left (the notch). Element e = row * columns + column; node n = row * (columns + 1) +
+// column.
 
 #include <cstdint>
 #include <vector>
@@ -10,15 +11,16 @@ namespace nacre::fem {
 /// Phase of an element; `empty` elements carry nothing (notch, cut, failed).
 enum class Phase : std::uint8_t { soft = 0, rigid = 1, interface = 2, empty = 3 };
 
-/// Elements with their own elastic constants and failure threshold, so that mixtures and extensions cost the kernels nothing.
+/// Elements with their own elastic constants and failure threshold, so that mixtures and extensions cost the kernels
+/// nothing.
 struct Grid {
   int columns = 0;
   int rows = 0;
   double element_size_m = 0.0;
-  std::vector<Phase> phase;                  ///< columns * rows
-  std::vector<double> young_pa;              ///< E of Eq. 2.3; ignored where empty
-  std::vector<double> poisson;               ///< nu of Eq. 2.3
-  std::vector<double> threshold_j_per_m3;    ///< W at which an element fails; infinity in the modulus tester
+  std::vector<Phase> phase;                ///< columns * rows
+  std::vector<double> young_pa;            ///< E of Eq. 2.3; ignored where empty
+  std::vector<double> poisson;             ///< nu of Eq. 2.3
+  std::vector<double> threshold_j_per_m3;  ///< W at which an element fails; infinity in the modulus tester
   int index(int row, int column) const { return row * columns + column; }
   int element_count() const { return columns * rows; }
 };

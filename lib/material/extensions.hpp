@@ -1,6 +1,6 @@
 #pragma once
-// The library of effects that extend the base model. Each is exactly the base model at zero. Material-side effects change
-// the simulator; measurement-side effects act only in measurement::observe().
+// The library of effects that extend the base model. Each is exactly the base model at zero. Material-side effects
+// change the simulator; measurement-side effects act only in measurement::observe().
 
 #include <span>
 #include <string_view>

@@ -5,8 +5,8 @@
 namespace nacre::material {
 
 Lame lame_from_engineering(double young_pa, double poisson) {
-  const double nu = poisson / (1.0 + poisson);                                                      // Eq. 2.3
-  const double young = young_pa * (1.0 + 2.0 * poisson) / ((1.0 + poisson) * (1.0 + poisson));      // Eq. 2.3
+  const double nu = poisson / (1.0 + poisson);                                                              // Eq. 2.3
+  const double young = young_pa * (1.0 + 2.0 * poisson) / ((1.0 + poisson) * (1.0 + poisson));              // Eq. 2.3
   return {.mu_pa = young / (2.0 * (1.0 + nu)), .lambda_pa = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))};  // Eq. 2.2
 }
 
@@ -20,8 +20,8 @@ Eigen::Matrix4d tangent(const Eigen::Matrix2d& h, const Lame& lame) {
     for (int j = 0; j < 2; ++j)
       for (int k = 0; k < 2; ++k)
         for (int l = 0; l < 2; ++l)
-          result(2 * i + j, 2 * k + l) = (i == k && j == l ? lame.mu_pa : 0.0) + shear * g(i, l) * g(k, j) +
-                                         lame.lambda_pa * g(i, j) * g(k, l);
+          result(2 * i + j, 2 * k + l) =
+              (i == k && j == l ? lame.mu_pa : 0.0) + shear * g(i, l) * g(k, j) + lame.lambda_pa * g(i, j) * g(k, l);
   return result;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-// The compressible neo-Hookean law in two dimensions, unit thickness. Symbols: F = I + H deformation gradient, J = det F,
-// P first Piola-Kirchhoff stress, mu and lambda Lame parameters. Everything is computed from H, because at a strain of 1e-4
-// the form F - F^-T loses four digits to cancellation.
+// The compressible neo-Hookean law in two dimensions, unit thickness. Symbols: F = I + H deformation gradient, J = det
+// F, P first Piola-Kirchhoff stress, mu and lambda Lame parameters. Everything is computed from H, because at a strain
+// of 1e-4 the form F - F^-T loses four digits to cancellation.
 
 #include <cmath>
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 
 namespace nacre::material {
 
@@ -15,8 +15,8 @@ struct Lame {
   double lambda_pa = 0.0;
 };
 
-/// Eqs. 2.2 and 2.3: from E (Pa, > 0) and nu (0 to 0.5) through the plane-stress equivalents E' and nu'. A small uniaxial
-/// stress then gives E and nu back; lambda stays finite at nu = 0.5.
+/// Eqs. 2.2 and 2.3: from E (Pa, > 0) and nu (0 to 0.5) through the plane-stress equivalents E' and nu'. A small
+/// uniaxial stress then gives E and nu back; lambda stays finite at nu = 0.5.
 Lame lame_from_engineering(double young_pa, double poisson);
 
 /// J - 1 = tr H + det H.

@@ -17,7 +17,8 @@ namespace {
 struct Place {
   std::string file;
   [[nodiscard]] InputError error(const toml::node& node, std::string_view key, std::string_view expected) const {
-    return InputError::format("{}:{}:{}: {}: {}", file, node.source().begin.line, node.source().begin.column, key, expected);
+    return InputError::format("{}:{}:{}: {}: {}", file, node.source().begin.line, node.source().begin.column, key,
+                              expected);
   }
 };
 
@@ -30,25 +31,29 @@ std::string joined(std::span<const std::string_view> names) {
 double positive_number(const Place& place, const toml::node& node, const std::string& key, bool is_poisson) {
   const std::optional<double> value = node.value<double>();
   const bool usable = value && std::isfinite(*value) && (is_poisson ? *value >= 0.0 && *value <= 0.5 : *value > 0.0);
-  if (!usable) throw place.error(node, key, is_poisson ? "expected a number from 0 to 0.5" : "expected a positive finite number");
+  if (!usable)
+    throw place.error(node, key, is_poisson ? "expected a number from 0 to 0.5" : "expected a positive finite number");
   return *value;
 }
 
 /// Overwrites the values that the table names.
 template <class Vector>
-void read_values(const Place& place, const toml::node& node, std::string_view table_name, std::span<const std::string_view> names,
-                 Vector& vector) {
+void read_values(const Place& place, const toml::node& node, std::string_view table_name,
+                 std::span<const std::string_view> names, Vector& vector) {
   const toml::table* table = node.as_table();
   if (table == nullptr) throw place.error(node, table_name, "expected a table");
   for (const auto& [key, value] : *table) {
     const auto found = std::find(names.begin(), names.end(), key.str());
     const std::string path = fmt::format("{}.{}", table_name, key.str());
-    if (found == names.end()) throw place.error(value, path, fmt::format("unknown key, expected one of {}", joined(names)));
-    vector[static_cast<std::size_t>(found - names.begin())] = positive_number(place, value, path, key.str().starts_with("nu_"));
+    if (found == names.end())
+      throw place.error(value, path, fmt::format("unknown key, expected one of {}", joined(names)));
+    vector[static_cast<std::size_t>(found - names.begin())] =
+        positive_number(place, value, path, key.str().starts_with("nu_"));
   }
 }
 
-std::vector<double> extension_values(const Place& place, const toml::node& node, const std::string& path, const Effect& effect) {
+std::vector<double> extension_values(const Place& place, const toml::node& node, const std::string& path,
+                                     const Effect& effect) {
   std::vector<const toml::node*> entries;
   if (const toml::array* array = node.as_array()) {
     for (const toml::node& entry : *array) entries.push_back(&entry);
@@ -62,8 +67,9 @@ std::vector<double> extension_values(const Place& place, const toml::node& node,
     const EffectParameter& parameter = effect.parameters[i];
     const std::optional<double> value = entries[i]->value<double>();
     if (!value || !(*value >= parameter.minimum && *value <= parameter.maximum))
-      throw place.error(*entries[i], path,
-                        fmt::format("expected a number from {} to {} ({})", parameter.minimum, parameter.maximum, parameter.unit));
+      throw place.error(
+          *entries[i], path,
+          fmt::format("expected a number from {} to {} ({})", parameter.minimum, parameter.maximum, parameter.unit));
     values.push_back(*value);
   }
   return values;
@@ -81,9 +87,11 @@ void read_extensions(const Place& place, const toml::node& node, Extensions& ext
       throw place.error(content, path, fmt::format("unknown extension, expected one of {}", joined(known)));
     }
     const toml::table* values = content.as_table();
-    if (values == nullptr || !values->contains("value")) throw place.error(content, path, "expected a table with the key value");
+    if (values == nullptr || !values->contains("value"))
+      throw place.error(content, path, "expected a table with the key value");
     for (const auto& [key, value] : *values) {
-      if (key.str() != "value") throw place.error(value, path + "." + std::string(key.str()), "unknown key, expected value");
+      if (key.str() != "value")
+        throw place.error(value, path + "." + std::string(key.str()), "unknown key, expected value");
       extensions[std::string(name.str())] = extension_values(place, value, path + ".value", *effect);
     }
   }
@@ -93,7 +101,8 @@ toml::table parsed(const std::string& text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    throw InputError::format("{}:{}:{}: {}", file, error.source().begin.line, error.source().begin.column, error.description());
+    throw InputError::format("{}:{}:{}: {}", file, error.source().begin.line, error.source().begin.column,
+                             error.description());
   }
 }
 
@@ -122,7 +131,8 @@ ParameterSet read_parameters(const std::filesystem::path& path, const ParameterS
     else
       throw place.error(node, key.str(), "unknown table, expected modulus, toughness or extension.NAME");
   }
-  return {.modulus = modulus_from_vector(modulus), .toughness = toughness_from_vector(toughness), .extensions = extensions};
+  return {
+      .modulus = modulus_from_vector(modulus), .toughness = toughness_from_vector(toughness), .extensions = extensions};
 }
 
 std::string to_toml(const ParameterSet& parameters) {
@@ -130,7 +140,8 @@ std::string to_toml(const ParameterSet& parameters) {
                      table_text("toughness", toughness_parameter_names(), to_vector(parameters.toughness));
   for (const auto& [name, values] : parameters.extensions) {
     text += fmt::format("\n[extension.{}]\n", name);
-    text += values.size() == 1 ? fmt::format("value = {}\n", values[0]) : fmt::format("value = [{}]\n", fmt::join(values, ", "));
+    text += values.size() == 1 ? fmt::format("value = {}\n", values[0])
+                               : fmt::format("value = [{}]\n", fmt::join(values, ", "));
   }
   return text;
 }

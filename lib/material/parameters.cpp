@@ -8,8 +8,8 @@
 namespace nacre::material {
 namespace {
 
-constexpr std::array<std::string_view, kModulusParameterCount> kModulusNames = {"e_tb_pa", "e_vw_pa", "e_if_pa",    "nu_tb",
-                                                                                "nu_vw",   "nu_if",   "gamma_per_s"};
+constexpr std::array<std::string_view, kModulusParameterCount> kModulusNames = {
+    "e_tb_pa", "e_vw_pa", "e_if_pa", "nu_tb", "nu_vw", "nu_if", "gamma_per_s"};
 constexpr std::array<std::string_view, kToughnessParameterCount> kToughnessNames = {
     "e_tb_pa", "e_vw_pa",       "e_if_pa",       "nu_tb",         "nu_vw",
     "nu_if",   "w_tb_j_per_m3", "w_vw_j_per_m3", "w_if_j_per_m3", "gamma_per_s"};
@@ -42,16 +42,17 @@ constexpr std::array<ParameterRange, kModulusParameterCount> kModulusMicrostruct
                                                                                          {"nu_if", 0.3, 0.4},
                                                                                          {"gamma_per_s", 2e4, 2e6}}};
 // Table A.2, toughness.
-constexpr std::array<ParameterRange, kToughnessParameterCount> kToughnessMicrostructures = {{{"e_tb_pa", 5e5, 5e8},
-                                                                                             {"e_vw_pa", 5e7, 1e9},
-                                                                                             {"e_if_pa", 1e7, 5e8},
-                                                                                             {"nu_tb", 0.4, 0.5},
-                                                                                             {"nu_vw", 0.2, 0.4},
-                                                                                             {"nu_if", 0.3, 0.4},
-                                                                                             {"w_tb_j_per_m3", 5e4, 1e6},
-                                                                                             {"w_vw_j_per_m3", 5e5, 1e7},
-                                                                                             {"w_if_j_per_m3", 1e6, 1e8},
-                                                                                             {"gamma_per_s", 2e4, 4e6}}};
+constexpr std::array<ParameterRange, kToughnessParameterCount> kToughnessMicrostructures = {
+    {{"e_tb_pa", 5e5, 5e8},
+     {"e_vw_pa", 5e7, 1e9},
+     {"e_if_pa", 1e7, 5e8},
+     {"nu_tb", 0.4, 0.5},
+     {"nu_vw", 0.2, 0.4},
+     {"nu_if", 0.3, 0.4},
+     {"w_tb_j_per_m3", 5e4, 1e6},
+     {"w_vw_j_per_m3", 5e5, 1e7},
+     {"w_if_j_per_m3", 1e6, 1e8},
+     {"gamma_per_s", 2e4, 4e6}}};
 
 /// A sentence about the first value that the testers cannot compute with.
 template <class Vector>
@@ -60,7 +61,9 @@ std::string vector_fault(std::string_view table, std::span<const std::string_vie
     const double value = vector[i];
     const bool is_poisson = names[i].starts_with("nu_");
     const bool is_damping = names[i] == "gamma_per_s";
-    const bool usable = std::isfinite(value) && (is_poisson ? value >= 0.0 && value <= 0.5 : is_damping ? value >= 0.0 : value > 0.0);
+    const bool usable = std::isfinite(value) && (is_poisson   ? value >= 0.0 && value <= 0.5
+                                                 : is_damping ? value >= 0.0
+                                                              : value > 0.0);
     if (!usable)
       return fmt::format("{}.{} = {} is not usable: expected a finite number {}", table, names[i], value,
                          is_poisson   ? "between 0 and 0.5"
@@ -99,7 +102,13 @@ ToughnessVector to_vector(const ToughnessParameters& p) {
 }
 
 ModulusParameters modulus_from_vector(const ModulusVector& v) {
-  return {.e_tb_pa = v[0], .e_vw_pa = v[1], .e_if_pa = v[2], .nu_tb = v[3], .nu_vw = v[4], .nu_if = v[5], .gamma_per_s = v[6]};
+  return {.e_tb_pa = v[0],
+          .e_vw_pa = v[1],
+          .e_if_pa = v[2],
+          .nu_tb = v[3],
+          .nu_vw = v[4],
+          .nu_if = v[5],
+          .gamma_per_s = v[6]};
 }
 
 ToughnessParameters toughness_from_vector(const ToughnessVector& v) {
@@ -134,8 +143,8 @@ double from_unit(const ParameterRange& range, double unit) {
 }
 
 ParameterSet default_parameters() {
-  // theta: moduli measured on base materials (Table 3.4), the rest the middle of Table A.2. eta: the middle of Table A.2,
-  // in log10 where the range is searched so; four digits, as in data/defaults.toml.
+  // theta: moduli measured on base materials (Table 3.4), the rest the middle of Table A.2. eta: the middle of Table
+  // A.2, in log10 where the range is searched so; four digits, as in data/defaults.toml.
   return {.modulus = {.e_tb_pa = 1.0094e6,
                       .e_vw_pa = 2.6613e9,
                       .e_if_pa = 5.642e8,
@@ -157,8 +166,10 @@ ParameterSet default_parameters() {
 }
 
 std::string parameter_fault(const ParameterSet& parameters) {
-  if (std::string fault = vector_fault("modulus", kModulusNames, to_vector(parameters.modulus)); !fault.empty()) return fault;
-  if (std::string fault = vector_fault("toughness", kToughnessNames, to_vector(parameters.toughness)); !fault.empty()) return fault;
+  if (std::string fault = vector_fault("modulus", kModulusNames, to_vector(parameters.modulus)); !fault.empty())
+    return fault;
+  if (std::string fault = vector_fault("toughness", kToughnessNames, to_vector(parameters.toughness)); !fault.empty())
+    return fault;
   for (const auto& [name, values] : parameters.extensions)
     if (std::string fault = extension_fault(name, values); !fault.empty()) return fault;
   return {};

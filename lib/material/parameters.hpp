@@ -36,7 +36,8 @@ inline constexpr int kToughnessParameterCount = 10;
 using ModulusVector = std::array<double, kModulusParameterCount>;
 using ToughnessVector = std::array<double, kToughnessParameterCount>;
 
-/// Names in the order of the vectors: e_tb_pa, e_vw_pa, e_if_pa, nu_tb, nu_vw, nu_if, [w_tb_j_per_m3, ...,] gamma_per_s.
+/// Names in the order of the vectors: e_tb_pa, e_vw_pa, e_if_pa, nu_tb, nu_vw, nu_if, [w_tb_j_per_m3, ...,]
+/// gamma_per_s.
 std::span<const std::string_view> modulus_parameter_names();
 std::span<const std::string_view> toughness_parameter_names();
 
@@ -74,13 +75,13 @@ std::span<const ParameterRange> toughness_ranges(FitTarget target);
 double to_unit(const ParameterRange& range, double value);
 double from_unit(const ParameterRange& range, double unit);
 
-/// Built-in defaults (the content of data/defaults.toml): the measured base materials of Table 3.4 for the modulus tester,
-/// the geometric middle of Table A.2 for the toughness tester.
+/// Built-in defaults (the content of data/defaults.toml): the measured base materials of Table 3.4 for the modulus
+/// tester, the geometric middle of Table A.2 for the toughness tester.
 ParameterSet default_parameters();
 
-/// Reads a parameter file (TOML, tables [modulus], [toughness], [extension.NAME]); keys that are absent keep the value of
-/// `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (0 <= nu < 0.5 allowed up to
-/// 0.5) throw InputError naming file, line, key and what was expected.
+/// Reads a parameter file (TOML, tables [modulus], [toughness], [extension.NAME]); keys that are absent keep the value
+/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (0 <= nu < 0.5
+/// allowed up to 0.5) throw InputError naming file, line, key and what was expected.
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
 std::string to_toml(const ParameterSet& parameters);
 

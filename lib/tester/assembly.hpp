@@ -1,6 +1,6 @@
 #pragma once
-// From a design to the finite-element grid (thesis 2.3.1, Figure 2-5C): element (2i, 2j) is the centre of pixel (i, j), counted
-// from the bottom-left; an element with an odd index lies between pixels.
+// From a design to the finite-element grid (thesis 2.3.1, Figure 2-5C): element (2i, 2j) is the centre of pixel (i, j),
+// counted from the bottom-left; an element with an odd index lies between pixels.
 
 #include "fem/grid.hpp"
 #include "material/parameters.hpp"
@@ -20,7 +20,8 @@ inline constexpr int kElementsPerUnit = 2 * pattern::kSide;
 /// act on the assignment of properties. No notch. columns = 40 * units_x * refinement, rows likewise; the pulling
 /// direction is the grid's y; orientation 90 assembles the specimen that was printed lying along x, turned upright.
 /// The parameters must be usable (material::parameter_fault empty) and the orientation 0 or 90.
-fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& parameters, const TestConditions& conditions,
-                   AssemblyTarget target, int units_x, int units_y, int refinement = 1);
+fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& parameters,
+                   const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y,
+                   int refinement = 1);
 
 }  // namespace nacre::tester

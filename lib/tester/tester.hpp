@@ -67,7 +67,7 @@ struct FractureFrame {
   double strain = 0.0;
   int columns = 0;
   int rows = 0;
-  std::vector<std::uint8_t> material;   ///< per element: 0 soft, 1 rigid, 2 interface, 3 void or failed
+  std::vector<std::uint8_t> material;  ///< per element: 0 soft, 1 rigid, 2 interface, 3 void or failed
   std::vector<float> energy_j_per_m3;  ///< per element: largest strain energy density at its quadrature points
 };
 
@@ -76,9 +76,9 @@ enum class EndReason { stress_drop, strain_limit, no_failure, step_limit };
 std::string_view to_string(EndReason reason);
 
 struct ToughnessResult {
-  double toughness_pa = 0.0;      ///< area under the curve (Eq. 2.6)
-  double peak_stress_pa = 0.0;    ///< of the smoothed curve
-  double failure_strain = 0.0;    ///< strain at which the test ended
+  double toughness_pa = 0.0;    ///< area under the curve (Eq. 2.6)
+  double peak_stress_pa = 0.0;  ///< of the smoothed curve
+  double failure_strain = 0.0;  ///< strain at which the test ended
   Curve curve;
   EndReason end = EndReason::stress_drop;
   std::int64_t steps = 0;
@@ -86,15 +86,16 @@ struct ToughnessResult {
   std::vector<FractureFrame> frames;
 };
 
-/// Young's modulus (2.3.1, Figure 2-5B). Layouts: static solve at strain 1e-4, double precision. Homogeneous designs: material
-/// point. Error: what made the solution impossible.
+/// Young's modulus (2.3.1, Figure 2-5B). Layouts: static solve at strain 1e-4, double precision. Homogeneous designs:
+/// material point. Error: what made the solution impossible.
 Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics& numerics = {});
 
-/// Toughness (2.3.1, Figure 2-5A): the notched specimen pulled at 20 /s until separation; layouts and homogeneous designs alike
-/// run on the grid. Error: blow-up (J <= 0 or not finite) with step and element, never a number.
+/// Toughness (2.3.1, Figure 2-5A): the notched specimen pulled at 20 /s until separation; layouts and homogeneous
+/// designs alike run on the grid. Error: blow-up (J <= 0 or not finite) with step and element, never a number.
 Result<ToughnessResult> test_toughness(const Simulation& simulation, const Numerics& numerics = {});
 
-/// The unnotched homogeneous coupon: stress at each of the given nominal strains, by a material-point integrator at real time.
+/// The unnotched homogeneous coupon: stress at each of the given nominal strains, by a material-point integrator at
+/// real time.
 Result<Curve> test_tensile(const Simulation& simulation, const std::vector<double>& strain_history);
 
 /// Content hash of the question, kernel version included: the key of the farm's cache.

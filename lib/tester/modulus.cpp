@@ -1,0 +1,39 @@
+#include "fem/static_solver.hpp"
+#include "material/mixture.hpp"
+#include "material/neo_hookean.hpp"
+#include "tester/assembly.hpp"
+#include "tester/tester.hpp"
+#include "tester/usable.hpp"
+#include "thesis/constants.hpp"
+
+namespace nacre::tester {
+namespace {
+
+/// Units of the modulus specimen along x; it is one unit high (Figure 2-5B).
+int units_across(Fidelity fidelity) { return fidelity == Fidelity::tiny ? 1 : thesis::kModulusUnitsX.value; }
+
+double homogeneous_modulus(const pattern::Mixture& mixture, const material::ModulusParameters& theta) {
+  const material::Constants constants = material::mixture(material::phases_of(theta), mixture.rigid_fraction);
+  const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
+  return material::uniaxial_stress(thesis::kModulusStrain, lame).nominal_stress_pa / thesis::kModulusStrain;
+}
+
+}  // namespace
+
+Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics& numerics) {
+  if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty())
+    return fail("modulus tester: {}", fault);
+  const bool homogeneous = simulation.design.mixture() != nullptr;
+  if (homogeneous && !numerics.explicit_modulus)
+    return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation.parameters.modulus)};
+
+  const fem::Grid grid =
+      assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::modulus,
+               units_across(simulation.fidelity), thesis::kModulusUnitsY, numerics.refinement);
+  if (numerics.explicit_modulus) return fail("modulus tester: explicit integration is not linked in");
+  const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
+  if (!solution) return fail("modulus tester: {}", solution.error().message);
+  return ModulusResult{solution->top_stress_pa / thesis::kModulusStrain};
+}
+
+}  // namespace nacre::tester

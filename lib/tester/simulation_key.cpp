@@ -1,0 +1,64 @@
+#include <algorithm>
+
+#include "base/hash.hpp"
+#include "material/extensions.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::tester {
+namespace {
+
+/// Exact and the same on every machine: hexadecimal floating point, one zero.
+std::string exact(double value) { return fmt::format("{:a}", value == 0.0 ? 0.0 : value); }
+
+template <class Vector>
+std::string exact_values(const Vector& values) {
+  std::string text;
+  for (const double value : values) text += " " + exact(value);
+  return text;
+}
+
+/// theta without gamma, which the static solution does not depend on; or eta.
+std::string parameter_text(const material::ParameterSet& parameters, TestKind kind) {
+  if (kind == TestKind::toughness) return exact_values(material::to_vector(parameters.toughness));
+  material::ModulusParameters theta = parameters.modulus;
+  theta.gamma_per_s = 0.0;
+  return exact_values(material::to_vector(theta));
+}
+
+/// Whether the simulated result can depend on this extension.
+bool acts(std::string_view name, const std::vector<double>& values, TestKind kind) {
+  if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; })) return false;
+  const material::Effect* effect = material::find_effect(name);
+  if (effect == nullptr) return true;
+  if (effect->side == material::EffectSide::measurement) return false;
+  return kind == TestKind::modulus     ? effect->acts_on_modulus
+         : kind == TestKind::toughness ? effect->acts_on_toughness
+                                       : true;
+}
+
+/// Extensions in the order of their names, then the conditions that they make the simulation depend on.
+std::string model_text(const Simulation& simulation, TestKind kind) {
+  std::string text;
+  for (const auto& [name, values] : simulation.parameters.extensions) {
+    if (!acts(name, values, kind)) continue;
+    text += fmt::format("extension {}{}\n", name, exact_values(values));
+    // The base model feels neither rate nor thickness; any extension beyond the directional and geometric ones may.
+    if (name == "rate_dependence")
+      text += fmt::format("strain_rate_per_s {}\n", exact(simulation.conditions.strain_rate_per_s));
+    if (name == "plane_strain") text += fmt::format("thickness_mm {}\n", exact(simulation.conditions.thickness_mm));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string simulation_key(const Simulation& simulation, TestKind kind) {
+  const std::string question =
+      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}\nparameters{}\n{}", kKernelVersion,
+                  to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
+                  exact(simulation.conditions.orientation_deg), parameter_text(simulation.parameters, kind),
+                  model_text(simulation, kind));
+  return content_hash(question);
+}
+
+}  // namespace nacre::tester

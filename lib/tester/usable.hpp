@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "tester/tester.hpp"
+
+namespace nacre::tester {
+
+/// A sentence when the question cannot be simulated (parameters that the test needs out of range, orientation neither 0
+/// nor 90, rate or thickness not above 0); empty when it can.
+std::string simulation_fault(const Simulation& simulation, TestKind kind);
+
+}  // namespace nacre::tester
