@@ -1,60 +1,55 @@
 #include "game/reference_tables.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/ranges.h>
 
+#include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 
 namespace nacre::game {
 namespace {
 
-// A small table of plain cells (no quoting: names and numbers only).
+// A table whose cells are asked for by row and column name.
 class Table {
  public:
   Table(std::filesystem::path path, const std::vector<std::string>& required) : path_(std::move(path)) {
     const std::string text = read_file(path_);
-    int line_number = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
-      std::size_t end = std::min(text.find('\n', begin), text.size());
-      std::string_view line(text.data() + begin, end - begin);
-      begin = end + 1;
-      ++line_number;
-      if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-      if (line.empty() || line.front() == '#') continue;
+    CsvReader reader(text, path_.string());
+    for (CsvRow row; reader.next(row);) {
+      if (!row.fault.empty()) {
+        throw InputError::format("{}:{}:{}: {}", path_.string(), row.fault_line, row.fault_column, row.fault);
+      }
+      if (row.blank()) continue;
       if (columns_.empty()) {
-        read_header(line, line_number, required);
+        read_header(row, required);
       } else {
-        rows_.push_back({line_number, split(line)});
+        rows_.push_back(std::move(row));
       }
     }
-    if (rows_.empty()) throw InputError::format("{}: no rows; expected a header with {} and at least one row", path_.string(),
-                                                fmt::join(required, ", "));
+    if (rows_.empty()) {
+      throw InputError::format("{}: no rows; expected a header with {} and at least one row", path_.string(),
+                               fmt::join(required, ", "));
+    }
   }
 
   std::size_t size() const { return rows_.size(); }
-  int line(std::size_t row) const { return rows_[row].line; }
 
-  std::string cell(std::size_t row, const std::string& column) const {
+  const std::string& text(std::size_t row, const std::string& column) const {
     const std::size_t index = columns_.at(column);
     if (index >= rows_[row].cells.size()) fail_at(row, column, "the cell is missing");
-    return rows_[row].cells[index];
+    return rows_[row].cells[index].text;
   }
 
   double positive(std::size_t row, const std::string& column) const {
-    const std::string text = cell(row, column);
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || value <= 0.0) {
-      fail_at(row, column, "expected a positive number, found '" + text + "'");
-    }
-    return value;
+    const auto value = number_from_text(text(row, column));
+    if (!value || *value <= 0.0) fail_at(row, column, "expected a positive number, found '" + text(row, column) + "'");
+    return *value;
   }
 
   [[noreturn]] void fail_at(std::size_t row, const std::string& column, const std::string& what) const {
@@ -62,27 +57,11 @@ class Table {
   }
 
  private:
-  struct Row {
-    int line = 0;
-    std::vector<std::string> cells;
-  };
-
-  static std::vector<std::string> split(std::string_view line) {
-    std::vector<std::string> cells;
-    while (true) {
-      const std::size_t comma = line.find(',');
-      cells.emplace_back(line.substr(0, comma));
-      if (comma == std::string_view::npos) return cells;
-      line.remove_prefix(comma + 1);
-    }
-  }
-
-  void read_header(std::string_view line, int line_number, const std::vector<std::string>& required) {
-    const std::vector<std::string> names = split(line);
-    for (std::size_t index = 0; index < names.size(); ++index) columns_.emplace(names[index], index);
+  void read_header(const CsvRow& header, const std::vector<std::string>& required) {
+    for (std::size_t index = 0; index < header.cells.size(); ++index) columns_.emplace(header.cells[index].text, index);
     for (const std::string& name : required) {
       if (!columns_.contains(name)) {
-        throw InputError::format("{}:{}: column {} is missing; expected {}", path_.string(), line_number, name,
+        throw InputError::format("{}:{}: column {} is missing; expected {}", path_.string(), header.line, name,
                                  fmt::join(required, ", "));
       }
     }
@@ -90,31 +69,40 @@ class Table {
 
   std::filesystem::path path_;
   std::map<std::string, std::size_t> columns_;
-  std::vector<Row> rows_;
+  std::vector<CsvRow> rows_;
 };
+
+constexpr std::pair<const char*, double> kRigidFractions[] = {{"TB", 0.0}, {"VW", 1.0}, {"IF", 0.5}};
+
+measurement::Replicates read_material(const Table& table, std::size_t row, double rigid_fraction) {
+  measurement::Replicates measured;
+  measured.design = pattern::Mixture{rigid_fraction};
+  measured.modulus_count = measured.toughness_count = 1;
+  measured.modulus_pa = 1e9 * table.positive(row, "measured_modulus_gpa");
+  measured.toughness_pa = 1e6 * table.positive(row, "measured_toughness_mpa");
+  return measured;
+}
 
 }  // namespace
 
 std::vector<measurement::Replicates> read_base_materials(const std::filesystem::path& path) {
   const Table table(path, {"material", "measured_modulus_gpa", "measured_toughness_mpa"});
-  const std::map<std::string, double> rigid_fractions = {{"TB", 0.0}, {"VW", 1.0}, {"IF", 0.5}};
-  std::vector<measurement::Replicates> materials;
-  for (const std::string name : {"TB", "VW", "IF"}) {
-    bool found = false;
-    for (std::size_t row = 0; row < table.size(); ++row) {
-      const std::string material = table.cell(row, "material");
-      if (!rigid_fractions.contains(material)) table.fail_at(row, "material", "expected TB, VW or IF, found '" + material + "'");
-      if (material != name) continue;
-      if (found) table.fail_at(row, "material", material + " stands here a second time");
-      found = true;
-      measurement::Replicates measured;
-      measured.design = pattern::Mixture{rigid_fractions.at(name)};
-      measured.modulus_count = measured.toughness_count = 1;
-      measured.modulus_pa = 1e9 * table.positive(row, "measured_modulus_gpa");
-      measured.toughness_pa = 1e6 * table.positive(row, "measured_toughness_mpa");
-      materials.push_back(std::move(measured));
+  std::map<std::string, measurement::Replicates> found;
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const std::string& name = table.text(row, "material");
+    const auto* known = std::find_if(std::begin(kRigidFractions), std::end(kRigidFractions),
+                                     [&](const auto& each) { return name == each.first; });
+    if (known == std::end(kRigidFractions)) table.fail_at(row, "material", "expected TB, VW or IF, found '" + name + "'");
+    if (!found.emplace(name, read_material(table, row, known->second)).second) {
+      table.fail_at(row, "material", name + " stands here a second time");
     }
-    if (!found) throw InputError::format("{}: no row for material {}; expected TB, VW and IF", path.string(), name);
+  }
+  std::vector<measurement::Replicates> materials;
+  for (const auto& [name, rigid_fraction] : kRigidFractions) {
+    if (!found.contains(name)) {
+      throw InputError::format("{}: no row for material {}; expected TB, VW and IF", path.string(), name);
+    }
+    materials.push_back(found.at(name));
   }
   return materials;
 }

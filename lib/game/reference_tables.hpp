@@ -1,6 +1,6 @@
 #pragma once
 // The measured tables that a game starts from: the base materials of round 0 and, where a scenario names one, the homogeneous
-// benchmark line. Comma-separated, columns by name, '#' or empty lines skipped.
+// benchmark line. CSV, columns by name.
 
 #include <filesystem>
 #include <vector>

@@ -5,9 +5,18 @@
 #include <numeric>
 
 #include "base/random.hpp"
+#include "game/rounds.hpp"
 
 namespace nacre::game {
 namespace {
+
+// Specimens with conditions that answer a standard order, put under the standard conditions: replicates of each other.
+std::vector<measurement::Replicates> summarise_nominally(std::vector<measurement::SpecimenRecord> specimens) {
+  for (measurement::SpecimenRecord& specimen : specimens) {
+    if (answers(specimen.conditions, {})) specimen.conditions = {};
+  }
+  return measurement::summarise(specimens);
+}
 
 bool upright(const tester::TestConditions& conditions) { return std::abs(conditions.orientation_deg) < 0.5; }
 
@@ -31,11 +40,11 @@ std::map<pattern::Pattern, MeasuredValues> measured_values(std::span<const measu
   std::map<pattern::Pattern, MeasuredValues> values;
   for (const measurement::SpecimenRecord& specimen : specimens) {
     const pattern::Layout* layout = specimen.design.layout();
-    if (!specimen.valid || layout == nullptr || !upright(specimen.conditions)) continue;
+    if (!specimen.valid || layout == nullptr || !answers(specimen.conditions, {})) continue;
     const auto pattern = pattern::Pattern::from_layout(*layout);
     if (!pattern) continue;
-    if (specimen.test == tester::TestKind::modulus && specimen.modulus_pa) {
-      values[*pattern].modulus_pa.push_back(*specimen.modulus_pa);
+    if (specimen.test == tester::TestKind::modulus) {
+      if (const auto modulus_pa = measurement::modulus_of(specimen)) values[*pattern].modulus_pa.push_back(*modulus_pa);
     } else if (specimen.test == tester::TestKind::toughness) {
       if (const auto toughness_pa = measurement::toughness_of(specimen)) values[*pattern].toughness_pa.push_back(*toughness_pa);
     }
@@ -71,9 +80,9 @@ double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& value
   return std::sqrt(squares / static_cast<double>(hypervolumes.size() - 1));
 }
 
-std::vector<optimize::Performance> benchmark_line(std::span<const measurement::Replicates> measured) {
+std::vector<optimize::Performance> benchmark_line(const std::vector<measurement::SpecimenRecord>& specimens) {
   std::map<double, optimize::Performance> by_fraction;
-  for (const measurement::Replicates& each : measured) {
+  for (const measurement::Replicates& each : summarise_nominally(specimens)) {
     const pattern::Mixture* mixture = each.design.mixture();
     if (mixture == nullptr || !upright(each.conditions) || each.modulus_count == 0 || each.toughness_count == 0) continue;
     by_fraction.try_emplace(mixture->rigid_fraction, optimize::Performance{each.modulus_pa, each.toughness_pa});
@@ -84,7 +93,7 @@ std::vector<optimize::Performance> benchmark_line(std::span<const measurement::R
 }
 
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens) {
-  std::vector<measurement::Replicates> set = measurement::summarise(specimens);
+  std::vector<measurement::Replicates> set = summarise_nominally(specimens);
   std::erase_if(set, [](const measurement::Replicates& each) {
     return each.design.layout() == nullptr || !upright(each.conditions) ||
            (each.modulus_count == 0 && each.toughness_count == 0);

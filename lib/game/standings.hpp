@@ -19,7 +19,7 @@ struct MeasuredValues {
   std::vector<double> toughness_pa;
 };
 
-/// Valid specimens of patterns printed upright, by pattern: what the measured front is made of. Coupons without the eightfold
+/// Valid specimens of patterns tested under standard conditions, by pattern: what the measured front is made of. Coupons without the eightfold
 /// symmetry, homogeneous designs and turned twins are no competitors of proposals. `specimens` sorted by name.
 std::map<pattern::Pattern, MeasuredValues> measured_values(std::span<const measurement::SpecimenRecord> specimens);
 
@@ -32,9 +32,10 @@ std::vector<optimize::Performance> measured_performances(const std::map<pattern:
 double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& values, std::uint64_t seed, int resamples = 1000);
 
 /// l1 of 2.3.4: measured homogeneous designs that have both E and T, by increasing rigid fraction.
-std::vector<optimize::Performance> benchmark_line(std::span<const measurement::Replicates> measured);
+std::vector<optimize::Performance> benchmark_line(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Designs that the model is calibrated on: layouts printed upright with at least one valid value.
+/// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens that answer the same
+/// nominal question are replicates even where callipers read 3.17 and 3.24 mm.
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Errors of predictions made before the designs were measured; designs without a valid measurement are left out. Predictions

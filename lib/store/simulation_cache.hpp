@@ -1,0 +1,49 @@
+#pragma once
+// What the testers answered, by simulation_key(): the farm's memory over crashes, runs and studies.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "tester/curve.hpp"
+
+namespace SQLite {
+class Database;
+}
+
+namespace nacre::store {
+
+/// Answer to one question (one design, one test). Fields of the test that was not run are 0.
+struct CachedSimulation {
+  std::string failure;  ///< empty, or why the simulation gave no number: a failure is an answer, too
+  double modulus_pa = 0.0;
+  double toughness_pa = 0.0;
+  double peak_stress_pa = 0.0;
+  double failure_strain = 0.0;
+  tester::Curve curve;  ///< stored as pairs of float
+  bool operator==(const CachedSimulation&) const = default;
+};
+
+/// A cache file shared by all threads of a process, and by several processes (WAL; a busy file is waited for).
+class SimulationCache {
+ public:
+  /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it: not a database, damaged,
+  /// written by another version, not writable.
+  explicit SimulationCache(const std::filesystem::path& path);
+  ~SimulationCache();
+
+  std::optional<CachedSimulation> find(const std::string& key) const;
+  /// Keeps the first answer when the key is already there. Throws InputError when it cannot be written (disk full).
+  void insert(const std::string& key, const CachedSimulation& answer);
+  std::int64_t size() const;
+
+ private:
+  std::filesystem::path path_;
+  mutable std::mutex mutex_;
+  std::unique_ptr<SQLite::Database> database_;
+};
+
+}  // namespace nacre::store

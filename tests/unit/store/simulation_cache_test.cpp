@@ -1,0 +1,115 @@
+#include "store/simulation_cache.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/parallel.hpp"
+#include "base/result.hpp"
+
+namespace nacre::store {
+namespace {
+
+using testing::HasSubstr;
+
+class SimulationCacheFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / "nacre_simulation_cache_test";
+    std::filesystem::remove_all(folder_);
+    path_ = folder_ / "simulations.db";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string refusal() {
+    try {
+      SimulationCache cache(path_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_, path_;
+};
+
+CachedSimulation toughness_answer() {
+  CachedSimulation answer;
+  answer.toughness_pa = 123456.789012345;
+  answer.peak_stress_pa = 4e6;
+  answer.failure_strain = 0.031;
+  answer.curve = {{0.0, 0.5, 1.0}, {0.0, 2.5, 1.25}};
+  return answer;
+}
+const CachedSimulation kAnswer = toughness_answer();
+
+CachedSimulation failed(const std::string& reason) {
+  CachedSimulation answer;
+  answer.failure = reason;
+  return answer;
+}
+
+TEST_F(SimulationCacheFile, AnAnswerOutlivesTheProcessThatWroteIt) {
+  SimulationCache(path_).insert("key", kAnswer);
+  const SimulationCache again(path_);
+  EXPECT_EQ(again.find("key"), kAnswer);
+  EXPECT_EQ(again.find("another"), std::nullopt);
+}
+
+TEST_F(SimulationCacheFile, TheFirstAnswerStays) {
+  SimulationCache cache(path_);
+  cache.insert("key", kAnswer);
+  cache.insert("key", failed("blow-up"));
+  EXPECT_EQ(cache.find("key"), kAnswer);
+  EXPECT_EQ(cache.size(), 1);
+}
+
+TEST_F(SimulationCacheFile, AFailureIsAnAnswer) {
+  SimulationCache cache(path_);
+  cache.insert("key", failed("J = -0.1 at element 7"));
+  EXPECT_EQ(cache.find("key"), failed("J = -0.1 at element 7"));
+}
+
+TEST_F(SimulationCacheFile, ThreadsAndASecondConnectionWriteSideBySide) {
+  SimulationCache first(path_), second(path_);
+  parallel_for(200, [&](int i) { (i % 2 ? first : second).insert("key " + std::to_string(i), kAnswer); }, 4);
+  EXPECT_EQ(first.size(), 200);
+  EXPECT_EQ(second.find("key 101"), kAnswer);
+}
+
+TEST_F(SimulationCacheFile, AFileThatIsNoDatabaseIsRefusedByNameWithARemedy) {
+  std::filesystem::create_directories(folder_);
+  std::ofstream(path_) << std::string(5000, 'x');
+  EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("simulations.db"), HasSubstr("move the file")));
+}
+
+TEST_F(SimulationCacheFile, ADamagedDatabaseIsRefused) {
+  {
+    SimulationCache cache(path_);
+    for (int i = 0; i < 500; ++i) cache.insert("key " + std::to_string(i), kAnswer);
+  }
+  ASSERT_GT(std::filesystem::file_size(path_), 20'000u);
+  std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(8192);
+  file << std::string(8192, 'x');
+  file.close();
+  EXPECT_THAT(refusal(), HasSubstr("cannot be used"));
+}
+
+TEST_F(SimulationCacheFile, AnotherSchemaVersionIsRefused) {
+  { SimulationCache cache(path_); }
+  SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  EXPECT_THAT(refusal(), HasSubstr("schema version 99"));
+}
+
+TEST_F(SimulationCacheFile, AFolderInTheWayIsNamed) {
+  std::filesystem::create_directories(path_);
+  EXPECT_THAT(refusal(), HasSubstr("simulations.db"));
+}
+
+}  // namespace
+}  // namespace nacre::store
