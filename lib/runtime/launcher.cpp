@@ -1,0 +1,308 @@
+#include "runtime/launcher.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "base/result.hpp"
+#include "game/scenario.hpp"
+#include "nacre/run_t.hpp"
+#include "runtime/endpoint.hpp"
+#include "runtime/live_display.hpp"
+#include "runtime/round_history.hpp"
+#include "runtime/run_folder.hpp"
+#include "runtime/supervised_node.hpp"
+#include "runtime/terminal.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using State = SupervisedNode::State;
+
+volatile std::sig_atomic_t interrupt_count = 0;
+
+/// Counts SIGINT, SIGTERM and SIGHUP instead of dying of them, while it lives.
+class InterruptCounter {
+ public:
+  InterruptCounter() {
+    interrupt_count = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupt_count = interrupt_count + 1; };
+    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &action, &before_[i]);
+    ::signal(SIGPIPE, SIG_IGN);  // a reader of our output that has gone must not end the run
+  }
+  ~InterruptCounter() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  int count() const { return interrupt_count; }
+
+ private:
+  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> before_{};
+};
+
+RunFolder prepare_folder(const LaunchOptions& options, const std::optional<game::Scenario>& scenario) {
+  return scenario ? RunFolder::create(options.logs, options.run_name, *scenario) : RunFolder::resume(options.resume);
+}
+
+/// The scenario of a new run with what the command line replaces; nothing when a run is resumed.
+std::optional<game::Scenario> new_scenario(const LaunchOptions& options) {
+  if (!options.resume.empty()) return std::nullopt;
+  game::Scenario scenario = game::read_scenario(options.scenario);
+  if (options.seed) scenario.seed = *options.seed;
+  return scenario;
+}
+
+/// A run that goes on takes its old port when it is still free.
+std::unique_ptr<PortReservation> reserve_port(const LaunchOptions& options, const game::Scenario& scenario,
+                                              int port_of_last_start) {
+  const int wanted = options.port.value_or(scenario.port);
+  if (wanted != 0 || port_of_last_start == 0) return std::make_unique<PortReservation>(wanted);
+  try {
+    return std::make_unique<PortReservation>(port_of_last_start);
+  } catch (const InputError&) {
+    return std::make_unique<PortReservation>(0);
+  }
+}
+
+class Launch {
+ public:
+  Launch(const LaunchOptions& options, RunFolder run, std::unique_ptr<PortReservation> port)
+      : options_(options),
+        run_(std::move(run)),
+        port_(std::move(port)),
+        display_(stdout, terminal_columns(STDOUT_FILENO)) {
+    run_.set_port(port_->port());
+  }
+
+  int play();
+
+ private:
+  void start_recorder();
+  void open_endpoint();
+  void start_nodes();
+  void turn(std::chrono::milliseconds wait);
+  void take_message(const Received& received);
+  void show_output(SupervisedNode& node);
+  void announce_when_ready();
+  bool game_is_over();
+  bool has_failed() const;
+  void stop(std::vector<SupervisedNode*> processes);
+  void sum_up(bool is_complete);
+  std::vector<SupervisedNode*> nodes() const;
+  std::string names_of_nodes_not_ready() const;
+
+  LaunchOptions options_;
+  RunFolder run_;
+  std::unique_ptr<PortReservation> port_;
+  InterruptCounter interrupts_;
+  LiveDisplay display_;
+  std::unique_ptr<SupervisedNode> recorder_;
+  std::vector<std::unique_ptr<SupervisedNode>> nodes_;
+  std::unique_ptr<Endpoint> endpoint_;
+  bool recorder_is_ready_ = false;
+  bool is_announced_ = false;
+  Clock::time_point said_waiting_ = Clock::now();
+  Clock::time_point looked_for_end_ = Clock::now();
+};
+
+void Launch::start_recorder() {
+  const fs::path nacre = options_.nacre.empty() ? this_program() : options_.nacre;
+  recorder_ = std::make_unique<SupervisedNode>(
+      SupervisedNode::Settings{.name = "recorder",
+                               .command = {nacre.string(), "record", "--log", run_.bus_log().string(), "--port",
+                                           std::to_string(port_->port()), "--hosts", run_.scenario().hosts},
+                               .log_file = run_.node_folder("recorder") / "output.log",
+                               .restarts = options_.restarts});
+  recorder_->start();
+}
+
+void Launch::open_endpoint() {
+  BusOptions bus;
+  bus.url = bus_url(port_->port(), run_.manifest().lan);
+  bus.node = "launcher";
+  bus.run_id = run_.manifest().run_id;
+  bus.faults = faults_from_environment();
+  auto endpoint = Endpoint::open(std::move(bus), run_.scenario().nodes(), {"STATUS", "ROUND"});
+  if (!endpoint) throw InputError(endpoint.error().message + "; `nacre doctor` says more");
+  endpoint_ = std::move(*endpoint);
+}
+
+void Launch::start_nodes() {
+  const fs::path folder = options_.program_folder.empty() ? this_program().parent_path() : options_.program_folder;
+  for (const std::string& name : run_.scenario().nodes()) {
+    nodes_.push_back(std::make_unique<SupervisedNode>(SupervisedNode::Settings{
+        .name = name,
+        .command = {(folder / ("nacre_" + name)).string(), "--run-dir", run_.path().string(), "--scenario",
+                    run_.scenario_file().string(), "--port", std::to_string(port_->port())},
+        .log_file = run_.node_folder(name) / "output.log",
+        .restarts = options_.restarts}));
+    nodes_.back()->start();
+  }
+}
+
+std::vector<SupervisedNode*> Launch::nodes() const {
+  std::vector<SupervisedNode*> pointers;
+  for (const auto& node : nodes_) pointers.push_back(node.get());
+  return pointers;
+}
+
+void Launch::take_message(const Received& received) {
+  if (received.message.channel == "ROUND") {
+    const auto round = wire::decode_safe<round_summary_t>(received.message.payload);
+    if (round) display_.say(in_words(*round));
+    return;
+  }
+  if (received.message.channel != "STATUS") return;
+  const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+  if (!status) return;
+  for (const auto& node : nodes_) {
+    if (node->name() == received.header.node) node->saw(*status, received.header.epoch);
+  }
+}
+
+void Launch::show_output(SupervisedNode& node) {
+  for (const std::string& line : node.take_output()) {
+    if (&node == recorder_.get() && line.rfind("recording", 0) == 0) recorder_is_ready_ = true;
+    if (!display_.on_terminal()) display_.say(fmt::format("{} | {}", node.name(), line));
+  }
+}
+
+/// One turn of the launcher's loop: messages, output, ends and restarts, display.
+void Launch::turn(std::chrono::milliseconds wait) {
+  if (endpoint_) {
+    endpoint_->pump(static_cast<int>(wait.count()), [this](const Received& received) { take_message(received); });
+  } else {
+    std::this_thread::sleep_for(wait);
+  }
+  std::vector<SupervisedNode*> processes = nodes();
+  if (recorder_) processes.push_back(recorder_.get());
+  for (SupervisedNode* process : processes) {
+    show_output(*process);
+    if (const auto news = process->supervise(Clock::now())) display_.say(*news);
+  }
+  std::vector<NodeView> views;
+  for (const auto& node : nodes_) views.push_back(node->view());
+  display_.show(views, Clock::now());
+}
+
+std::string Launch::names_of_nodes_not_ready() const {
+  std::vector<std::string> names;
+  for (const auto& node : nodes_) {
+    if (!node->is_ready()) names.push_back(node->name());
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void Launch::announce_when_ready() {
+  if (is_announced_) return;
+  const std::string missing = names_of_nodes_not_ready();
+  if (missing.empty()) {
+    run_t message{};
+    message.seed = static_cast<std::int64_t>(run_.scenario().seed);
+    message.scenario_hash = run_.manifest().scenario_hash;
+    message.schema_version = kSchemaVersion;
+    const auto offered = endpoint_->offer({"RUN", wire::encode(message)});
+    if (!offered) throw InputError("RUN: " + offered.error().message);
+    is_announced_ = true;
+    display_.say("every node is ready: the game begins");
+  } else if (Clock::now() - said_waiting_ > std::chrono::seconds(15)) {
+    said_waiting_ = Clock::now();
+    display_.say(fmt::format("still waiting for {} to be ready", missing));
+  }
+}
+
+/// Every node says that it has finished, and the validation agent has written the last round down.
+bool Launch::game_is_over() {
+  const bool all_finished =
+      std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->state() == State::finished; });
+  if (!all_finished || Clock::now() - looked_for_end_ < std::chrono::milliseconds(500)) return false;
+  looked_for_end_ = Clock::now();
+  const std::vector<round_summary_t> rounds = read_rounds(run_.path());
+  return !rounds.empty() && rounds.back().last;
+}
+
+bool Launch::has_failed() const {
+  const auto failed = [](const auto& node) { return node->state() == State::failed; };
+  const auto gone = [](const auto& node) { return node->state() == State::stopped; };
+  return std::any_of(nodes_.begin(), nodes_.end(), failed) || std::all_of(nodes_.begin(), nodes_.end(), gone) ||
+         recorder_->state() == State::failed;
+}
+
+/// SIGINT, five seconds, SIGTERM, five seconds, SIGKILL; a further Ctrl-C goes to the next signal at once.
+void Launch::stop(std::vector<SupervisedNode*> processes) {
+  constexpr auto kPatience = std::chrono::seconds(5);
+  for (SupervisedNode* process : processes) process->expect_end();
+  const auto is_alive = [](const SupervisedNode* process) { return process->is_alive(); };
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const auto deadline = Clock::now() + kPatience;
+    const int interrupts = interrupts_.count();
+    for (SupervisedNode* process : processes) process->signal(signal);
+    while (std::any_of(processes.begin(), processes.end(), is_alive) && Clock::now() < deadline &&
+           interrupts_.count() == interrupts) {
+      turn(std::chrono::milliseconds(20));
+    }
+  }
+}
+
+void Launch::sum_up(bool is_complete) {
+  for (const round_summary_t& round : read_rounds(run_.path())) fmt::print("{}\n", in_words(round));
+  const fs::path report = run_.path() / "report.html";
+  if (fs::exists(report)) fmt::print("report: {}\n", report.string());
+  fmt::print("run: {}\n", run_.path().string());
+  if (!is_complete) {
+    fmt::print("the game is not over: `nacre launch --resume {}` goes on with it\n",
+               fs::proximate(run_.path()).string());
+  }
+  std::fflush(stdout);
+}
+
+int Launch::play() {
+  constexpr auto kTurn = std::chrono::milliseconds(50);
+  display_.say(
+      fmt::format("run {} on UDP port {}, in {}", run_.manifest().run_id, port_->port(), run_.path().string()));
+  open_endpoint();
+  start_recorder();
+  while (!recorder_is_ready_ && recorder_->state() != State::failed && interrupts_.count() == 0) turn(kTurn);
+  bool is_complete = false;
+  if (recorder_is_ready_) start_nodes();
+  while (interrupts_.count() == 0 && !nodes_.empty() && !has_failed() && !is_complete) {
+    turn(kTurn);
+    announce_when_ready();
+    is_complete = game_is_over();
+  }
+  const bool was_interrupted = interrupts_.count() > 0 && !is_complete;
+  display_.say(is_complete       ? "the game is over"
+               : was_interrupted ? "stopping"
+                                 : "a node has failed for good: stopping");
+  stop(nodes());
+  stop({recorder_.get()});
+  sum_up(is_complete);
+  return is_complete ? 0 : 1;
+}
+
+}  // namespace
+
+int launch(const LaunchOptions& options) {
+  const std::optional<game::Scenario> scenario = new_scenario(options);
+  const int old_port = scenario ? 0 : read_manifest(options.resume).port;
+  const game::Scenario& read = scenario ? *scenario : game::read_scenario(options.resume / "scenario.toml");
+  auto port = reserve_port(options, read, old_port);
+  if (const auto route = check_multicast_route(port->port()); !route) {
+    throw InputError(route.error().message + "; `nacre doctor` says more");
+  }
+  Launch run(options, prepare_folder(options, scenario), std::move(port));
+  return run.play();
+}
+
+}  // namespace nacre::runtime

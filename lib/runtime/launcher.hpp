@@ -1,0 +1,30 @@
+#pragma once
+// Plays a run: folder, port, recorder, nodes, readiness, restarts, orderly end.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "runtime/restart_budget.hpp"
+
+namespace nacre::runtime {
+
+struct LaunchOptions {
+  std::filesystem::path scenario;        ///< of a new run; empty when `resume` is given
+  std::filesystem::path resume;          ///< folder of a run to go on with
+  std::string run_name;                  ///< empty: date-time-scenario
+  std::filesystem::path logs = "logs";   ///< where runs are kept
+  std::optional<int> port;               ///< instead of the scenario's
+  std::optional<std::uint64_t> seed;     ///< instead of the scenario's
+  std::filesystem::path program_folder;  ///< of nacre_NODE; empty: beside this program
+  std::filesystem::path nacre;           ///< program whose `record` is the recorder; empty: this program
+  RestartBudget::Settings restarts;
+};
+
+/// Plays the game until its last round, Ctrl-C (SIGINT, SIGTERM, SIGHUP) or the failure of a node for good. Exit
+/// status: 0 the game was played to its end, 1 it was stopped before or a node failed. Throws InputError for what a
+/// person has to mend first.
+int launch(const LaunchOptions& options);
+
+}  // namespace nacre::runtime

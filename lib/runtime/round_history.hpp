@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "nacre/round_summary_t.hpp"
+
+namespace nacre::runtime {
+
+/// The rounds that a run has summed up so far, oldest first, from the validation agent's journal: complete whatever the
+/// bus lost. Empty before the first one.
+std::vector<round_summary_t> read_rounds(const std::filesystem::path& run_folder);
+
+/// One line for a person: gap, hypervolumes, errors held out and after calibration.
+std::string in_words(const round_summary_t& round);
+
+}  // namespace nacre::runtime

@@ -1,0 +1,138 @@
+#include "runtime/supervised_node.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/chrono.h>
+#include <fmt/ranges.h>
+
+#include "base/result.hpp"
+#include "runtime/bus.hpp"
+#include "runtime/terminal.hpp"
+
+namespace nacre::runtime {
+
+std::string_view to_string(SupervisedNode::State state) {
+  switch (state) {
+    case SupervisedNode::State::starting:
+      return "starting";
+    case SupervisedNode::State::running:
+      return "running";
+    case SupervisedNode::State::finished:
+      return "finished";
+    case SupervisedNode::State::restarting:
+      return "restarting";
+    case SupervisedNode::State::stopped:
+      return "stopped";
+    case SupervisedNode::State::failed:
+      return "failed";
+  }
+  return "";
+}
+
+SupervisedNode::SupervisedNode(Settings settings) : settings_(std::move(settings)), budget_(settings_.restarts) {
+  status_.round = -1;
+  status_.progress = -1.0;
+  status_.eta_s = -1.0;
+}
+
+SupervisedNode::~SupervisedNode() {
+  if (log_ != nullptr) std::fclose(log_);
+}
+
+void SupervisedNode::start() {
+  if (log_ == nullptr) {
+    std::error_code unmade;  // shows as a log that cannot be opened
+    std::filesystem::create_directories(settings_.log_file.parent_path(), unmade);
+    log_ = std::fopen(settings_.log_file.c_str(), "ae");
+    if (log_ == nullptr) {
+      throw InputError::format("{}: cannot be written: {}", settings_.log_file.string(), std::strerror(errno));
+    }
+  }
+  fmt::print(log_, "# {:%Y-%m-%dT%H:%M:%SZ} {}\n", fmt::gmtime(std::time(nullptr)), fmt::join(settings_.command, " "));
+  std::fflush(log_);
+  started_utime_ = now_utime();
+  process_ = std::make_unique<ChildProcess>(settings_.command);
+  state_ = State::starting;
+}
+
+std::vector<std::string> SupervisedNode::take_output() {
+  if (!process_) return {};
+  std::vector<std::string> lines = process_->read_lines();
+  for (const std::string& line : lines) {
+    fmt::print(log_, "{}\n", line);
+    if (!line.empty()) last_line_ = line;
+  }
+  if (!lines.empty()) std::fflush(log_);
+  return lines;
+}
+
+std::optional<std::string> SupervisedNode::supervise(Clock::time_point now) {
+  if (process_) {
+    const std::optional<ProcessEnd> end = process_->poll_end();
+    if (!end) return std::nullopt;
+    return take_end(*end, now);
+  }
+  if (!restart_at_ || now < *restart_at_ || end_is_expected_) return std::nullopt;
+  restart_at_.reset();
+  ++restarts_;
+  start();
+  return fmt::format("{} started again", name());
+}
+
+std::string SupervisedNode::take_end(const ProcessEnd& end, Clock::time_point now) {
+  take_output();
+  process_.reset();
+  fmt::print(log_, "# ended: {}\n", end.in_words());
+  std::fflush(log_);
+  constexpr int kBadInput = 2;
+  constexpr int kShownColumns = 300;
+  const std::string said =
+      last_line_.empty() ? "" : fmt::format("; it last said: {}", fitted(last_line_, kShownColumns));
+  if (end_is_expected_ || end.orderly()) {
+    state_ = State::stopped;
+    return fmt::format("{} stopped ({})", name(), end.in_words());
+  }
+  if (end.exit_status == kBadInput) {
+    state_ = State::failed;
+    return fmt::format("{} cannot work ({}){}; all it printed: {}", name(), end.in_words(), said,
+                       settings_.log_file.string());
+  }
+  if (!budget_.take(now)) {
+    state_ = State::failed;
+    return fmt::format("{} died too often ({}){}; it is not started again; all it printed: {}", name(), end.in_words(),
+                       said, settings_.log_file.string());
+  }
+  state_ = State::restarting;
+  restart_at_ = now + budget_.delay();
+  return fmt::format("{} died ({}){}; it is started again", name(), end.in_words(), said);
+}
+
+void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch) {
+  if (process_ && epoch < started_utime_) return;
+  if (!process_ && state_ != State::stopped) return;  // a late word of a process that has died
+  status_ = status;
+  // A stopped node that speaks again runs elsewhere: started by hand, perhaps on another machine.
+  if (status.finished) {
+    state_ = State::finished;
+  } else if (status.ready) {
+    state_ = State::running;
+  }
+}
+
+void SupervisedNode::signal(int signal) const {
+  if (process_) process_->signal_group(signal);
+}
+
+NodeView SupervisedNode::view() const {
+  return {.node = name(),
+          .state = std::string(to_string(state_)),
+          .phase = status_.phase,
+          .round = status_.round,
+          .progress = status_.progress,
+          .eta_s = state_ == State::running ? status_.eta_s : -1.0,
+          .restarts = restarts_,
+          .problem = status_.last_problem};
+}
+
+}  // namespace nacre::runtime
