@@ -82,6 +82,16 @@ Pattern mutate(const Pattern& parent, MutationKind kind, RandomStream& random) {
   return child;
 }
 
+std::optional<Pattern> mutate_until(const Pattern& parent, MutationKind kind, RandomStream& random,
+                                    const std::function<bool(const Pattern&)>& acceptable, int& attempts_left) {
+  for (Pattern child = parent; attempts_left > 0;) {
+    --attempts_left;
+    child = flipped_if_mostly_soft(mutation_attempt(child, kind, random));
+    if (is_feasible(child) && acceptable(child)) return child;
+  }
+  return std::nullopt;
+}
+
 std::optional<Pattern> mutate_or_roll_back(const Pattern& parent, MutationKind kind, RandomStream& random) {
   const Pattern child = flipped_if_mostly_soft(mutation_attempt(parent, kind, random));
   if (!is_feasible(child)) return std::nullopt;

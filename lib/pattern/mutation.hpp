@@ -1,6 +1,7 @@
 #pragma once
 // The mutation operator of the exploration (thesis 2.3.3) and its two simpler baselines (3.2.5).
 
+#include <functional>
 #include <optional>
 
 #include "base/random.hpp"
@@ -28,9 +29,14 @@ Pattern mutation_attempt(const Pattern& parent, MutationKind kind, RandomStream&
 Pattern flipped_if_mostly_soft(const Pattern& pattern);
 
 /// A mutation with repair: attempts, each followed by rule 1, are heaped upon one another until no constraint is
-/// violated. Ends with probability one; from a random feasible parent it takes 1.0 to 1.4 attempts on average,
-/// 2.5 at 85 % rigid (measured over 5000 parents; the longest run was 121).
+/// violated. Ends with probability one; from a random feasible parent it takes 1.0 to 1.4 attempts on average, 2.5 at
+/// 85 % rigid (measured over 5000 parents; the longest run was 121).
 Pattern mutate(const Pattern& parent, MutationKind kind, RandomStream& random);
+
+/// The same, until `acceptable` says yes, too (not a duplicate, say). `attempts_left` is counted down; nothing once it
+/// is 0.
+std::optional<Pattern> mutate_until(const Pattern& parent, MutationKind kind, RandomStream& random,
+                                    const std::function<bool(const Pattern&)>& acceptable, int& attempts_left);
 
 /// One attempt followed by rule 1, or nothing when the result violates a constraint: the attempt is rolled back.
 /// Repeated on the same parent this never leaves the parent's neighbourhood (baseline 2).

@@ -1,0 +1,139 @@
+#include "explore/gamut_csv.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+
+namespace nacre::explore {
+namespace {
+
+constexpr std::string_view kHeader = "index,pattern,rigid_fraction,modulus_pa,toughness_pa";
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+/// Where the reader stands, for its errors.
+struct Place {
+  std::string_view source;
+  std::size_t line = 0;
+  InputError error(std::size_t field, std::string_view name, std::string_view found, std::string_view expected) const {
+    return InputError::format("{}: line {}, column {} ({}): \"{}\", expected {}", source, line, field + 1, name, found,
+                              expected);
+  }
+};
+
+/// Takes the first line off `text`, without its LF or CRLF.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+/// Fields of a line. No field of a gamut holds a comma or a quote, so quotes may only surround a whole field.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (bool more = true; more;) {
+    const std::size_t comma = line.find(',');
+    std::string_view field = line.substr(0, comma);
+    more = comma != std::string_view::npos;
+    if (more) line.remove_prefix(comma + 1);
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+/// Positions of the columns that are read.
+struct Columns {
+  std::size_t count = 0, pattern = 0, modulus = 0, toughness = 0;
+};
+
+Columns columns_of(std::string_view header, std::string_view source) {
+  const std::vector<std::string_view> names = fields_of(header);
+  const auto position = [&](std::string_view name) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] != name) continue;
+      if (found) throw InputError::format("{}: line 1, column {}: a second column {}", source, i + 1, name);
+      found = i;
+    }
+    if (!found) throw InputError::format("{}: line 1: no column {}, expected {}", source, name, kHeader);
+    return *found;
+  };
+  return {names.size(), position("pattern"), position("modulus_pa"), position("toughness_pa")};
+}
+
+double quantity(const std::vector<std::string_view>& fields, std::size_t column, std::string_view name,
+                const Place& place) {
+  const std::string_view text = fields[column];
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || value < 0.0) {
+    throw place.error(column, name, text, "a finite number, not negative");
+  }
+  return value;
+}
+
+pattern::Pattern pattern_of(const std::vector<std::string_view>& fields, std::size_t column, const Place& place) {
+  const Result<pattern::Layout> layout = pattern::layout_from_key(fields[column]);
+  const auto pattern = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+  if (!pattern) throw place.error(column, "pattern", fields[column], "the key of a pattern, 14 lower-case hex digits");
+  return *pattern;
+}
+
+}  // namespace
+
+std::string to_csv(std::span<const Evaluated> gamut) {
+  std::string csv = fmt::format("{}\n", kHeader);
+  for (std::size_t i = 0; i < gamut.size(); ++i) {
+    const auto& [pattern, performance] = gamut[i];
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", i, pattern.key(), pattern.rigid_fraction(),
+                   performance.modulus_pa, performance.toughness_pa);
+  }
+  return csv;
+}
+
+void write_gamut_csv(const std::filesystem::path& path, std::span<const Evaluated> gamut) {
+  write_file_atomically(path, to_csv(gamut));
+}
+
+std::vector<Evaluated> read_gamut_csv(const std::filesystem::path& path) {
+  return gamut_from_csv(read_file(path), path.string());
+}
+
+std::vector<Evaluated> gamut_from_csv(std::string_view text, std::string_view source) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (text.empty()) throw InputError::format("{}: line 1: the file is empty, expected {}", source, kHeader);
+  const Columns columns = columns_of(take_line(text), source);
+  std::vector<Evaluated> gamut;
+  std::unordered_map<std::uint64_t, std::size_t> line_of_pattern;
+  for (Place place{source, 2}; !text.empty(); ++place.line) {
+    const std::string_view line = take_line(text);
+    if (line.empty()) continue;
+    const std::vector<std::string_view> fields = fields_of(line);
+    if (fields.size() != columns.count) {
+      throw InputError::format("{}: line {}, column {}: the row has {} fields, expected {}", source, place.line,
+                               std::min(fields.size(), columns.count) + 1, fields.size(), columns.count);
+    }
+    const pattern::Pattern pattern = pattern_of(fields, columns.pattern, place);
+    const auto [earlier, is_new] = line_of_pattern.emplace(pattern.bits(), place.line);
+    if (!is_new) {
+      throw place.error(columns.pattern, "pattern", pattern.key(),
+                        fmt::format("each pattern once: it stands in line {} already", earlier->second));
+    }
+    gamut.push_back({pattern,
+                     {quantity(fields, columns.modulus, "modulus_pa", place),
+                      quantity(fields, columns.toughness, "toughness_pa", place)}});
+  }
+  return gamut;
+}
+
+}  // namespace nacre::explore
