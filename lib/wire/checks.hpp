@@ -1,0 +1,57 @@
+#pragma once
+// Small checks that the conversions share; each error names the member and what was expected.
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/result.hpp"
+#include "pattern/design.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::wire {
+
+inline Result<void> expect_range(std::string_view member, double value, double minimum, double maximum) {
+  if (value >= minimum && value <= maximum) return {};
+  return fail("{}: {} is outside [{}, {}]", member, value, minimum, maximum);
+}
+
+/// Moduli, toughnesses and stresses beyond these are no material's; a value out of range is a broken program, not a
+/// finding.
+inline constexpr double kLargestPressurePa = 1e13;
+inline constexpr double kLargestStrain = 100.0;
+inline constexpr int kLargestRound = 100'000;
+inline constexpr std::int64_t kLargestCount = 1'000'000'000;
+
+inline Result<void> expect_pressure(std::string_view member, double value_pa) {
+  return expect_range(member, value_pa, 0.0, kLargestPressurePa);
+}
+
+inline Result<void> expect_round(int round, int minimum = 0) {
+  return expect_range("round", round, minimum, kLargestRound);
+}
+
+inline Result<void> expect_name(std::string_view member, std::string_view name) {
+  if (!name.empty() && name.size() <= 200) return {};
+  return fail("{}: a text of 1 to 200 bytes was expected, not {}", member, name.size());
+}
+
+inline Result<void> expect_count(std::string_view member, std::size_t count, std::size_t maximum) {
+  if (count <= maximum) return {};
+  return fail("{}: {} elements, at most {}", member, count, maximum);
+}
+
+/// A 55-bit pattern.
+inline Result<pattern::Pattern> pattern_from_bits(std::int64_t bits) {
+  if (bits < 0 || (bits >> pattern::kFreePixels) != 0) return fail("pattern: {:x} has more than 55 bits", bits);
+  return pattern::Pattern(static_cast<std::uint64_t>(bits));
+}
+
+/// The first failed check of a list.
+template <class... Checks>
+Result<void> all_of(const Checks&... checks) {
+  Result<void> first;
+  ((first = first && !checks ? Result<void>(tl::unexpected(checks.error())) : first), ...);
+  return first;
+}
+
+}  // namespace nacre::wire

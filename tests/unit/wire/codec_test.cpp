@@ -1,0 +1,160 @@
+#include "wire/codec.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <limits>
+
+#include "base/random.hpp"
+#include "samples.hpp"
+#include "wire/channels.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::wire {
+namespace {
+
+/// Caps the address space while it lives, so that a decoder which believes a hostile length fails the test.
+class MemoryCap {
+ public:
+  explicit MemoryCap(rlim_t bytes) {
+#ifndef __SANITIZE_ADDRESS__
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit capped = before_;
+    capped.rlim_cur = bytes;
+    setrlimit(RLIMIT_AS, &capped);
+#endif
+  }
+  ~MemoryCap() {
+#ifndef __SANITIZE_ADDRESS__
+    setrlimit(RLIMIT_AS, &before_);
+#endif
+  }
+
+ private:
+  [[maybe_unused]] rlimit before_{};
+};
+
+std::string corrupted(std::string bytes, RandomStream& random) {
+  const int kind = random.index(4);
+  const int edits = 1 + random.index(4);
+  if (kind == 0) return bytes.substr(0, static_cast<std::size_t>(random.index(static_cast<int>(bytes.size()) + 1)));
+  if (kind == 1)
+    return bytes.insert(static_cast<std::size_t>(random.index(static_cast<int>(bytes.size()))), edits, '\xff');
+  for (int i = 0; i < edits; ++i) {
+    char& byte = bytes[static_cast<std::size_t>(random.index(static_cast<int>(bytes.size())))];
+    byte = kind == 2 ? static_cast<char>(random.index(256)) : static_cast<char>(byte ^ (1 << random.index(8)));
+  }
+  return bytes;
+}
+
+TEST(Codec, CorruptedBytesNeverThrowNorTakeMemory) {
+  for (const auto& [name, payload] : samples::payloads()) {
+    const Channel* channel = find_channel(name);
+    ASSERT_NE(channel, nullptr) << name;
+    ASSERT_TRUE(channel->validate(payload)) << channel->validate(payload).error().message;
+    RandomStream random(1, name);
+    int accepted = 0;
+    const MemoryCap cap(rlim_t{512} << 20);
+    for (int i = 0; i < 20'000; ++i) {
+      ASSERT_NO_THROW(accepted += channel->validate(corrupted(payload, random)).has_value()) << name;
+    }
+    EXPECT_LT(accepted, 16'000) << name;  // flipped digits of numbers are still numbers: the checksum is for those
+  }
+}
+
+TEST(Codec, HostileCountsAreRefusedBeforeAnythingIsAllocated) {
+  ack_t ack{};
+  ack.hashes.assign(3, std::string(32, 'a'));
+  std::string payload = encode(ack);
+  const std::size_t count = payload.size() - 3 * (4 + 33) - 4;
+  for (const std::uint32_t length : {0x7fffffffu, 0xffffffffu, 0x80000000u, 100000u}) {
+    for (int i = 0; i < 4; ++i)
+      payload[count + static_cast<std::size_t>(i)] = static_cast<char>(length >> (24 - 8 * i));
+    const MemoryCap cap(rlim_t{512} << 20);
+    const auto decoded = decode_safe<ack_t>(payload);
+    ASSERT_FALSE(decoded);
+    EXPECT_NE(decoded.error().message.find("hashes"), std::string::npos) << decoded.error().message;
+  }
+}
+
+TEST(Codec, EncodingSetsCountsFromArraysAndRefusesArraysThatDiffer) {
+  gamut_t gamut{};
+  gamut.n = 1'000'000;  // nonsense that encode() must not believe
+  gamut.pattern = {1, 2};
+  gamut.modulus_pa = {1.0, 2.0};
+  gamut.toughness_pa = {1.0, 2.0};
+  EXPECT_EQ(decode_safe<gamut_t>(encode(gamut))->n, 2);
+  gamut.toughness_pa.pop_back();
+  EXPECT_THROW(encode(gamut), std::logic_error);
+}
+
+TEST(Codec, AnotherTypesBytesAreRefused) {
+  EXPECT_FALSE(decode_safe<review_t>(samples::payloads()[0].second));
+  EXPECT_FALSE(decode_safe<review_t>(""));
+}
+
+TEST(Codec, NumbersThatAreNotFiniteAndTrailingBytesAreRefused) {
+  round_summary_t round{};
+  round.gap = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(decode_safe<round_summary_t>(encode(round)));
+  round.gap = 1.0;
+  EXPECT_TRUE(decode_safe<round_summary_t>(encode(round)));
+  EXPECT_FALSE(decode_safe<round_summary_t>(encode(round) + '\0'));
+}
+
+TEST(Codec, TextWithAZeroByteEndsThere) {
+  review_t review{};
+  review.why = std::string("grip\0slip", 9);
+  const auto decoded = decode_safe<review_t>(encode(review));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(decoded->why, "grip");
+}
+
+TEST(Schema, FollowsTheGeneratedTypes) {
+  for (const auto& [name, payload] : samples::payloads()) {
+    const auto json = to_json(find_channel(name)->type, payload);
+    ASSERT_TRUE(json) << json.error().message;
+    EXPECT_EQ(json->begin().key(), "header") << name;
+  }
+  EXPECT_EQ((*to_json("simulate_request_t", write(samples::request())))["designs"][1], "mix:0.65");
+  EXPECT_FALSE(to_json("no_such_t", "12345678"));
+}
+
+TEST(Schema, NamesTheFirstFieldThatDiffers) {
+  Proposal a = samples::proposal(), b = a;
+  EXPECT_FALSE(first_difference("proposal_t", write(a), write(b)));
+  b.designs[0].modulus_pa = 3e9;
+  EXPECT_EQ(*first_difference("proposal_t", write(a), write(b)),
+            "designs[0].modulus_pa: 1000000000 against 3000000000");
+}
+
+TEST(Header, ComesOffAsItWasStamped) {
+  for (const auto& [channel, payload] : samples::payloads()) {
+    const Header header{123, "validation_agent", 456, 7, "run-1"};
+    const auto blanked = blank_header(channel, stamp_header(channel, payload, header));
+    ASSERT_TRUE(blanked);
+    EXPECT_EQ(blanked->header, header);
+    EXPECT_EQ(blanked->payload, payload);
+  }
+}
+
+TEST(Header, EverySingleFlippedBitIsFound) {
+  const std::string bytes = stamp_header("ROUND", write(samples::round()), {1, "validation_agent", 2, 3, "run-1"});
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    std::string damaged = bytes;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+    EXPECT_FALSE(blank_header("ROUND", damaged)) << "bit " << bit;
+  }
+  EXPECT_FALSE(blank_header("REVIEW", bytes));  // the channel belongs to it
+}
+
+TEST(Header, DoesNotTouchTheIdentityOfAMessage) {
+  const std::string payload = write(samples::round());
+  const auto once = blank_header("ROUND", stamp_header("ROUND", payload, {1, "a", 2, 3, "run-1"}));
+  const auto again = blank_header("ROUND", stamp_header("ROUND", payload, {9, "b", 9, 9, "run-1"}));
+  EXPECT_EQ(message_hash("ROUND", once->payload), message_hash("ROUND", again->payload));
+  EXPECT_NE(message_hash("ROUND", payload), message_hash("RUN", payload));
+}
+
+}  // namespace
+}  // namespace nacre::wire

@@ -1,0 +1,110 @@
+#include "wire/convert.hpp"
+
+#include <gtest/gtest.h>
+
+#include "samples.hpp"
+
+namespace nacre::wire {
+namespace {
+
+template <class Domain>
+void expect_round_trip(const Domain& value) {
+  const Result<Domain> back = read<Domain>(write(value));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(*back, value);
+}
+
+TEST(Convert, EveryDomainValueComesBack) {
+  expect_round_trip(samples::model());
+  expect_round_trip(samples::request());
+  expect_round_trip(samples::result());
+  expect_round_trip(samples::gamut());
+  expect_round_trip(samples::proposal());
+  expect_round_trip(samples::order());
+  expect_round_trip(samples::measurement());
+  expect_round_trip(samples::round());
+  expect_round_trip(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}});
+}
+
+TEST(Convert, PhysicallyImpossibleParametersAreRefused) {
+  SimulateRequest request = samples::request();
+  request.parameters.toughness.e_vw_pa = -1.0;
+  const auto read_back = read<SimulateRequest>(write(request));
+  ASSERT_FALSE(read_back);
+  EXPECT_NE(read_back.error().message.find("e_vw"), std::string::npos) << read_back.error().message;
+}
+
+TEST(Convert, RequestsWithoutRequesterTestOrDesignAreRefused) {
+  const auto refused = [](auto change) {
+    SimulateRequest request = samples::request();
+    change(request);
+    return !read<SimulateRequest>(write(request));
+  };
+  EXPECT_TRUE(refused([](SimulateRequest& r) { r.request_id = "17"; }));
+  EXPECT_TRUE(refused([](SimulateRequest& r) { r.modulus = r.toughness = false; }));
+  EXPECT_TRUE(refused([](SimulateRequest& r) { r.designs.clear(); }));
+  EXPECT_TRUE(refused([](SimulateRequest& r) { r.designs.assign(65, r.designs[0]); }));
+  EXPECT_TRUE(refused([](SimulateRequest& r) { r.conditions.orientation_deg = 45.0; }));
+  EXPECT_TRUE(refused([](SimulateRequest& r) { r.curve_points = 1501; }));
+  EXPECT_FALSE(refused([](SimulateRequest& r) { r.designs.resize(1); }));
+}
+
+TEST(Convert, ValidSpecimensCarryAResult) {
+  Measurement m = samples::measurement();
+  m.record.toughness_pa.reset();
+  m.record.curve = {};
+  EXPECT_FALSE(read<Measurement>(write(m)));
+  m.record.valid = false;  // a failed specimen has none
+  EXPECT_TRUE(read<Measurement>(write(m)));
+}
+
+TEST(Convert, CodesOutsideTheEnumerationsAreRefused) {
+  measurement_t message = to_wire(samples::measurement());
+  message.test = 3;
+  EXPECT_FALSE(from_wire(message));
+  message.test = 0;
+  message.fidelity = -1;
+  EXPECT_FALSE(from_wire(message));
+  message.fidelity = 2;
+  message.design = "577fffe9fffdeZ";
+  EXPECT_FALSE(from_wire(message));
+}
+
+TEST(Convert, AnswersAreCutBelowADatagramAndJoinedInAnyOrder) {
+  std::vector<SimulatedDesign> results(64);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    results[i].design = pattern::Pattern(i);
+    results[i].modulus_pa = 1e9 + static_cast<double>(i);
+    results[i].curve = {std::vector<double>(500, 0.25), std::vector<double>(500, static_cast<double>(i))};
+  }
+  std::vector<SimulateResult> parts = simulate_answer("analyser/1", results);
+  ASSERT_GT(parts.size(), 3u);
+  AnswerCollector collector;
+  std::optional<std::vector<SimulatedDesign>> whole;
+  for (std::size_t i = parts.size(); i-- > 0;) {
+    EXPECT_LE(write(parts[i]).size(), kMaximumPayload - 500);  // leaves room for the header
+    EXPECT_FALSE(whole);
+    whole = collector.add(*read<SimulateResult>(write(parts[i])));
+    if (i == 2) {
+      EXPECT_FALSE(collector.add(parts[2]));  // a repetition completes nothing
+    }
+  }
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(*whole, results);
+}
+
+TEST(Convert, GamutsAreCutIntoChunksAndJoined) {
+  std::vector<explore::Evaluated> samples;
+  for (std::uint64_t i = 0; i < 2500; ++i) samples.push_back({pattern::Pattern(i), {1e9, static_cast<double>(i)}});
+  const std::vector<GamutChunk> chunks = gamut_chunks(2, tester::Fidelity::tiny, samples);
+  ASSERT_EQ(chunks.size(), 3u);
+  GamutCollector collector;
+  EXPECT_FALSE(collector.add(chunks[2]));
+  EXPECT_FALSE(collector.add(chunks[0]));
+  EXPECT_LE(write(chunks[0]).size(), kMaximumPayload - 500);
+  EXPECT_EQ(collector.add(chunks[1]), samples);
+  EXPECT_EQ(gamut_chunks(2, tester::Fidelity::tiny, {}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace nacre::wire

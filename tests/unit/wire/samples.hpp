@@ -1,0 +1,145 @@
+#pragma once
+// One sound message per channel, with every array filled.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wire/convert.hpp"
+
+namespace nacre::wire::samples {
+
+inline material::ParameterSet parameters() {
+  material::ParameterSet set = material::default_parameters();
+  set.extensions["machine_compliance"] = {1e-9};
+  return set;
+}
+
+inline tester::Curve curve() { return {{0.0, 0.01, 0.02}, {0.0, 2e6, 1e6}}; }
+
+inline SimulateRequest request() {
+  SimulateRequest request;
+  request.request_id = "proposal_agent/0/17";
+  request.modulus = request.toughness = true;
+  request.fidelity = tester::Fidelity::preview;
+  request.conditions = {90.0, 1e-3, 3.2};
+  request.parameters = material::default_parameters();
+  request.curve_points = 100;
+  request.designs = {pattern::Pattern(0x577fffe9fffdef), pattern::Mixture{0.65}, pattern::Mixture{0.0}};
+  return request;
+}
+
+inline SimulateResult result() {
+  SimulateResult result{"proposal_agent/0/17", 0, 2, 0, {}};
+  result.results.push_back(
+      {pattern::Pattern(0x3ffc9b4ad4d2d9), "", 1.5e9, 2e6, 3e7, 0.25, {{0.0, 0.5}, {0.0, 1024.0}}});
+  result.results.push_back({pattern::Mixture{1.0}, "J <= 0 at element 7", 0.0, 0.0, 0.0, 0.0, {}});
+  return result;
+}
+
+inline Measurement measurement() {
+  Measurement m;
+  m.round = 1;
+  m.order_id = "1/rigid/modulus";
+  m.record.specimen = "S-001";
+  m.record.design = pattern::Mixture{0.65};
+  m.record.test = tester::TestKind::toughness;
+  m.record.batch = "B1";
+  m.record.print_order = 3;
+  m.record.toughness_pa = 1.1e6;
+  m.record.curve = curve();
+  m.record.note = "slipped a little";
+  return m;
+}
+
+inline AdoptedModel model() {
+  AdoptedModel model;
+  model.round = 2;
+  model.parameters = material::default_parameters();
+  model.before = {4, 0.1, 0.3, 5, 0.2, 0.5, 0.7};
+  model.simulations = 77;
+  model.benchmark = {{1e8, 2e6}, {1e9, 1e6}};
+  model.measured = {pattern::Pattern(5), pattern::Pattern(9)};
+  return model;
+}
+
+inline GamutChunk gamut() {
+  return {1, tester::Fidelity::tiny, 0, 1, {{pattern::Pattern(7), {1e9, 2e6}}, {pattern::Pattern(8), {2e9, 1e6}}}};
+}
+
+inline Proposal proposal() {
+  Proposal proposal;
+  proposal.round = 1;
+  proposal.designs = {{pattern::Pattern(0x577fffe9fffdef), 1e9, 2e6, 3, "radial bin 3"}};
+  return proposal;
+}
+
+inline TestOrder order() {
+  TestOrder order;
+  order.order_id = "1/mix:0.65/toughness";
+  order.design = pattern::Mixture{0.65};
+  order.test = tester::TestKind::toughness;
+  order.replicates = 3;
+  order.batch = "round-1";
+  order.reason = "mixture";
+  return order;
+}
+
+inline RoundSummary round() {
+  RoundSummary summary;
+  summary.round = 1;
+  summary.gap = 0.25;
+  summary.signed_gap = -0.125;
+  summary.held_out = {3, 0.1, 0.2, 3, 0.2, 0.4, 0.5};
+  summary.decided_by = "gap above the bootstrap error";
+  return summary;
+}
+
+inline diagnosis_t diagnosis() {
+  diagnosis_t m{};
+  m.round = 1;
+  m.verdict = "named";
+  m.summary = "the machine gives way";
+  m.effects.push_back({"machine_compliance", "machine", 1e-9, 0.0, 2e-9, "m/N"});
+  m.candidates.push_back({"droplet_mixing", "excluded", 0.1, 0.9, 0.2});
+  m.next_experiments.push_back({"mix:0.65", 0, {0.0, 6.17e-4, 3.2}, 2, "thick against thin"});
+  return m;
+}
+
+/// (channel, payload) of every row of the table.
+inline std::vector<std::pair<std::string, std::string>> payloads() {
+  run_t run{};
+  run.seed = 1;
+  run.scenario_hash = "0123456789abcdef0123456789abcdef";
+  run.schema_version = 1;
+  approval_t approval{};
+  approval.design = "577fffe9fffdef";
+  approval.approved = 1;
+  approval.by = "someone";
+  review_t review{};
+  review.specimen = "S-001";
+  review.revision = 2;
+  review.why = "broke at the grip";
+  ack_t ack{};
+  ack.hashes = {"0123456789abcdef0123456789abcdef", "ffffffffffffffffffffffffffffffff"};
+  node_status_t status{};
+  status.phase = "search";
+  status.progress = 0.5;
+  return {{"RUN", encode(run)},
+          {"PARAMETERS", write(model())},
+          {"SIMULATE", write(request())},
+          {"SIMULATED", write(result())},
+          {"GAMUT", write(gamut())},
+          {"PROPOSAL", write(proposal())},
+          {"APPROVAL", encode(approval)},
+          {"TEST_ORDER", write(order())},
+          {"MEASUREMENT", write(measurement())},
+          {"REVIEW", encode(review)},
+          {"DIAGNOSE", write(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}})},
+          {"DIAGNOSIS", encode(diagnosis())},
+          {"ROUND", write(round())},
+          {"ACK", encode(ack)},
+          {"STATUS", encode(status)}};
+}
+
+}  // namespace nacre::wire::samples
