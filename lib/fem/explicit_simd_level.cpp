@@ -1,0 +1,44 @@
+#include <cstdlib>
+
+#include "fem/explicit_solver.hpp"
+
+namespace nacre::fem {
+
+std::string_view to_string(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::baseline:
+      return "baseline";
+    case SimdLevel::avx2:
+      return "avx2";
+    case SimdLevel::avx512:
+      return "avx512";
+  }
+  return "unknown";
+}
+
+bool has_simd_level(SimdLevel level) {
+  switch (level) {
+    case SimdLevel::baseline:
+      return true;
+    case SimdLevel::avx2:
+      return __builtin_cpu_supports("x86-64-v3");
+    case SimdLevel::avx512:
+      return __builtin_cpu_supports("x86-64-v4");
+  }
+  return false;
+}
+
+SimdLevel best_simd_level() {
+  static const SimdLevel level = [] {
+    const char* forced = std::getenv("NACRE_SIMD");
+    for (const SimdLevel candidate : {SimdLevel::avx512, SimdLevel::avx2}) {
+      const bool excluded = forced && (forced == to_string(SimdLevel::baseline) ||
+                                       (forced == to_string(SimdLevel::avx2) && candidate == SimdLevel::avx512));
+      if (!excluded && has_simd_level(candidate)) return candidate;
+    }
+    return SimdLevel::baseline;
+  }();
+  return level;
+}
+
+}  // namespace nacre::fem

@@ -1,0 +1,317 @@
+#include "fem/explicit_solver.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "material/neo_hookean.hpp"
+
+namespace nacre::fem {
+namespace {
+
+constexpr int kCheckInterval = 64;
+constexpr std::size_t kAlignment = 64;
+
+int padded(int count) { return (count + kRowPadding - 1) / kRowPadding * kRowPadding; }
+
+/// Lame parameters of an element of the grid.
+material::Lame lame_of(const Grid& grid, int element) {
+  return material::lame_from_engineering(grid.young_pa[element], grid.poisson[element]);
+}
+
+/// dN/dX of the four corners (bottom-left, bottom-right, top-left, top-right) at Gauss point `point`, on the unit
+/// square.
+Eigen::Matrix<double, 4, 2> shape_gradients(int point) {
+  const double low = 0.5 * (1.0 - 1.0 / std::sqrt(3.0));
+  const double x = point % 2 == 0 ? low : 1.0 - low, y = point / 2 == 0 ? low : 1.0 - low;
+  Eigen::Matrix<double, 4, 2> gradients;
+  gradients << -(1.0 - y), -(1.0 - x), 1.0 - y, -x, -y, 1.0 - x, y, x;
+  return gradients;
+}
+
+}  // namespace
+
+double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3) {
+  double stiffest = 0.0;
+  for (int element = 0; element < grid.element_count(); ++element) {
+    if (grid.phase[element] == Phase::empty) continue;
+    const material::Lame lame = lame_of(grid, element);
+    stiffest = std::max(stiffest, lame.lambda_pa + 2.0 * lame.mu_pa);
+  }
+  return std::sqrt(stiffest / density_kg_per_m3);
+}
+
+/// One aligned block for all arrays of a solver, handed out in order and zero at first.
+template <class Real>
+struct ExplicitSolver<Real>::Storage {
+  explicit Storage(std::size_t numbers, int elements)
+      : block(static_cast<Real*>(::operator new[](numbers * sizeof(Real), std::align_val_t{kAlignment}))),
+        size(numbers),
+        failed(static_cast<std::size_t>(elements)) {
+    std::fill_n(block, size, Real{0});
+  }
+  ~Storage() { ::operator delete[](block, std::align_val_t{kAlignment}); }
+  Storage(const Storage&) = delete;
+  Storage& operator=(const Storage&) = delete;
+
+  /// `count` numbers with `front` before them.
+  Real* take(std::size_t count, std::size_t front = 0) {
+    Real* start = block + used + front;
+    used += front + count;
+    assert(used <= size);
+    return start;
+  }
+
+  Real* block;
+  std::size_t size, used = 0;
+  std::vector<std::int32_t> failed;
+};
+
+template <class Real>
+ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& settings)
+    : grid_(grid), settings_(settings) {
+  const SimdLevel level = settings.simd.value_or(best_simd_level());
+  const auto choose = [&]<class Single>(const ExplicitKernel<Single>* a, const ExplicitKernel<Single>* b,
+                                        const ExplicitKernel<Single>* c) {
+    return level == SimdLevel::avx512 ? c : level == SimdLevel::avx2 ? b : a;
+  };
+  if constexpr (sizeof(Real) == sizeof(float)) {
+    kernel_ = choose(&baseline::kSingle, &avx2::kSingle, &avx512::kSingle);
+  } else {
+    kernel_ = choose(&baseline::kDouble, &avx2::kDouble, &avx512::kDouble);
+  }
+  state_.columns = grid.columns;
+  state_.rows = grid.rows;
+  state_.stride = padded(grid.columns + 1) + kRowPadding;
+  state_.element_stride = padded(grid.columns);
+  const std::size_t nodes = static_cast<std::size_t>(grid.rows + 1) * state_.stride + kRowPadding;
+  const std::size_t elements = static_cast<std::size_t>(grid.rows) * state_.element_stride;
+  constexpr std::size_t kRowCount = 18;
+  const std::size_t row = static_cast<std::size_t>(state_.stride) + kRowPadding;
+  storage_ = std::make_unique<Storage>(4 * nodes + 3 * elements + kRowCount * row, grid.element_count());
+  for (Real** field : {&state_.qx, &state_.qy, &state_.vx, &state_.vy})
+    *field = storage_->take(nodes - kRowPadding, kRowPadding);
+  for (Real** field : {&state_.mu, &state_.lambda, &state_.threshold}) *field = storage_->take(elements);
+  ExplicitRows<Real>& r = state_.row;
+  for (Real** field : {&r.horizontal_x, &r.horizontal_y, &r.upper_x, &r.upper_y, &r.left_x, &r.left_y, &r.right_x,
+                       &r.right_y, &r.below_x, &r.below_y, &r.excess, &r.sum_x[0], &r.sum_x[1], &r.sum_x[2],
+                       &r.sum_y[0], &r.sum_y[1], &r.sum_y[2], &r.weight})
+    *field = storage_->take(row - kRowPadding, kRowPadding);
+  const double alpha = settings.gamma_per_s * settings.time_step_s;
+  std::fill_n(r.weight + 1, grid.columns - 1, static_cast<Real>(alpha));
+  state_.damping = settings.damping;
+  state_.decay = static_cast<Real>(std::exp(-alpha));
+  state_.grip_step = settings.strain_rate_per_s * settings.time_step_s * grid.rows;
+  state_.failed = storage_->failed.data();
+  fill_elements();
+  if (settings.keep_ledger) {
+    ledger_.initial_kinetic = kinetic_energy();
+    ledger_.initial_stored = stored_energy();
+  }
+}
+
+template <class Real>
+ExplicitSolver<Real>::ExplicitSolver(ExplicitSolver&&) noexcept = default;
+template <class Real>
+ExplicitSolver<Real>::~ExplicitSolver() = default;
+
+template <class Real>
+Result<ExplicitSolver<Real>> ExplicitSolver<Real>::create(const Grid& grid, const ExplicitSettings& settings) {
+  assert(grid.columns >= 2 && grid.rows >= 2 && static_cast<int>(grid.phase.size()) == grid.element_count());
+  const double dt = settings.time_step_s, wave = fastest_wave_m_per_s(grid, settings.density_kg_per_m3);
+  if (!(dt > 0.0) || !std::isfinite(wave) || !(settings.gamma_per_s >= 0.0))
+    return fail("time step {} s, wave speed {} m/s and gamma {} /s must be finite and not negative", dt, wave,
+                settings.gamma_per_s);
+  if (dt * wave > settings.largest_courant_number * grid.element_size_m)
+    return fail("time step {} s is beyond the stability limit {} s", dt, grid.element_size_m / wave);
+  if (settings.damping == Damping::smoothing && dt * settings.gamma_per_s > 1.0)
+    return fail("alpha = gamma dt = {} exceeds 1, where the filter of Eq. 2.4 is no average any more",
+                dt * settings.gamma_per_s);
+  return ExplicitSolver(grid, settings);
+}
+
+template <class Real>
+void ExplicitSolver<Real>::fill_elements() {
+  const double h = grid_.element_size_m, dt = settings_.time_step_s;
+  const double scale = dt * dt / (4.0 * settings_.density_kg_per_m3 * h * h);
+  std::fill_n(state_.threshold, static_cast<std::size_t>(grid_.rows) * state_.element_stride,
+              std::numeric_limits<Real>::infinity());
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int column = 0; column < grid_.columns; ++column) {
+      const int element = grid_.index(row, column), at = row * state_.element_stride + column;
+      if (grid_.phase[element] == Phase::empty) continue;
+      const material::Lame lame = lame_of(grid_, element);
+      state_.mu[at] = static_cast<Real>(lame.mu_pa * scale);
+      state_.lambda[at] = static_cast<Real>(lame.lambda_pa * scale);
+      state_.threshold[at] = static_cast<Real>(2.0 * grid_.threshold_j_per_m3[element] * scale);
+    }
+  }
+}
+
+template <class Real>
+Result<StepReport> ExplicitSolver<Real>::step() {
+  state_.strain = static_cast<Real>(strain());
+  if (settings_.keep_ledger) {
+    kernel_->advance_with_ledger(state_);
+  } else {
+    kernel_->advance(state_);
+  }
+  const double h = grid_.element_size_m, dt = settings_.time_step_s;
+  const double force_pa = settings_.density_kg_per_m3 * h * h / (dt * dt) / grid_.columns;
+  const StepReport report{.strain = strain(),
+                          .top_stress_pa = state_.top_force * force_pa,
+                          .bottom_stress_pa = state_.bottom_force * force_pa,
+                          .failed = state_.failed_count};
+  if (settings_.keep_ledger) {
+    const double width = grid_.columns * h, height = grid_.rows * h;
+    ledger_.work += report.top_stress_pa * width * settings_.strain_rate_per_s * height * dt;
+    ledger_.damped += 0.5 * settings_.density_kg_per_m3 * std::pow(h, 4) / (dt * dt) * state_.damped_energy;
+  }
+  ++steps_;
+  for (int i = 0; i < state_.failed_count; ++i)
+    if (!(smallest_volume_ratio(state_.failed[i]) > 0.0)) return blow_up(state_.failed[i]);
+  erase_failed();
+  if (steps_ % kCheckInterval == 0) {
+    const int inverted = kernel_->first_inverted(state_);
+    if (inverted >= 0) return blow_up(inverted);
+  }
+  return report;
+}
+
+template <class Real>
+void ExplicitSolver<Real>::erase_failed() {
+  for (int i = 0; i < state_.failed_count; ++i) {
+    const int element = state_.failed[i];
+    const int at = element / grid_.columns * state_.element_stride + element % grid_.columns;
+    if (settings_.keep_ledger)
+      ledger_.fractured += element_energy(element, false) * grid_.element_size_m * grid_.element_size_m;
+    state_.mu[at] = state_.lambda[at] = Real{0};
+    state_.threshold[at] = std::numeric_limits<Real>::infinity();
+    grid_.phase[element] = Phase::empty;
+  }
+}
+
+template <class Real>
+tl::unexpected<Error> ExplicitSolver<Real>::blow_up(int element) const {
+  return fail("the solution blew up: J = {:.3g} in element row {} column {} at step {}, strain {:.4g}",
+              smallest_volume_ratio(element), element / grid_.columns, element % grid_.columns, steps_, strain());
+}
+
+template <class Real>
+double ExplicitSolver<Real>::strain() const {
+  return settings_.initial_strain + settings_.strain_rate_per_s * settings_.time_step_s * static_cast<double>(steps_);
+}
+
+template <class Real>
+std::vector<int> ExplicitSolver<Real>::last_failed() const {
+  return {state_.failed, state_.failed + state_.failed_count};
+}
+
+template <class Real>
+bool ExplicitSolver<Real>::is_empty(int element) const {
+  return grid_.phase[element] == Phase::empty;
+}
+
+template <class Real>
+std::size_t ExplicitSolver<Real>::node_offset(int node) const {
+  const int per_row = grid_.columns + 1;
+  return static_cast<std::size_t>(node / per_row) * state_.stride + node % per_row;
+}
+
+template <class Real>
+Eigen::Vector2d ExplicitSolver<Real>::displacement_m(int node) const {
+  const std::size_t at = node_offset(node);
+  const double stretch = strain() * (node / (grid_.columns + 1));
+  return grid_.element_size_m * Eigen::Vector2d(state_.qx[at], state_.qy[at] + stretch);
+}
+
+template <class Real>
+Eigen::Vector2d ExplicitSolver<Real>::velocity_m_per_s(int node) const {
+  const std::size_t at = node_offset(node);
+  const double stretch = state_.grip_step * (node / (grid_.columns + 1)) / grid_.rows;
+  return grid_.element_size_m / settings_.time_step_s * Eigen::Vector2d(state_.vx[at], state_.vy[at] + stretch);
+}
+
+template <class Real>
+void ExplicitSolver<Real>::set_node(int node, const Eigen::Vector2d& displacement, const Eigen::Vector2d& velocity) {
+  const std::size_t at = node_offset(node);
+  const int row = node / (grid_.columns + 1);
+  const Eigen::Vector2d q = displacement / grid_.element_size_m;
+  const Eigen::Vector2d v = velocity * (settings_.time_step_s / grid_.element_size_m);
+  state_.qx[at] = static_cast<Real>(q.x());
+  state_.qy[at] = static_cast<Real>(q.y() - strain() * row);
+  state_.vx[at] = static_cast<Real>(v.x());
+  state_.vy[at] = static_cast<Real>(v.y() - state_.grip_step * row / grid_.rows);
+}
+
+/// Calls visit(H) with the displacement gradient at the four Gauss points of an element.
+template <class Real, class Visit>
+void visit_gradients(const ExplicitState<Real>& s, double strain, int element, const Visit& visit) {
+  const std::size_t at = static_cast<std::size_t>(element / s.columns) * s.stride + element % s.columns;
+  Eigen::Matrix<double, 2, 4> corners;
+  const std::size_t offsets[4] = {at, at + 1, at + s.stride, at + s.stride + 1};
+  for (int corner = 0; corner < 4; ++corner) corners.col(corner) << s.qx[offsets[corner]], s.qy[offsets[corner]];
+  for (int point = 0; point < 4; ++point) {
+    Eigen::Matrix2d h = corners * shape_gradients(point);
+    h(1, 1) += strain;
+    visit(h);
+  }
+}
+
+template <class Real>
+double ExplicitSolver<Real>::smallest_volume_ratio(int element) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  visit_gradients(state_, strain(), element, [&](const Eigen::Matrix2d& h) {
+    const double ratio = 1.0 + material::volume_change(h);
+    if (!(ratio >= smallest)) smallest = ratio;
+  });
+  return smallest;
+}
+
+template <class Real>
+double ExplicitSolver<Real>::element_energy(int element, bool largest) const {
+  if (is_empty(element)) return 0.0;
+  const material::Lame lame = lame_of(grid_, element);
+  double sum = 0.0, most = 0.0;
+  visit_gradients(state_, strain(), element, [&](const Eigen::Matrix2d& h) {
+    const double energy = material::energy_density(h, lame);
+    sum += energy;
+    most = std::max(most, energy);
+  });
+  return largest ? most : 0.25 * sum;
+}
+
+template <class Real>
+double ExplicitSolver<Real>::energy_density_j_per_m3(int element) const {
+  return element_energy(element, true);
+}
+
+template <class Real>
+double ExplicitSolver<Real>::kinetic_energy() const {
+  double sum = 0.0;
+  const int nodes = (grid_.columns + 1) * (grid_.rows + 1);
+  for (int node = 0; node < nodes; ++node) sum += velocity_m_per_s(node).squaredNorm();
+  return 0.5 * settings_.density_kg_per_m3 * grid_.element_size_m * grid_.element_size_m * sum;
+}
+
+template <class Real>
+double ExplicitSolver<Real>::stored_energy() const {
+  double sum = 0.0;
+  for (int element = 0; element < grid_.element_count(); ++element) sum += element_energy(element, false);
+  return sum * grid_.element_size_m * grid_.element_size_m;
+}
+
+template <class Real>
+EnergyLedger ExplicitSolver<Real>::ledger() const {
+  EnergyLedger now = ledger_;
+  now.kinetic = kinetic_energy();
+  now.stored = stored_energy();
+  return now;
+}
+
+template class ExplicitSolver<float>;
+template class ExplicitSolver<double>;
+
+}  // namespace nacre::fem

@@ -1,0 +1,128 @@
+#pragma once
+// Explicit dynamics with fracture on a grid (thesis 2.3.1): total Lagrangian, four-node squares with 2 x 2 Gauss
+// points, compressible neo-Hookean law, equal mass at every node, symplectic Euler, elements that fail by strain energy
+// density.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/result.hpp"
+#include "fem/explicit_state.hpp"
+#include "fem/grid.hpp"
+
+namespace nacre::fem {
+
+/// Instruction sets the kernel is compiled for. All give the same bits; they differ in speed alone.
+enum class SimdLevel { baseline, avx2, avx512 };
+std::string_view to_string(SimdLevel level);
+
+/// The widest level this processor has; the environment variable NACRE_SIMD = baseline | avx2 | avx512 forces a lower
+/// one.
+SimdLevel best_simd_level();
+
+/// Whether this processor can run `level`.
+bool has_simd_level(SimdLevel level);
+
+/// Speed of the fastest elastic wave in any element that is not empty, sqrt((lambda + 2 mu) / rho), m/s.
+double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3);
+
+/// How a grid is loaded and integrated. The bottom row of nodes is held vertically, the top row moves at
+/// strain_rate x height; horizontal motion is free. Velocities start from the linear profile between the grips, so that
+/// nothing is shocked, displacements from the uniform stretch `initial_strain`.
+struct ExplicitSettings {
+  double density_kg_per_m3 = 1150.0;
+  double time_step_s = 0.0;
+  double strain_rate_per_s = 0.0;
+  double initial_strain = 0.0;
+  Damping damping = Damping::smoothing;
+  double gamma_per_s = 0.0;
+  double largest_courant_number =
+      1.0;                        ///< time steps above this times h / c are refused (1 is the linear stability limit)
+  bool keep_ledger = false;       ///< account for energies, at some cost in time
+  std::optional<SimdLevel> simd;  ///< best_simd_level() when absent
+};
+
+/// What one step saw, at the strain it started from.
+struct StepReport {
+  double strain = 0.0;
+  double top_stress_pa = 0.0;     ///< vertical reaction of the upper grip over the initial width, tension positive
+  double bottom_stress_pa = 0.0;  ///< of the lower grip
+  int failed = 0;                 ///< elements that passed their threshold; they are empty from the next step on
+  /// Mean of both grips: the reaction in the frame of the specimen's middle, free of waves that run through it as a
+  /// whole.
+  double stress_pa() const { return 0.5 * (top_stress_pa + bottom_stress_pa); }
+};
+
+/// Energies per unit thickness, J/m; kept when ExplicitSettings::keep_ledger is set.
+/// work + initial_kinetic + initial_stored = kinetic + stored + damped + fractured, up to the integration's error.
+struct EnergyLedger {
+  double work = 0.0;             ///< done by the grips
+  double initial_kinetic = 0.0;  ///< of the linear velocity profile
+  double initial_stored = 0.0;
+  double kinetic = 0.0;
+  double stored = 0.0;     ///< in the elements that stand
+  double damped = 0.0;     ///< taken out by the damping
+  double fractured = 0.0;  ///< stored in elements when they failed
+};
+
+/// Real is float (the testers) or double (comparison, the explicit modulus).
+template <class Real>
+class ExplicitSolver {
+ public:
+  /// Error: a time step beyond stability, alpha = gamma dt > 1 (Eq. 2.4), constants that are not usable.
+  static Result<ExplicitSolver> create(const Grid& grid, const ExplicitSettings& settings);
+  ExplicitSolver(ExplicitSolver&&) noexcept;
+  ~ExplicitSolver();
+
+  /// Advances by one time step. Allocates nothing. Error: blow-up (J <= 0 or not a number in an element), with step and
+  /// element; found at once when the element passes its threshold, else within 64 steps.
+  Result<StepReport> step();
+
+  std::int64_t steps() const { return steps_; }
+  /// Nominal strain of the grips now.
+  double strain() const;
+  /// The elements that failed in the last step, as indices of the grid.
+  std::vector<int> last_failed() const;
+  bool is_empty(int element) const;
+
+  /// Nodal values in the laboratory frame, by node = row * (columns + 1) + column.
+  Eigen::Vector2d displacement_m(int node) const;
+  Eigen::Vector2d velocity_m_per_s(int node) const;
+  /// Replaces displacement and velocity of a node, for verification.
+  void set_node(int node, const Eigen::Vector2d& displacement_m, const Eigen::Vector2d& velocity_m_per_s);
+
+  /// Largest energy density at the quadrature points of an element, J/m^3; 0 when it is empty.
+  double energy_density_j_per_m3(int element) const;
+  /// The energies now.
+  EnergyLedger ledger() const;
+
+ private:
+  ExplicitSolver(const Grid& grid, const ExplicitSettings& settings);
+  void fill_elements();
+  void erase_failed();
+  tl::unexpected<Error> blow_up(int element) const;
+  double kinetic_energy() const;
+  double stored_energy() const;
+  double element_energy(int element, bool largest) const;
+  double smallest_volume_ratio(int element) const;
+  std::size_t node_offset(int node) const;
+
+  struct Storage;
+  Grid grid_;
+  ExplicitSettings settings_;
+  const ExplicitKernel<Real>* kernel_ = nullptr;
+  std::unique_ptr<Storage> storage_;
+  ExplicitState<Real> state_{};
+  std::int64_t steps_ = 0;
+  EnergyLedger ledger_;
+};
+
+extern template class ExplicitSolver<float>;
+extern template class ExplicitSolver<double>;
+
+}  // namespace nacre::fem

@@ -1,0 +1,35 @@
+#pragma once
+// The toughness test taken apart: the notched specimen with its loading and its numerics, and the run of it.
+// test_toughness() is both in one; verification changes the parts in between.
+
+#include "fem/explicit_solver.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::tester {
+
+struct FractureTest {
+  fem::Grid grid;  ///< notched
+  fem::ExplicitSettings settings;
+  double strain_limit = 0.0;
+  bool limit_is_no_failure = false;  ///< pure soft material: it is not expected to break
+  int steps_per_sample = 1;
+  int frame_count = 0;
+};
+
+/// Units of the toughness specimen along x and y.
+struct SpecimenUnits {
+  int x = 0;
+  int y = 0;
+};
+SpecimenUnits toughness_units(Fidelity fidelity);
+
+/// The specimen of a simulation, ready to be pulled. The simulation must be usable (simulation_fault empty).
+FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics = {});
+
+/// Pulls the specimen to separation. Real is float in the tester, double for comparison. Error: see test_toughness.
+template <class Real>
+Result<ToughnessResult> run_fracture_test(const FractureTest& test);
+extern template Result<ToughnessResult> run_fracture_test<float>(const FractureTest&);
+extern template Result<ToughnessResult> run_fracture_test<double>(const FractureTest&);
+
+}  // namespace nacre::tester

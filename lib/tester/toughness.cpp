@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tester/assembly.hpp"
+#include "tester/fracture_record.hpp"
+#include "tester/fracture_test.hpp"
+#include "tester/notch.hpp"
+#include "tester/usable.hpp"
+#include "thesis/constants.hpp"
+
+namespace nacre::tester {
+namespace {
+
+/// Share of the stability limit h / c at which the solver runs, and of the largest alpha for pure soft material.
+constexpr double kStabilityShare = 0.8;
+/// Strain between samples of the curve.
+constexpr double kSampleStrain = 1e-4;
+
+/// Young's modulus in the middle (geometric mean) of the Voigt and Reuss bounds of the specimen, Pa.
+double typical_modulus_pa(const fem::Grid& grid) {
+  double sum = 0.0, sum_of_inverses = 0.0;
+  for (int element = 0; element < grid.element_count(); ++element) {
+    if (grid.phase[element] == fem::Phase::empty) continue;
+    sum += grid.young_pa[element];
+    sum_of_inverses += 1.0 / grid.young_pa[element];
+  }
+  return std::sqrt(sum / sum_of_inverses);
+}
+
+/// Steps in which an elastic wave runs once from grip to grip, through material of the typical modulus.
+int transit_steps(const FractureTest& test) {
+  const double wave_m_per_s = std::sqrt(typical_modulus_pa(test.grid) / test.settings.density_kg_per_m3);
+  const double height_m = test.grid.rows * test.grid.element_size_m;
+  return static_cast<int>(std::ceil(height_m / (wave_m_per_s * test.settings.time_step_s)));
+}
+
+/// Science choices, section 2: 2e-7 s or less where waves demand it; pure soft material takes what its slow waves and
+/// the filter allow, for it is pulled much further.
+double time_step_s(const fem::Grid& grid, double gamma_per_s, bool pure_soft) {
+  const double wave_limit = kStabilityShare * grid.element_size_m / fem::fastest_wave_m_per_s(grid, thesis::kDensity);
+  return std::min(wave_limit, pure_soft ? kStabilityShare / gamma_per_s : thesis::kTimeStep.value);
+}
+
+template <class Real>
+FractureFrame frame_of(const fem::ExplicitSolver<Real>& solver, const fem::Grid& grid) {
+  FractureFrame frame{
+      .strain = solver.strain(), .columns = grid.columns, .rows = grid.rows, .material = {}, .energy_j_per_m3 = {}};
+  for (int element = 0; element < grid.element_count(); ++element) {
+    const fem::Phase phase = solver.is_empty(element) ? fem::Phase::empty : grid.phase[element];
+    frame.material.push_back(static_cast<std::uint8_t>(phase));
+    frame.energy_j_per_m3.push_back(static_cast<float>(solver.energy_density_j_per_m3(element)));
+  }
+  return frame;
+}
+
+/// One pull; keeps a frame at the first step that reaches each of the given strains.
+template <class Real>
+Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>& frame_strains) {
+  Result<fem::ExplicitSolver<Real>> solver = fem::ExplicitSolver<Real>::create(test.grid, test.settings);
+  if (!solver) return fail("toughness tester: {}", solver.error().message);
+  FractureRecord record({.strain_per_step = test.settings.strain_rate_per_s * test.settings.time_step_s,
+                         .steps_per_sample = test.steps_per_sample,
+                         .transit_steps = transit_steps(test),
+                         .strain_limit = test.strain_limit});
+  ToughnessResult result;
+  result.element_count = test.grid.element_count();
+  for (;;) {
+    while (result.frames.size() < frame_strains.size() && solver->strain() >= frame_strains[result.frames.size()])
+      result.frames.push_back(frame_of(*solver, test.grid));
+    const Result<fem::StepReport> report = solver->step();
+    if (!report) return fail("toughness tester: {}", report.error().message);
+    record.add(report->strain, report->stress_pa());
+    if (record.separated()) {
+      result.end = EndReason::stress_drop;
+    } else if (report->strain >= test.strain_limit) {
+      result.end = test.limit_is_no_failure ? EndReason::no_failure : EndReason::strain_limit;
+    } else if (solver->steps() >= thesis::kStepLimit) {
+      result.end = EndReason::step_limit;
+    } else {
+      continue;
+    }
+    result.failure_strain = report->strain;
+    break;
+  }
+  result.steps = solver->steps();
+  result.toughness_pa = record.toughness_pa();
+  result.peak_stress_pa = record.peak_stress_pa();
+  result.curve = record.take_curve();
+  return result;
+}
+
+}  // namespace
+
+SpecimenUnits toughness_units(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::tiny:
+      return {1, 1};
+    case Fidelity::preview:
+      return {3, 2};
+    case Fidelity::full:
+      break;
+  }
+  return {thesis::kToughnessUnitsX, thesis::kToughnessUnitsY};
+}
+
+FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics) {
+  const SpecimenUnits units = toughness_units(simulation.fidelity);
+  FractureTest test;
+  test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
+                       units.x, units.y, numerics.refinement);
+  cut_notch(test.grid, numerics.refinement);
+  const bool pure_soft = simulation.design.rigid_fraction() == 0.0;
+  const double gamma_per_s = simulation.parameters.toughness.gamma_per_s;
+  test.settings = {.density_kg_per_m3 = thesis::kDensity,
+                   .time_step_s = time_step_s(test.grid, gamma_per_s, pure_soft) * numerics.time_step_scale,
+                   .strain_rate_per_s = thesis::kSimulatedStrainRate * numerics.rate_scale,
+                   .damping = fem::Damping::smoothing,
+                   .gamma_per_s = gamma_per_s,
+                   .simd = {}};
+  test.strain_limit = pure_soft ? thesis::kSoftStrainLimit : thesis::kStrainLimit;
+  test.limit_is_no_failure = pure_soft;
+  const double sample_strain = kSampleStrain * test.strain_limit / thesis::kStrainLimit / numerics.recording_scale;
+  const double strain_per_step = test.settings.strain_rate_per_s * test.settings.time_step_s;
+  test.steps_per_sample = std::max(1, static_cast<int>(std::lround(sample_strain / strain_per_step)));
+  test.frame_count = numerics.frame_count;
+  return test;
+}
+
+template <class Real>
+Result<ToughnessResult> run_fracture_test(const FractureTest& test) {
+  Result<ToughnessResult> result = pull<Real>(test, {});
+  if (!result || test.frame_count == 0) return result;
+  // The frames' strains follow from where the specimen breaks, so it is pulled again.
+  std::vector<double> strains;
+  for (int i = 0; i < test.frame_count; ++i)
+    strains.push_back(test.frame_count == 1 ? result->failure_strain
+                                            : result->failure_strain * i / (test.frame_count - 1));
+  return pull<Real>(test, strains);
+}
+
+template Result<ToughnessResult> run_fracture_test<float>(const FractureTest&);
+template Result<ToughnessResult> run_fracture_test<double>(const FractureTest&);
+
+Result<ToughnessResult> test_toughness(const Simulation& simulation, const Numerics& numerics) {
+  if (std::string fault = simulation_fault(simulation, TestKind::toughness); !fault.empty())
+    return fail("toughness tester: {}", fault);
+  return run_fracture_test<float>(fracture_test(simulation, numerics));
+}
+
+}  // namespace nacre::tester
