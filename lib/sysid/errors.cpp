@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "sysid/calibration.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+/// Ranks from 1; equal values share the mean of the ranks they span.
+std::vector<double> ranks_of(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t last = first;
+    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) ++last;
+    const double shared = 1.0 + 0.5 * static_cast<double>(first + last);
+    for (std::size_t i = first; i <= last; ++i) ranks[order[i]] = shared;
+    first = last + 1;
+  }
+  return ranks;
+}
+
+/// Spearman's rank correlation; 0 below three pairs or when one side does not vary.
+double spearman(std::span<const double> a, std::span<const double> b) {
+  if (a.size() < 3) return 0.0;
+  const std::vector<double> rank_a = ranks_of(a), rank_b = ranks_of(b);
+  const double middle = 0.5 * (1.0 + static_cast<double>(a.size()));
+  double ab = 0.0, aa = 0.0, bb = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (rank_a[i] - middle) * (rank_b[i] - middle);
+    aa += (rank_a[i] - middle) * (rank_a[i] - middle);
+    bb += (rank_b[i] - middle) * (rank_b[i] - middle);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+/// Count, mean and largest of |simulated - measured| / measured.
+struct ErrorSum {
+  int count = 0;
+  double sum = 0.0, largest = 0.0;
+  void add(double simulated, double measured) {
+    const double error = std::abs(simulated - measured) / measured;
+    ++count;
+    sum += error;
+    largest = std::max(largest, error);
+  }
+  double mean() const { return count == 0 ? 0.0 : sum / count; }
+};
+
+}  // namespace
+
+PredictionErrors prediction_errors(const std::vector<measurement::Replicates>& measured,
+                                   const std::vector<Prediction>& predictions) {
+  ErrorSum modulus, toughness;
+  std::vector<double> simulated_pa, measured_pa;
+  for (std::size_t i = 0; i < measured.size() && i < predictions.size(); ++i) {
+    if (measured[i].modulus_count > 0 && predictions[i].modulus_pa) {
+      modulus.add(*predictions[i].modulus_pa, measured[i].modulus_pa);
+    }
+    if (measured[i].toughness_count > 0 && predictions[i].toughness_pa) {
+      toughness.add(*predictions[i].toughness_pa, measured[i].toughness_pa);
+      simulated_pa.push_back(*predictions[i].toughness_pa);
+      measured_pa.push_back(measured[i].toughness_pa);
+    }
+  }
+  return {.modulus_count = modulus.count,
+          .modulus_mean = modulus.mean(),
+          .modulus_max = modulus.largest,
+          .toughness_count = toughness.count,
+          .toughness_mean = toughness.mean(),
+          .toughness_max = toughness.largest,
+          .toughness_spearman = spearman(simulated_pa, measured_pa)};
+}
+
+}  // namespace nacre::sysid
