@@ -1,6 +1,6 @@
 #pragma once
-// System identification (thesis 2.3.2): parameters that make the testers agree with measurements. Ask and tell, so that the
-// simulations may run on the farm or in this process.
+// System identification (thesis 2.3.2): parameters that make the testers agree with measurements. Ask and tell, so that
+// the simulations may run on the farm or in this process.
 
 #include <cstdint>
 #include <map>
@@ -15,7 +15,8 @@
 
 namespace nacre::sysid {
 
-/// Relative errors over a set of designs (the figures of Tables 3.5, A.3, A.4). A count of 0: nothing to compare, errors 0.
+/// Relative errors over a set of designs (the figures of Tables 3.5, A.3, A.4). A count of 0: nothing to compare,
+/// errors 0.
 struct PredictionErrors {
   int modulus_count = 0;
   double modulus_mean = 0.0, modulus_max = 0.0;
@@ -36,38 +37,40 @@ struct Prediction {
 PredictionErrors prediction_errors(const std::vector<measurement::Replicates>& measured,
                                    const std::vector<Prediction>& predictions);
 
-/// Sample weights w1 w2 (Eqs. 2.9-2.11) of measured designs that have both E and T; designs with one of them get weight 1.
+/// Sample weights w1 w2 (Eqs. 2.9-2.11) of measured designs that have both E and T; designs with one of them get
+/// weight 1.
 std::vector<double> sample_weights(const std::vector<measurement::Replicates>& measured);
 
 /// Modulus part of objective (2.8), divided by the sum of weights: 0.1 means 10 % weighted mean error.
 double modulus_objective(const std::vector<measurement::Replicates>& measured, const std::vector<double>& weights,
                          const std::vector<Prediction>& predictions);
-/// Toughness part of (2.8) with lambda~ = 1, divided by the sum of weights; the curve term only where a curve was measured.
+/// Toughness part of (2.8) with lambda~ = 1, divided by the sum of weights; the curve term only where a curve was
+/// measured.
 double toughness_objective(const std::vector<measurement::Replicates>& measured, const std::vector<double>& weights,
                            const std::vector<Prediction>& predictions);
 
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
-  material::ParameterSet start;     ///< where to begin; its extensions are kept as they are
-  int modulus_budget = 120;         ///< evaluations of the modulus set; 0 keeps theta
-  int toughness_budget = 25;        ///< evaluations of the toughness set; 0 keeps eta
-  int batch = 3;                    ///< parameter sets asked for at once
+  material::ParameterSet start;  ///< where to begin; its extensions are kept as they are
+  int modulus_budget = 120;      ///< evaluations of the modulus set; 0 keeps theta
+  int toughness_budget = 25;     ///< evaluations of the toughness set; 0 keeps eta
+  int batch = 3;                 ///< parameter sets asked for at once
   std::uint64_t seed = 1;
 };
 
 /// One evaluation wanted: the `tests` of all `designs` with these parameters.
 struct WantedEvaluation {
-  std::string id;                            ///< unique within the calibration
+  std::string id;  ///< unique within the calibration
   material::ParameterSet parameters;
   bool modulus = false;
   bool toughness = false;
-  std::vector<std::size_t> items;            ///< indices into the measured designs
+  std::vector<std::size_t> items;  ///< indices into the measured designs
 };
 
 /// Result of a calibration.
 struct Calibrated {
   material::ParameterSet parameters;
-  PredictionErrors before, after;       ///< of `start` and of `parameters`, on the calibration set
+  PredictionErrors before, after;  ///< of `start` and of `parameters`, on the calibration set
   double modulus_objective_before = 0.0, modulus_objective_after = 0.0;
   double toughness_objective_before = 0.0, toughness_objective_after = 0.0;
   std::vector<Prediction> predictions;  ///< of `parameters`, per measured design
@@ -92,8 +95,8 @@ class Calibration {
   std::unique_ptr<State> state_;
 };
 
-/// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on; the median of
-/// the three damping estimates is kept. Same protocol as Calibration.
+/// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on;
+/// the median of the three damping estimates is kept. Same protocol as Calibration.
 class BaseCalibration {
  public:
   BaseCalibration(std::vector<measurement::Replicates> base_materials, const CalibrationSettings& settings);

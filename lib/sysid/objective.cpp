@@ -34,7 +34,8 @@ Prediction observed(const Prediction& prediction, const material::Extensions& ex
   if (shown.modulus_pa) shown.modulus_pa = measurement::observe_modulus(*shown.modulus_pa, extensions);
   if (shown.curve.empty()) return shown;
   shown.curve = measurement::observe_curve(prediction.curve, extensions);
-  // As a difference, so that a toughness that was not computed from these very points keeps its value without extensions.
+  // As a difference, so that a toughness that was not computed from these very points keeps its value without
+  // extensions.
   if (shown.toughness_pa && shown.curve != prediction.curve) {
     *shown.toughness_pa += tester::area_under(shown.curve) - tester::area_under(prediction.curve);
   }

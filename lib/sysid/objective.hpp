@@ -5,18 +5,19 @@
 
 namespace nacre::sysid {
 
-/// The part of a curve along which strain grows beyond what was reached before: what area_between() can compare. Snap-back and
-/// unloading are left out.
+/// The part of a curve along which strain grows beyond what was reached before: what area_between() can compare.
+/// Snap-back and unloading are left out.
 tester::Curve forward_part(const tester::Curve& curve);
 
-/// A prediction as the testing machine would show it: measurement-side extensions applied to modulus, curve and toughness.
+/// A prediction as the testing machine would show it: measurement-side extensions applied to modulus, curve and
+/// toughness.
 Prediction observed(const Prediction& prediction, const material::Extensions& extensions);
 
 /// |simulated - measured| / measured; 1 where the simulation gave nothing.
 double relative_error(const std::optional<double>& simulated, double measured);
 
-/// Toughness and curve term of one design in (2.8), lambda~ = 1. A failed simulation counts as a curve that is zero. The curve
-/// term is left out where no curve was measured, or none was recorded of a simulation that succeeded.
+/// Toughness and curve term of one design in (2.8), lambda~ = 1. A failed simulation counts as a curve that is zero.
+/// The curve term is left out where no curve was measured, or none was recorded of a simulation that succeeded.
 double toughness_misfit(const measurement::Replicates& measured, const Prediction& prediction);
 
 }  // namespace nacre::sysid

@@ -27,14 +27,15 @@ double distance_to_segment(UnitPoint p, UnitPoint a, UnitPoint b) {
   const double length = squared_distance(a, b);
   if (length == 0.0) return std::sqrt(squared_distance(p, a));
   const double along =
-      ((p.modulus - a.modulus) * (b.modulus - a.modulus) + (p.toughness - a.toughness) * (b.toughness - a.toughness)) / length;
+      ((p.modulus - a.modulus) * (b.modulus - a.modulus) + (p.toughness - a.toughness) * (b.toughness - a.toughness)) /
+      length;
   const double t = std::clamp(along, 0.0, 1.0);
-  return std::sqrt(squared_distance(
-      p, {a.modulus + t * (b.modulus - a.modulus), a.toughness + t * (b.toughness - a.toughness)}));
+  return std::sqrt(
+      squared_distance(p, {a.modulus + t * (b.modulus - a.modulus), a.toughness + t * (b.toughness - a.toughness)}));
 }
 
-/// The piecewise-linear front, closed by a horizontal line to the toughness axis and a vertical one to the modulus axis (as the
-/// polygon hypervolume is), so that a sample beside its ends is as near as one between its corners.
+/// The piecewise-linear front, closed by a horizontal line to the toughness axis and a vertical one to the modulus axis
+/// (as the polygon hypervolume is), so that a sample beside its ends is as near as one between its corners.
 std::vector<UnitPoint> closed_front(std::span<const UnitPoint> points) {
   std::vector<optimize::Performance> performances;
   for (const UnitPoint& point : points) performances.push_back({point.modulus, point.toughness});
