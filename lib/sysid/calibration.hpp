@@ -49,12 +49,17 @@ double modulus_objective(const std::vector<measurement::Replicates>& measured, c
 double toughness_objective(const std::vector<measurement::Replicates>& measured, const std::vector<double>& weights,
                            const std::vector<Prediction>& predictions);
 
+/// How eta is searched: by an emulator of T and peak stress per design, or by NLopt's algorithms on the objective alone
+/// (docs/studies/calibration-first.md compares them).
+enum class ToughnessSearch { emulator, nlopt };
+
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
   material::ParameterSet start;  ///< where to begin; its extensions are kept as they are
   int modulus_budget = 120;      ///< evaluations of the modulus set; 0 keeps theta
   int toughness_budget = 25;     ///< evaluations of the toughness set; 0 keeps eta
-  int batch = 3;                 ///< parameter sets asked for at once
+  int batch = 3;                 ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
+  ToughnessSearch toughness_search = ToughnessSearch::emulator;
   std::uint64_t seed = 1;
 };
 
@@ -82,6 +87,8 @@ class Calibration {
  public:
   Calibration(std::vector<measurement::Replicates> measured, const CalibrationSettings& settings);
   ~Calibration();
+  Calibration(Calibration&&) noexcept;
+  Calibration& operator=(Calibration&&) noexcept;
   /// Evaluations wanted next; empty when finished. The same answer until tell() has received them all.
   const std::vector<WantedEvaluation>& wanted() const;
   /// Predictions of wanted()[index], one per item of it, in order. Measurement-side extensions are applied here.
@@ -101,6 +108,8 @@ class BaseCalibration {
  public:
   BaseCalibration(std::vector<measurement::Replicates> base_materials, const CalibrationSettings& settings);
   ~BaseCalibration();
+  BaseCalibration(BaseCalibration&&) noexcept;
+  BaseCalibration& operator=(BaseCalibration&&) noexcept;
   const std::vector<WantedEvaluation>& wanted() const;
   void tell(std::size_t index, const std::vector<Prediction>& predictions);
   bool finished() const;

@@ -53,6 +53,18 @@ struct FitSettings {
 /// error of (2.8). Jacobian by finite differences: one batch of six evaluations.
 std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings);
 
+/// Search for eta with an emulator of features (emulator.hpp): every batch holds the points whose predicted objective,
+/// less a share of its uncertainty, is smallest within a trust region around the best trial. Poisson's ratios stay at
+/// the start: T hardly depends on them, and a few tens of evaluations cannot tell. `others` are further points to begin
+/// with.
+std::unique_ptr<Fit> make_emulator_fit(FitData data, const FitSettings& settings,
+                                       std::span<const material::ParameterRange> ranges, std::vector<Point> others);
+
+/// Search for eta by optimize::make_nlopt_optimizer in all ten dimensions, begun at the start, `others` and the best of
+/// them rescaled by the emulator's prior.
+std::unique_ptr<Fit> make_nlopt_fit(FitData data, const FitSettings& settings,
+                                    std::span<const material::ParameterRange> ranges, std::vector<Point> others);
+
 /// mean((point - start)^2) times `strength`: keeps parameters that the data do not determine where they were.
 double pull_to_start(std::span<const double> point, std::span<const double> start, double strength);
 

@@ -1,0 +1,230 @@
+#include "sysid/calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "sysid/fit.hpp"
+#include "sysid/objective.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+using material::ParameterRange;
+using material::ParameterSet;
+
+/// The fit of one tester's parameters and which measured designs it is about.
+struct Half {
+  std::unique_ptr<Fit> fit;        ///< none when nothing was measured
+  std::vector<std::size_t> items;  ///< indices into the measured designs
+};
+
+template <class Vector>
+Point to_point(const Vector& vector, std::span<const ParameterRange> ranges, std::size_t dimensions) {
+  Point point;
+  for (std::size_t j = 0; j < dimensions; ++j) point.push_back(std::clamp(to_unit(ranges[j], vector[j]), 0.0, 1.0));
+  return point;
+}
+
+FitData data_of(const std::vector<measurement::Replicates>& measured, const std::vector<double>& weights,
+                const std::vector<std::size_t>& items) {
+  FitData data;
+  for (const std::size_t item : items) {
+    data.measured.push_back(measured[item]);
+    data.weights.push_back(weights[item]);
+  }
+  return data;
+}
+
+/// Parameters of theta that act in the static tester: all but gamma, which stands last.
+constexpr std::size_t kModulusDimensions = material::kModulusParameterCount - 1;
+constexpr std::size_t kToughnessDimensions = material::kToughnessParameterCount;
+
+}  // namespace
+
+struct Calibration::State {
+  std::vector<measurement::Replicates> measured;
+  CalibrationSettings settings;
+  std::vector<double> weights;
+  Half modulus, toughness;
+  std::vector<WantedEvaluation> wanted;
+  std::size_t modulus_wanted = 0;  ///< the first ones of `wanted`; the rest are for toughness
+  std::vector<std::optional<std::vector<Prediction>>> told;
+  int batch_number = 0;
+  Calibrated result;
+
+  std::span<const ParameterRange> modulus_ranges() const { return material::modulus_ranges(settings.target); }
+  std::span<const ParameterRange> toughness_ranges() const { return material::toughness_ranges(settings.target); }
+
+  /// `point` as a complete set: coordinates that did not move from the start keep its exact value, in or out of range.
+  template <class Vector>
+  static Vector from_point(const Point& point, const Point& start_point, Vector vector,
+                           std::span<const ParameterRange> ranges) {
+    for (std::size_t j = 0; j < point.size(); ++j) {
+      const bool start_inside = vector[j] >= ranges[j].minimum && vector[j] <= ranges[j].maximum;
+      if (point[j] != start_point[j] || !start_inside) {
+        vector[j] = std::clamp(from_unit(ranges[j], point[j]), ranges[j].minimum, ranges[j].maximum);
+      }
+    }
+    return vector;
+  }
+  material::ModulusParameters modulus_at(const Point& point) const {
+    const material::ModulusVector start = to_vector(settings.start.modulus);
+    return material::modulus_from_vector(
+        from_point(point, to_point(start, modulus_ranges(), kModulusDimensions), start, modulus_ranges()));
+  }
+  material::ToughnessParameters toughness_at(const Point& point) const {
+    const material::ToughnessVector start = to_vector(settings.start.toughness);
+    return material::toughness_from_vector(
+        from_point(point, to_point(start, toughness_ranges(), kToughnessDimensions), start, toughness_ranges()));
+  }
+
+  void begin() {
+    weights = sample_weights(measured);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      if (measured[i].modulus_count > 0) modulus.items.push_back(i);
+      if (measured[i].toughness_count > 0) toughness.items.push_back(i);
+    }
+    result.parameters = settings.start;
+    result.predictions.resize(measured.size());
+    if (!modulus.items.empty()) {
+      modulus.fit =
+          make_modulus_fit(data_of(measured, weights, modulus.items),
+                           {.start = to_point(to_vector(settings.start.modulus), modulus_ranges(), kModulusDimensions),
+                            .budget = std::max(1, settings.modulus_budget),
+                            .batch = settings.batch,
+                            .seed = settings.seed});
+    }
+    if (!toughness.items.empty()) begin_toughness();
+    ask();
+  }
+
+  void begin_toughness() {
+    const FitSettings fit_settings = {
+        .start = to_point(to_vector(settings.start.toughness), toughness_ranges(), kToughnessDimensions),
+        .budget = std::max(1, settings.toughness_budget),
+        .batch = settings.batch,
+        .seed = settings.seed};
+    const auto make = settings.toughness_search == ToughnessSearch::emulator ? make_emulator_fit : make_nlopt_fit;
+    toughness.fit = make(data_of(measured, weights, toughness.items), fit_settings, toughness_ranges(),
+                         other_starts(fit_settings.start));
+  }
+
+  /// The middle of the ranges, and the start with a weaker, more compliant interface: what the first batch holds beside
+  /// the start.
+  std::vector<Point> other_starts(const Point& start) const {
+    constexpr double kApart = 1e-3;  // mean square distance below which two starts are one
+    Point middle = start, interface = start;
+    for (const std::size_t j : {0, 1, 2, 6, 7, 8, 9}) middle[j] = 0.5;
+    for (const std::size_t j : {2, 8}) interface[j] += interface[j] > 0.5 ? -0.2 : 0.2;
+    std::vector<Point> others;
+    if (pull_to_start(middle, start, 1.0) > kApart) others.push_back(middle);
+    others.push_back(interface);
+    return others;
+  }
+
+  void ask() {
+    wanted.clear();
+    ++batch_number;
+    const auto add = [&](Half& half, bool is_modulus) {
+      if (half.fit == nullptr) return;
+      const std::vector<Point> points = half.fit->ask();
+      for (const Point& point : points) {
+        WantedEvaluation evaluation{.id = fmt::format("{}{}.{}", is_modulus ? 'E' : 'T', batch_number, wanted.size()),
+                                    .parameters = settings.start,
+                                    .modulus = is_modulus,
+                                    .toughness = !is_modulus,
+                                    .items = half.items};
+        if (is_modulus) evaluation.parameters.modulus = modulus_at(point);
+        if (!is_modulus) evaluation.parameters.toughness = toughness_at(point);
+        wanted.push_back(std::move(evaluation));
+      }
+    };
+    add(modulus, true);
+    modulus_wanted = wanted.size();
+    add(toughness, false);
+    told.assign(wanted.size(), std::nullopt);
+  }
+
+  void take(std::size_t index, const std::vector<Prediction>& predictions) {
+    assert(index < wanted.size() && predictions.size() == wanted[index].items.size());
+    if (told[index]) return;  // a repeat
+    std::vector<Prediction> shown;
+    for (const Prediction& prediction : predictions) shown.push_back(observed(prediction, settings.start.extensions));
+    told[index] = std::move(shown);
+    result.simulations += static_cast<int>(predictions.size());
+    if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;
+    hand_over();
+    ask();
+    if (wanted.empty()) conclude();
+  }
+
+  void hand_over() {
+    std::vector<std::vector<Prediction>> of_modulus, of_toughness;
+    for (std::size_t k = 0; k < told.size(); ++k) {
+      (k < modulus_wanted ? of_modulus : of_toughness).push_back(std::move(*told[k]));
+    }
+    if (!of_modulus.empty()) modulus.fit->tell(std::move(of_modulus));
+    if (!of_toughness.empty()) toughness.fit->tell(std::move(of_toughness));
+  }
+
+  void conclude() {
+    std::vector<Prediction> before(measured.size());
+    std::vector<Prediction>& after = result.predictions;
+    if (modulus.fit != nullptr) {
+      result.parameters.modulus = modulus_at(modulus.fit->best().point);
+      result.modulus_objective_before = modulus.fit->first().objective;
+      result.modulus_objective_after = modulus.fit->best().objective;
+      for (std::size_t k = 0; k < modulus.items.size(); ++k) {
+        before[modulus.items[k]].modulus_pa = modulus.fit->first().predictions[k].modulus_pa;
+        after[modulus.items[k]].modulus_pa = modulus.fit->best().predictions[k].modulus_pa;
+      }
+    }
+    if (toughness.fit != nullptr) {
+      result.parameters.toughness = toughness_at(toughness.fit->best().point);
+      result.toughness_objective_before = toughness.fit->first().objective;
+      result.toughness_objective_after = toughness.fit->best().objective;
+      for (std::size_t k = 0; k < toughness.items.size(); ++k) {
+        before[toughness.items[k]].toughness_pa = toughness.fit->first().predictions[k].toughness_pa;
+        const Prediction& best = toughness.fit->best().predictions[k];
+        after[toughness.items[k]].toughness_pa = best.toughness_pa;
+        after[toughness.items[k]].curve = best.curve;
+      }
+    }
+    result.before = prediction_errors(measured, before);
+    result.after = prediction_errors(measured, after);
+  }
+
+  double progress() const {
+    // A toughness simulation is by far the dearer one.
+    const double of_modulus = modulus.fit == nullptr ? 1.0 : modulus.fit->progress();
+    if (toughness.fit == nullptr) return of_modulus;
+    return 0.05 * of_modulus + 0.95 * toughness.fit->progress();
+  }
+};
+
+Calibration::Calibration(std::vector<measurement::Replicates> measured, const CalibrationSettings& settings)
+    : state_(std::make_unique<State>()) {
+  state_->measured = std::move(measured);
+  state_->settings = settings;
+  state_->begin();
+}
+
+Calibration::~Calibration() = default;
+Calibration::Calibration(Calibration&&) noexcept = default;
+Calibration& Calibration::operator=(Calibration&&) noexcept = default;
+
+const std::vector<WantedEvaluation>& Calibration::wanted() const { return state_->wanted; }
+
+void Calibration::tell(std::size_t index, const std::vector<Prediction>& predictions) {
+  state_->take(index, predictions);
+}
+
+bool Calibration::finished() const { return state_->wanted.empty(); }
+
+double Calibration::progress() const { return finished() ? 1.0 : state_->progress(); }
+
+const Calibrated& Calibration::result() const { return state_->result; }
+
+}  // namespace nacre::sysid

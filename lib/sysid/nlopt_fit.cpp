@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sysid/emulator.hpp"
+#include "sysid/fit.hpp"
+#include "sysid/warped_objective.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+constexpr double kPull = 0.01;       // cost of moving every parameter across its whole range
+constexpr double kScaleReach = 2.3;  // natural logarithm of ten
+constexpr int kScaleSteps = 25;
+
+class NloptFit final : public Fit {
+ public:
+  NloptFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others)
+      : data_(std::move(data)), settings_(settings), spans_(std::move(spans)), others_(std::move(others)) {}
+
+  std::vector<Point> ask() override {
+    if (!asked_.empty() || finished_) return asked_;
+    if (trials_.empty()) {
+      asked_ = {settings_.start};
+      const int more = std::min(settings_.batch, settings_.budget) - 1;
+      for (const Point& other : others_) {
+        if (static_cast<int>(asked_.size()) <= more) asked_.push_back(other);
+      }
+      return asked_;
+    }
+    if (!optimizer_) begin_search();
+    asked_ = optimizer_->ask();
+    finished_ = asked_.empty();
+    return asked_;
+  }
+
+  void tell(std::vector<std::vector<Prediction>> predictions) override {
+    std::vector<std::optional<double>> costs;
+    for (std::size_t k = 0; k < asked_.size(); ++k) {
+      const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
+      trials_.push_back({asked_[k], std::move(predictions[k]), objective});
+      costs.push_back(cost(trials_.back()));
+      if (cost(trials_.back()) < cost(trials_[best_])) best_ = trials_.size() - 1;
+    }
+    asked_.clear();
+    if (optimizer_) optimizer_->tell(costs);
+  }
+
+  double progress() const override {
+    return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
+  }
+  const Trial& first() const override { return trials_.front(); }
+  const Trial& best() const override { return trials_[best_]; }
+  const std::vector<Trial>& trials() const override { return trials_; }
+
+ private:
+  double cost(const Trial& trial) const { return trial.objective + pull_to_start(trial.point, settings_.start, kPull); }
+
+  void begin_search() {
+    optimize::BatchOptimizerSettings settings;
+    settings.dimension = kEtaCount;
+    settings.budget = settings_.budget - static_cast<int>(trials_.size());
+    settings.batch = settings_.batch;
+    settings.seed = settings_.seed;
+    settings.starts = {rescaled(), trials_[best_].point};
+    optimizer_ = optimize::make_nlopt_optimizer(settings);
+  }
+
+  /// The best trial with all moduli and all failure energies multiplied by the two factors that the scaling laws
+  /// favour.
+  Point rescaled() const {
+    FeatureEmulator emulator(spans_, data_.measured.size());
+    emulator.learn(trials_, best_);
+    WarpedObjective predicted(data_);
+    predicted.set_base(trials_[best_]);
+    std::vector<FeatureChange> changes;
+    Point best_point = trials_[best_].point;
+    double smallest = cost(trials_[best_]);
+    for (int i = 0; i < kScaleSteps * kScaleSteps; ++i) {
+      const double moduli = kScaleReach * (2.0 * (i % kScaleSteps) / (kScaleSteps - 1) - 1.0);
+      const double energies = kScaleReach * (2.0 * (i / kScaleSteps) / (kScaleSteps - 1) - 1.0);
+      Point point = trials_[best_].point;
+      for (std::size_t m = 0; m < 3; ++m) {
+        point[kE0 + m] = std::clamp(point[kE0 + m] + moduli / spans_[kE0 + m], 0.0, 1.0);
+        point[kW0 + m] = std::clamp(point[kW0 + m] + energies / spans_[kW0 + m], 0.0, 1.0);
+      }
+      emulator.predict(point, changes);
+      const double here = predicted(changes) + pull_to_start(point, settings_.start, kPull);
+      if (here < smallest) {
+        smallest = here;
+        best_point = std::move(point);
+      }
+    }
+    return best_point;
+  }
+
+  FitData data_;
+  FitSettings settings_;
+  std::vector<double> spans_;
+  std::vector<Point> others_;
+  std::unique_ptr<optimize::BatchOptimizer> optimizer_;
+  std::vector<Trial> trials_;
+  std::vector<Point> asked_;
+  std::size_t best_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Fit> make_nlopt_fit(FitData data, const FitSettings& settings,
+                                    std::span<const material::ParameterRange> ranges, std::vector<Point> others) {
+  return std::make_unique<NloptFit>(std::move(data), settings, spans_of(ranges), std::move(others));
+}
+
+}  // namespace nacre::sysid
