@@ -1,0 +1,232 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/files.hpp"
+#include "measurement/measurement.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kSmallSet = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/small";
+
+/// A measurement set in a folder that is removed at the end of the test.
+class SetOnDisk : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "nacre-set-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  MeasurementSet read(const std::string& table) {
+    write("measurements.csv", table);
+    return read_measurement_set(folder_);
+  }
+  /// The only rejected row of a set that holds it beside a good one.
+  RejectedRow rejected(const std::string& header, const std::string& row) {
+    const MeasurementSet set = read(header + "\n" + row + "\n" + "specimen,soft,modulus,1e6\n");
+    EXPECT_EQ(set.rejected.size(), 1u) << row;
+    return set.rejected.empty() ? RejectedRow{} : set.rejected.front();
+  }
+  std::string error_of(const std::string& table) {
+    try {
+      read(table);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path folder_;
+};
+
+constexpr const char* kShort = "specimen,pattern,test,modulus_pa\n";
+
+TEST(SmallSet, EveryKindOfRowIsUnderstood) {
+  const MeasurementSet set = read_measurement_set(kSmallSet);
+  EXPECT_TRUE(set.rejected.empty());
+  EXPECT_TRUE(set.warnings.empty());
+  ASSERT_EQ(set.specimens.size(), 8u);
+  EXPECT_EQ(set.specimens[0].design, set.specimens[1].design);  // a key and a file of the same pattern
+  EXPECT_EQ(set.specimens[0].conditions, set.specimens[1].conditions);
+  EXPECT_EQ(set.specimens[2].curve.size(), 5u);
+  EXPECT_FALSE(set.specimens[4].valid);
+  EXPECT_EQ(set.specimens[4].note, "slipped in the grip, then broke there");
+  EXPECT_EQ(set.specimens[5].conditions.orientation_deg, 90.0);
+  EXPECT_EQ(set.specimens[6].test, tester::TestKind::tensile);
+  EXPECT_EQ(set.specimens[6].curve.strain[3], 0.015);  // unloading is kept
+  EXPECT_EQ(set.specimens[7].design.name(), "interface");
+}
+
+TEST_F(SetOnDisk, OrderOfColumnsMarkAndLineEndingsDoNotMatter) {
+  const MeasurementSet set = read(
+      "\xEF\xBB\xBF"
+      "note,modulus_pa,test,pattern,specimen\r\n\"a, b\",2e9,modulus,rigid,S1\r\n");
+  ASSERT_EQ(set.specimens.size(), 1u);
+  EXPECT_EQ(set.specimens[0].note, "a, b");
+  EXPECT_EQ(set.specimens[0].modulus_pa, 2e9);
+  EXPECT_EQ(set.specimens[0].conditions, tester::TestConditions{});
+  EXPECT_TRUE(set.specimens[0].valid);
+}
+
+TEST_F(SetOnDisk, UnknownColumnsAreWarnedAboutAndKept) {
+  const MeasurementSet set = read("specimen,pattern,test,modulus_pa,operator,Note\nS1,rigid,modulus,2e9,Ada,\n");
+  ASSERT_EQ(set.warnings.size(), 2u);
+  EXPECT_THAT(set.warnings[0], HasSubstr("operator"));
+  EXPECT_THAT(set.warnings[1], HasSubstr("is `note` meant?"));
+  EXPECT_EQ(set.specimens[0].other_columns.at("operator"), "Ada");
+  write_measurement_set(folder_ / "copy", set.specimens);
+  EXPECT_EQ(read_measurement_set(folder_ / "copy").specimens, set.specimens);
+}
+
+TEST_F(SetOnDisk, OneBadRowDoesNotLoseTheOthers) {
+  const MeasurementSet set = read(std::string(kShort) +
+                                  "S1,rigid,modulus,2e9\n"
+                                  "S2,rigid,modulus,\"2e9\n"
+                                  "S3,rigid,bending,2e9\n"
+                                  "S4,rigid,modulus\n"
+                                  "\n"
+                                  "S5,rigid,modulus,2.1e9\n");
+  ASSERT_EQ(set.specimens.size(), 2u);
+  EXPECT_EQ(set.specimens[1].specimen, "S5");
+  ASSERT_EQ(set.rejected.size(), 3u);
+  EXPECT_EQ(set.rejected[0].line, 3);
+  EXPECT_EQ(set.rejected[0].column, "modulus_pa");
+  EXPECT_EQ(set.rejected[1].line, 4);
+  EXPECT_EQ(set.rejected[1].column, "test");
+  EXPECT_EQ(set.rejected[2].line, 5);
+}
+
+TEST_F(SetOnDisk, ValuesOutOfRangeAreRejectedWithTheirColumn) {
+  const std::string header =
+      "specimen,pattern,test,modulus_pa,orientation_deg,strain_rate_per_s,thickness_mm,print_order,valid";
+  const struct {
+    const char* row;
+    const char* column;
+    const char* expected;
+  } cases[] = {
+      {",rigid,modulus,2e9,,,,,", "specimen", "unique name"},
+      {"S,purple,modulus,2e9,,,,,", "pattern", "mix:F"},
+      {"S,mix:1.5,modulus,2e9,,,,,", "pattern", ""},
+      {"S,,modulus,2e9,,,,,", "pattern", "empty"},
+      {"S,rigid,modulus,-2e9,,,,,", "modulus_pa", "positive"},
+      {"S,rigid,modulus,nan,,,,,", "modulus_pa", "finite"},
+      {"S,rigid,modulus,,,,,,", "modulus_pa", "expected modulus_pa"},
+      {"S,rigid,modulus,2e9,45,,,,", "orientation_deg", "0 or 90"},
+      {"S,rigid,modulus,2e9,,0,,,", "strain_rate_per_s", "positive"},
+      {"S,rigid,modulus,2e9,,,3mm,,", "thickness_mm", "number"},
+      {"S,rigid,modulus,2e9,,,,1.5,", "print_order", "whole number"},
+      {"S,rigid,modulus,2e9,,,,,yes", "valid", "0, 1, true or false"},
+      {"S,rigid,toughness,2e9,,,,,", "toughness_pa", "toughness_pa or a curve"},
+      {"S,rigid,tensile,2e9,,,,,", "curve", "expected one"},
+      {"S,rigid,modulus,2e9,,,,,,surplus", "", "9"},
+  };
+  for (const auto& item : cases) {
+    const MeasurementSet set = read(header + "\n" + item.row + "\nGOOD,soft,modulus,1e6,,,,,\n");
+    ASSERT_EQ(set.rejected.size(), 1u) << item.row;
+    EXPECT_EQ(set.specimens.size(), 1u);
+    EXPECT_EQ(set.rejected[0].line, 2);
+    EXPECT_EQ(set.rejected[0].column, item.column) << item.row;
+    EXPECT_THAT(set.rejected[0].reason, HasSubstr(item.expected)) << item.row;
+  }
+}
+
+TEST_F(SetOnDisk, IdenticalRepeatIsIgnoredAndADifferentOneIsAnError) {
+  const MeasurementSet set =
+      read(std::string(kShort) + "S1,rigid,modulus,2e9\nS1,mix:1,modulus,2000000000\nS1,rigid,modulus,3e9\n");
+  ASSERT_EQ(set.specimens.size(), 1u);
+  EXPECT_EQ(set.specimens[0].modulus_pa, 2e9);
+  ASSERT_EQ(set.rejected.size(), 1u);
+  EXPECT_EQ(set.rejected[0].line, 4);
+  EXPECT_EQ(set.rejected[0].column, "specimen");
+}
+
+TEST_F(SetOnDisk, NothingUsableIsAnInputErrorThatNamesTheFirstFault) {
+  EXPECT_THAT(error_of(std::string(kShort) + "S1,rigid,modulus,x\n"), HasSubstr("line 2: column modulus_pa"));
+  EXPECT_THAT(error_of(kShort), HasSubstr("heading only"));
+  EXPECT_THAT(error_of(""), HasSubstr("is empty"));
+  EXPECT_THAT(error_of("specimen,pattern,test\nS1,rigid,modulus\n"), HasSubstr("modulus_pa, toughness_pa, curve"));
+  EXPECT_THAT(error_of("pattern,test,modulus_pa\nrigid,modulus,1\n"), HasSubstr("`specimen` is missing"));
+  EXPECT_THAT(error_of("specimen,pattern,test,curve,curve\n"), HasSubstr("stands twice"));
+  EXPECT_THROW(read_measurement_set(folder_ / "absent"), InputError);
+}
+
+TEST_F(SetOnDisk, FilesStayInsideTheSet) {
+  write("inside/curve.csv", "strain,stress_pa\n0,0\n1,1\n2,2\n3,3\n4,0\n");
+  const fs::path outside = folder_.string() + "-outside.csv";
+  fs::copy_file(folder_ / "inside/curve.csv", outside);
+  fs::create_symlink(outside, folder_ / "link.csv");
+  fs::create_symlink(folder_ / "inside/curve.csv", folder_ / "good-link.csv");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.csv").c_str(), 0600), 0);
+  const std::string header = "specimen,pattern,test,curve\n", good = "S0,rigid,toughness,good-link.csv\n";
+  for (const std::string& bad : {"../" + outside.filename().string(), outside.string(), std::string("link.csv"),
+                                 std::string("inside/../inside/curve.csv"), std::string("absent.csv"),
+                                 std::string("inside"), std::string("pipe.csv")}) {
+    const MeasurementSet set = read(header + good + "S1,rigid,toughness," + bad + "\n");
+    EXPECT_EQ(set.specimens.size(), 1u) << bad;
+    ASSERT_EQ(set.rejected.size(), 1u) << bad;
+    EXPECT_EQ(set.rejected[0].column, "curve") << bad;
+  }
+  const MeasurementSet pattern =
+      read(header + good + "S1,../" + outside.filename().string() + ",toughness,inside/curve.csv\n");
+  ASSERT_EQ(pattern.rejected.size(), 1u);
+  EXPECT_EQ(pattern.rejected[0].column, "pattern");
+  fs::remove(outside);
+}
+
+TEST_F(SetOnDisk, BadCurvesAreRejectedWithPlaceInTheirFile) {
+  const struct {
+    const char* text;
+    const char* expected;
+  } cases[] = {{"", "is empty"},
+               {"strain;stress_pa\n", "strain,stress_pa"},
+               {"strain,stress_pa\n0,0\n1,1\n2,2\n3,3\n", "has 4 rows"},
+               {"strain,stress_pa\n0,0\n1,nan\n2,2\n3,3\n4,4\n", "c.csv:3:3: column stress_pa"},
+               {"strain,stress_pa\n0,0\n1\n2,2\n3,3\n4,4\n", "c.csv:3: column stress_pa: nothing there"},
+               {"strain,stress_pa\n0,0\n-1,0\n2,2\n3,3\n4,4\n", "above -1"},
+               {"strain,strain,stress_pa\n", "twice"},
+               {"strain,stress_pa\n0,0\n1,-1\n2,-2\n3,-3\n4,-4\n", "not positive"}};
+  for (const auto& item : cases) {
+    write("c.csv", item.text);
+    const MeasurementSet set =
+        read("specimen,pattern,test,modulus_pa,curve\nG,soft,modulus,1e6,\nS,rigid,toughness,,c.csv\n");
+    ASSERT_EQ(set.rejected.size(), 1u) << item.text;
+    EXPECT_THAT(set.rejected[0].reason, HasSubstr(item.expected)) << item.text;
+  }
+}
+
+TEST_F(SetOnDisk, GivenToughnessFarFromTheAreaIsAWarningAndWins) {
+  write("c.csv", "strain,stress_pa\n0,0\n0.1,100\n0.2,200\n0.3,300\n0.4,0\n");  // area 60
+  const std::string header = "specimen,pattern,test,toughness_pa,curve\n";
+  EXPECT_TRUE(read(header + "S,rigid,toughness,61,c.csv\n").warnings.empty());
+  const MeasurementSet set = read(header + "S,rigid,toughness,62,c.csv\n");
+  ASSERT_EQ(set.warnings.size(), 1u);
+  EXPECT_THAT(set.warnings[0], HasSubstr(":2: column toughness_pa"));
+  EXPECT_EQ(toughness_of(set.specimens[0]), 62.0);
+}
+
+TEST_F(SetOnDisk, WhatIsWrittenIsReadBack) {
+  std::vector<SpecimenRecord> records = read_measurement_set(kSmallSet).specimens;
+  records[0].specimen = "../odd name/ü";
+  records[2].specimen = "a/b";
+  records[6].specimen = "a_b";  // the same file name after cleaning
+  records[1].modulus_pa = 1.0 / 3.0 * 1e9;
+  write_measurement_set(folder_ / "set", records);
+  const MeasurementSet set = read_measurement_set(folder_ / "set");
+  EXPECT_TRUE(set.rejected.empty());
+  EXPECT_EQ(set.specimens, records);
+}
+
+}  // namespace
+}  // namespace nacre::measurement

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measurement/measurement.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+SpecimenRecord toughness_specimen(std::string name, double toughness_pa) {
+  SpecimenRecord record{
+      .specimen = std::move(name), .design = pattern::Mixture{1.0}, .test = tester::TestKind::toughness};
+  record.toughness_pa = toughness_pa;
+  record.curve = {{0.0, 0.1, 0.2, 0.3, 0.4}, {0.0, toughness_pa, 0.0, 0.0, 0.0}};
+  return record;
+}
+
+SpecimenRecord modulus_specimen(std::string name, double modulus_pa) {
+  SpecimenRecord record{
+      .specimen = std::move(name), .design = pattern::Mixture{1.0}, .test = tester::TestKind::modulus};
+  record.modulus_pa = modulus_pa;
+  return record;
+}
+
+TEST(Summary, MeanDeviationAndRepresentativeCurveOfValidSpecimens) {
+  std::vector<SpecimenRecord> specimens = {toughness_specimen("c", 5.0), toughness_specimen("a", 1.0),
+                                           toughness_specimen("b", 2.4), modulus_specimen("m", 7.0)};
+  specimens.push_back(toughness_specimen("bad", 100.0));
+  specimens.back().valid = false;
+  const std::vector<Replicates> groups = summarise(specimens);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groups[0].specimens, (std::vector<std::string>{"a", "b", "c", "m"}));
+  EXPECT_EQ(groups[0].toughness_count, 3);
+  EXPECT_DOUBLE_EQ(groups[0].toughness_pa, 2.8);
+  EXPECT_NEAR(groups[0].toughness_sd_pa, std::sqrt((1.8 * 1.8 + 0.4 * 0.4 + 2.2 * 2.2) / 2.0), 1e-12);
+  EXPECT_EQ(groups[0].modulus_count, 1);
+  EXPECT_EQ(groups[0].modulus_pa, 7.0);
+  EXPECT_EQ(groups[0].modulus_sd_pa, 0.0);
+  EXPECT_EQ(groups[0].representative_curve.stress_pa[1], 2.4);
+}
+
+TEST(Summary, OrderOfArrivalAndRepeatsDoNotMatter) {
+  std::vector<SpecimenRecord> specimens = {toughness_specimen("c", 0.1), toughness_specimen("a", 0.2),
+                                           toughness_specimen("b", 0.3), toughness_specimen("d", 0.7)};
+  specimens[0].batch = "P2";
+  specimens[1].batch = "P1";
+  specimens[2].conditions.orientation_deg = 90.0;
+  const auto reference = summarise(specimens);
+  ASSERT_EQ(reference.size(), 2u);
+  EXPECT_EQ(reference[0].batch_list, "P1,P2");
+  specimens.push_back(specimens[1]);
+  std::sort(specimens.begin(), specimens.end(), [](const auto& a, const auto& b) { return a.specimen > b.specimen; });
+  const auto shuffled = summarise(specimens);
+  ASSERT_EQ(shuffled.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(shuffled[i].toughness_pa, reference[i].toughness_pa);
+    EXPECT_EQ(shuffled[i].toughness_count, reference[i].toughness_count);
+    EXPECT_EQ(shuffled[i].specimens, reference[i].specimens);
+    EXPECT_EQ(shuffled[i].conditions, reference[i].conditions);
+  }
+}
+
+TEST(Summary, CouponsAreLeftOut) {
+  SpecimenRecord coupon = toughness_specimen("t", 1.0);
+  coupon.test = tester::TestKind::tensile;
+  EXPECT_TRUE(summarise({coupon}).empty());
+}
+
+TEST(Values, ToughnessIsGivenOrTheAreaUnderTheCurve) {
+  SpecimenRecord record = toughness_specimen("a", 3.0);
+  EXPECT_EQ(toughness_of(record), 3.0);
+  record.toughness_pa.reset();
+  EXPECT_NEAR(toughness_of(record).value(), 0.3, 1e-12);
+  record.curve = {};
+  EXPECT_FALSE(toughness_of(record));
+}
+
+TEST(Values, ModulusIsGivenOrTheInitialSlope) {
+  SpecimenRecord record = modulus_specimen("a", 5.0);
+  EXPECT_EQ(modulus_of(record), 5.0);
+  record.modulus_pa.reset();
+  EXPECT_FALSE(modulus_of(record));
+  for (int k = 0; k < 40; ++k) {  // toe before, yielding after the interval that counts
+    const double strain = 1e-4 * k;
+    record.curve.strain.push_back(strain);
+    record.curve.stress_pa.push_back(strain < 4.5e-4 ? 0.0 : strain > 2.55e-3 ? 2e6 : 1e9 * (strain - 3e-4));
+  }
+  EXPECT_NEAR(modulus_of(record).value(), 1e9, 1.0);
+}
+
+TEST(Observe, NothingChangesWithoutExtensions) {
+  const tester::Curve curve = {{0.0, 0.1, 0.2}, {0.0, 1e6, 3.3e6}};
+  for (const material::Extensions& none :
+       {material::Extensions{}, material::Extensions{{"machine_compliance", {0.0}}}}) {
+    EXPECT_EQ(observe_modulus(1.234567e9, none), 1.234567e9);
+    EXPECT_EQ(observe_curve(curve, none), curve);
+  }
+}
+
+TEST(Observe, MachineComplianceIsASpringInSeries) {
+  const double compliance = 2e-10, modulus = 1.5e9;
+  const material::Extensions machine = {{"machine_compliance", {compliance}}};
+  EXPECT_NEAR(1.0 / observe_modulus(modulus, machine), 1.0 / modulus + compliance, 1e-22);
+  const tester::Curve elastic = {{0.0, 0.001, 0.002}, {0.0, 0.001 * modulus, 0.002 * modulus}};
+  const tester::Curve shown = observe_curve(elastic, machine);
+  EXPECT_EQ(shown.stress_pa, elastic.stress_pa);
+  EXPECT_NEAR(shown.stress_pa[2] / shown.strain[2], observe_modulus(modulus, machine), 1e-3);
+  // A closed loop of stress gives back what the spring took: toughness to separation is not changed.
+  const tester::Curve broken = {{0.0, 0.01, 0.011, 0.012}, {0.0, 1e7, 4e6, 0.0}};
+  EXPECT_NEAR(tester::area_under(observe_curve(broken, machine)), tester::area_under(broken), 1e-6);
+}
+
+}  // namespace
+}  // namespace nacre::measurement
