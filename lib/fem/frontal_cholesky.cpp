@@ -7,6 +7,19 @@
 #include "fem/element.hpp"
 
 namespace nacre::fem {
+namespace {
+
+/// Pivots below this share of the stiffest element are rounding: a motion that nothing resists. Real ones stay above
+/// 1e-8 for materials five decades apart.
+constexpr double kSmallestPivot = 1e-12;
+
+double stiffest(const std::vector<material::Lame>& lame) {
+  double largest = 0.0;
+  for (const material::Lame& constants : lame) largest = std::max(largest, constants.mu_pa + constants.lambda_pa);
+  return largest;
+}
+
+}  // namespace
 
 FrontalCholesky::FrontalCholesky(std::shared_ptr<const DissectionPlan> plan) : plan_(std::move(plan)) {
   std::size_t total = 0;
@@ -55,6 +68,7 @@ void FrontalCholesky::add_half(const DissectionBlock& block, std::size_t half, F
 }
 
 bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame) {
+  const double smallest_pivot = kSmallestPivot * stiffest(lame);
   for (std::size_t k = 0; k < plan_->blocks.size(); ++k) {
     const DissectionBlock& block = plan_->blocks[k];
     Front matrix = front(k);
@@ -70,7 +84,8 @@ bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame) {
     if (pivots == 0) continue;
     Eigen::Ref<Eigen::MatrixXd> corner = matrix.topLeftCorner(pivots, pivots);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(corner);
-    if (in_place.info() != Eigen::Success) return false;
+    if (in_place.info() != Eigen::Success || corner.diagonal().array().square().minCoeff() < smallest_pivot)
+      return false;
     if (border == 0) continue;
     auto side = matrix.bottomLeftCorner(border, pivots);
     corner.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(side);
