@@ -3,6 +3,7 @@
 // test_toughness() is both in one; verification changes the parts in between.
 
 #include "fem/explicit_solver.hpp"
+#include "tester/fidelity.hpp"
 #include "tester/tester.hpp"
 
 namespace nacre::tester {
@@ -15,13 +16,6 @@ struct FractureTest {
   int steps_per_sample = 1;
   int frame_count = 0;
 };
-
-/// Units of the toughness specimen along x and y.
-struct SpecimenUnits {
-  int x = 0;
-  int y = 0;
-};
-SpecimenUnits toughness_units(Fidelity fidelity);
 
 /// The specimen of a simulation, ready to be pulled. The simulation must be usable (simulation_fault empty).
 FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics = {});

@@ -2,15 +2,13 @@
 #include "material/mixture.hpp"
 #include "material/neo_hookean.hpp"
 #include "tester/assembly.hpp"
+#include "tester/fidelity.hpp"
 #include "tester/tester.hpp"
 #include "tester/usable.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::tester {
 namespace {
-
-/// Units of the modulus specimen along x; it is one unit high (Figure 2-5B).
-int units_across(Fidelity fidelity) { return fidelity == Fidelity::tiny ? 1 : thesis::kModulusUnitsX.value; }
 
 double homogeneous_modulus(const pattern::Mixture& mixture, const material::ModulusParameters& theta) {
   const material::Constants constants = material::mixture(material::phases_of(theta), mixture.rigid_fraction);
@@ -27,9 +25,9 @@ Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics&
   if (homogeneous && !numerics.explicit_modulus)
     return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation.parameters.modulus)};
 
-  const fem::Grid grid =
-      assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::modulus,
-               units_across(simulation.fidelity), thesis::kModulusUnitsY, numerics.refinement);
+  const SpecimenUnits units = modulus_units(simulation.fidelity);
+  const fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions,
+                                  AssemblyTarget::modulus, units.x, units.y, numerics.refinement);
   if (numerics.explicit_modulus) return fail("modulus tester: explicit integration is not linked in");
   const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
   if (!solution) return fail("modulus tester: {}", solution.error().message);

@@ -91,18 +91,6 @@ Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>
 
 }  // namespace
 
-SpecimenUnits toughness_units(Fidelity fidelity) {
-  switch (fidelity) {
-    case Fidelity::tiny:
-      return {1, 1};
-    case Fidelity::preview:
-      return {3, 2};
-    case Fidelity::full:
-      break;
-  }
-  return {thesis::kToughnessUnitsX, thesis::kToughnessUnitsY};
-}
-
 FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics) {
   const SpecimenUnits units = toughness_units(simulation.fidelity);
   FractureTest test;
