@@ -1,0 +1,107 @@
+// How a laboratory's truth is drawn. Every constant has a random stream of its own, so that adding one changes no other.
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "base/random.hpp"
+#include "virtual_lab/truth.hpp"
+
+namespace nacre::virtual_laboratory {
+namespace {
+
+constexpr std::array kEffectKinds = {
+    EffectKind{.name = "machine_compliance", .unit = "1/Pa", .meaning = "a spring in series: strain recorded per stress",
+               .minimum = 0.0, .maximum = 1e-8, .drawn_minimum = 5e-11, .drawn_maximum = 3e-10,
+               .value = &HiddenEffects::machine_compliance_per_pa},
+    EffectKind{.name = "droplet_mixing", .unit = "pixels", .meaning = "length over which droplets of both materials mix",
+               .minimum = 0.0, .maximum = 5.0, .drawn_minimum = 0.25, .drawn_maximum = 0.8,
+               .value = &HiddenEffects::droplet_mixing_pixels},
+    EffectKind{.name = "interface_anisotropy", .unit = "(x - y)/(x + y)",
+               .meaning = "stiffness and strength of interfaces between x- and y-neighbours differ", .minimum = -0.95,
+               .maximum = 0.95, .drawn_minimum = 0.15, .drawn_maximum = 0.5, .either_sign = true,
+               .value = &HiddenEffects::interface_anisotropy},
+    EffectKind{.name = "corner_debonding", .unit = "share", .meaning = "loss of stiffness and strength where four pixels meet",
+               .minimum = 0.0, .maximum = 0.99, .drawn_minimum = 0.3, .drawn_maximum = 0.9, .in_library = false,
+               .value = &HiddenEffects::corner_debonding},
+    EffectKind{.name = "load_cell_gain", .unit = "relative", .meaning = "a factor 1 + value on the recorded force",
+               .minimum = -0.5, .maximum = 1.0, .value = &HiddenEffects::load_cell_gain},
+    EffectKind{.name = "toe_slack", .unit = "strain", .meaning = "strain recorded before the specimen carries load",
+               .minimum = 0.0, .maximum = 0.05, .value = &HiddenEffects::toe_slack}};
+
+double log_uniform(RandomStream& stream, double low, double high) {
+  return std::exp(stream.uniform(std::log(low), std::log(high)));
+}
+
+/// One constant from a stream of its own.
+double drawn(std::uint64_t seed, std::string_view name, double low, double high) {
+  RandomStream stream(seed, std::string("truth/") + std::string(name));
+  return log_uniform(stream, low, high);
+}
+
+}  // namespace
+
+std::span<const EffectKind> effect_kinds() { return kEffectKinds; }
+
+material::ModulusParameters draw_modulus_parameters(std::uint64_t seed) {
+  // Bulk values of Table 3.4, each off by up to 10 %.
+  return {.e_tb_pa = drawn(seed, "theta/e_tb_pa", 0.9 * 1.0094e6, 1.1 * 1.0094e6),
+          .e_vw_pa = drawn(seed, "theta/e_vw_pa", 0.9 * 2.6613e9, 1.1 * 2.6613e9),
+          .e_if_pa = drawn(seed, "theta/e_if_pa", 0.9 * 0.5642e9, 1.1 * 0.5642e9),
+          .nu_tb = drawn(seed, "theta/nu_tb", 0.42, 0.48),
+          .nu_vw = drawn(seed, "theta/nu_vw", 0.25, 0.35),
+          .nu_if = drawn(seed, "theta/nu_if", 0.32, 0.38),
+          .gamma_per_s = drawn(seed, "theta/gamma_per_s", 1e5, 4e5)};
+}
+
+material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed) {
+  // Inside Table A.2, around values for which notched microstructures absorb what Table A.4 reports.
+  return {.e_tb_pa = drawn(seed, "eta/e_tb_pa", 8e6, 30e6),
+          .e_vw_pa = drawn(seed, "eta/e_vw_pa", 400e6, 900e6),
+          .e_if_pa = drawn(seed, "eta/e_if_pa", 80e6, 250e6),
+          .nu_tb = drawn(seed, "eta/nu_tb", 0.42, 0.48),
+          .nu_vw = drawn(seed, "eta/nu_vw", 0.25, 0.35),
+          .nu_if = drawn(seed, "eta/nu_if", 0.32, 0.38),
+          .w_tb_j_per_m3 = drawn(seed, "eta/w_tb_j_per_m3", 0.2e6, 0.7e6),
+          .w_vw_j_per_m3 = drawn(seed, "eta/w_vw_j_per_m3", 1e6, 4e6),
+          .w_if_j_per_m3 = drawn(seed, "eta/w_if_j_per_m3", 1.5e6, 6e6),
+          .gamma_per_s = drawn(seed, "eta/gamma_per_s", 2e5, 1e6)};
+}
+
+double draw_effect_value(std::uint64_t seed, const EffectKind& kind) {
+  RandomStream stream(seed, std::string("truth/effect/") + std::string(kind.name));
+  const bool has_range = kind.drawn_maximum > 0.0;
+  const double low = has_range ? kind.drawn_minimum : 0.02 * kind.maximum;
+  const double high = has_range ? kind.drawn_maximum : 0.2 * kind.maximum;
+  const double magnitude = log_uniform(stream, low, high);
+  return kind.either_sign && stream.index(2) == 1 ? -magnitude : magnitude;
+}
+
+HiddenEffects draw_effects(std::uint64_t seed) {
+  RandomStream stream(seed, "truth/effects");
+  std::vector<const EffectKind*> kinds;
+  for (const EffectKind& kind : kEffectKinds) {
+    if (kind.drawn_maximum > 0.0) kinds.push_back(&kind);
+  }
+  const double chance = stream.uniform();
+  const int count = chance < 0.3 ? 0 : chance < 0.8 ? 1 : 2;
+  HiddenEffects effects;
+  for (int i = 0; i < count; ++i) {
+    const int pick = stream.index(static_cast<int>(kinds.size()));
+    const EffectKind& kind = *kinds[static_cast<std::size_t>(pick)];
+    effects.*kind.value = draw_effect_value(seed, kind);
+    kinds.erase(kinds.begin() + pick);
+  }
+  return effects;
+}
+
+Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity) {
+  return {.seed = seed,
+          .fidelity = fidelity,
+          .noise = {},
+          .modulus = draw_modulus_parameters(seed),
+          .toughness = draw_toughness_parameters(seed),
+          .effects = draw_effects(seed)};
+}
+
+}  // namespace nacre::virtual_laboratory
