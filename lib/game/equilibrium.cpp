@@ -8,7 +8,7 @@
 namespace nacre::game {
 namespace {
 
-constexpr double kGapErrors = 2.0;         // (b): the gap is noise when within this many standard errors
+constexpr double kGapErrors = 2.0;          // (b): the gap is noise when within this many standard errors
 constexpr double kGapRelativeChange = 0.1;  // (b): or when it has stopped moving
 
 struct Judgement {
@@ -22,8 +22,10 @@ Judgement judge_round(const RoundFigures& before, const RoundFigures& now) {
   }
   const double growth = now.measured_hypervolume - before.measured_hypervolume;
   if (growth > 0.0 && growth >= now.hypervolume_error) {
-    return {false, fmt::format("the measured hypervolume grew by {:.4g} GPa MPa in round {}, not less than its standard error "
-                               "of {:.4g}", growth, now.round, now.hypervolume_error)};
+    return {false,
+            fmt::format("the measured hypervolume grew by {:.4g} GPa MPa in round {}, not less than its standard error "
+                        "of {:.4g}",
+                        growth, now.round, now.hypervolume_error)};
   }
   const double limit = kGapErrors * now.hypervolume_error;
   if (std::abs(now.signed_gap) <= limit) {
@@ -34,11 +36,13 @@ Judgement judge_round(const RoundFigures& before, const RoundFigures& now) {
   const double allowed = kGapRelativeChange * std::abs(before.signed_gap);
   const double percent = before.signed_gap == 0.0 ? 100.0 : 100.0 * change / std::abs(before.signed_gap);
   if (change < allowed) {
-    return {true, fmt::format("the gap of {:.4g} GPa MPa in round {} changed by {:.2g} %, less than 10 %", now.signed_gap,
-                              now.round, percent)};
+    return {true, fmt::format("the gap of {:.4g} GPa MPa in round {} changed by {:.2g} %, less than 10 %",
+                              now.signed_gap, now.round, percent)};
   }
-  return {false, fmt::format("the gap of {:.4g} GPa MPa in round {} exceeds twice the standard error of {:.4g} and changed by "
-                             "{:.2g} %", now.signed_gap, now.round, now.hypervolume_error, percent)};
+  return {false,
+          fmt::format("the gap of {:.4g} GPa MPa in round {} exceeds twice the standard error of {:.4g} and changed by "
+                      "{:.2g} %",
+                      now.signed_gap, now.round, now.hypervolume_error, percent)};
 }
 
 }  // namespace

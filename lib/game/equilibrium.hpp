@@ -20,9 +20,10 @@ struct Verdict {
   std::string decided_by;
 };
 
-/// Equilibrium: in two rounds running (a) the measured hypervolume grew by less than its standard error, or not at all, and (b)
-/// the signed gap lies within twice that error or changed by less than 10 %. `history` holds one entry per round, ascending,
-/// the newest last; a round counts only when its predecessor had measurements, so the earliest end is round 3.
+/// Equilibrium: in two rounds running (a) the measured hypervolume grew by less than its standard error, or not at all,
+/// and (b) the signed gap lies within twice that error or changed by less than 10 %. `history` holds one entry per
+/// round, ascending, the newest last; a round counts only when its predecessor had measurements, so the earliest end is
+/// round 3.
 Verdict judge_equilibrium(std::span<const RoundFigures> history);
 
 }  // namespace nacre::game

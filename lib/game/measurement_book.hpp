@@ -1,6 +1,6 @@
 #pragma once
-// Every specimen that was ever reported, whoever tested it, and what is still missing. What the book says depends on the set of
-// entries alone, never on their order.
+// Every specimen that was ever reported, whoever tested it, and what is still missing. What the book says depends on
+// the set of entries alone, never on their order.
 
 #include <map>
 #include <span>
@@ -43,8 +43,9 @@ class MeasurementBook {
   /// All specimens, sorted by name, with validity as reviewed.
   std::vector<measurement::SpecimenRecord> specimens() const;
 
-  /// Progress of each order: complete when all replicates have arrived, or `enough_valid` > 0 valid ones. Specimens that carry an
-  /// order's id count for it; others count for the orders, in the given sequence, that asked the same question.
+  /// Progress of each order: complete when all replicates have arrived, or `enough_valid` > 0 valid ones. Specimens
+  /// that carry an order's id count for it; others count for the orders, in the given sequence, that asked the same
+  /// question.
   std::vector<OrderProgress> progress(std::span<const Order> orders, int enough_valid) const;
 
   int size() const { return static_cast<int>(entries_.size()); }

@@ -92,7 +92,8 @@ std::vector<measurement::Replicates> read_base_materials(const std::filesystem::
     const std::string& name = table.text(row, "material");
     const auto* known = std::find_if(std::begin(kRigidFractions), std::end(kRigidFractions),
                                      [&](const auto& each) { return name == each.first; });
-    if (known == std::end(kRigidFractions)) table.fail_at(row, "material", "expected TB, VW or IF, found '" + name + "'");
+    if (known == std::end(kRigidFractions))
+      table.fail_at(row, "material", "expected TB, VW or IF, found '" + name + "'");
     if (!found.emplace(name, read_material(table, row, known->second)).second) {
       table.fail_at(row, "material", name + " stands here a second time");
     }

@@ -43,11 +43,16 @@ int interface_length(const pattern::Pattern& pattern) {
 
 std::string_view to_string(OrderReason reason) {
   switch (reason) {
-    case OrderReason::base: return "base";
-    case OrderReason::mixture: return "mixture";
-    case OrderReason::random: return "random";
-    case OrderReason::proposal: return "proposal";
-    case OrderReason::discrimination: return "discrimination";
+    case OrderReason::base:
+      return "base";
+    case OrderReason::mixture:
+      return "mixture";
+    case OrderReason::random:
+      return "random";
+    case OrderReason::proposal:
+      return "proposal";
+    case OrderReason::discrimination:
+      return "discrimination";
   }
   return "proposal";
 }
@@ -114,8 +119,8 @@ std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns
   });
   std::vector<Experiment> experiments;
   for (const pattern::Pattern& each : ordered) {
-    experiments.push_back({.design = each, .test = TestKind::modulus, .conditions = {.orientation_deg = 90.0},
-                           .replicates = replicates});
+    experiments.push_back(
+        {.design = each, .test = TestKind::modulus, .conditions = {.orientation_deg = 90.0}, .replicates = replicates});
   }
   return experiments;
 }

@@ -36,10 +36,11 @@ struct Experiment {
 };
 
 /// `rN/DESIGN/TEST`, with `/turned` for orientation 90.
-std::string order_id(int round, const pattern::Design& design, tester::TestKind test, const tester::TestConditions& conditions);
+std::string order_id(int round, const pattern::Design& design, tester::TestKind test,
+                     const tester::TestConditions& conditions);
 
-/// Modulus and toughness orders of the pure materials, the scenario's mixtures and the random patterns: measured in round 1 beside
-/// the first proposals. A mixture named twice (0.5 is the interface material) is ordered once.
+/// Modulus and toughness orders of the pure materials, the scenario's mixtures and the random patterns: measured in
+/// round 1 beside the first proposals. A mixture named twice (0.5 is the interface material) is ordered once.
 std::vector<Order> opening_orders(const Scenario& scenario, std::span<const pattern::Pattern> random_patterns);
 
 /// Modulus and toughness orders of designs proposed for `round`.
@@ -48,12 +49,12 @@ std::vector<Order> proposal_orders(const Scenario& scenario, int round, std::spa
 /// At most diagnosis.discrimination_orders of the experiments; a question asked twice is ordered once.
 std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments);
 
-/// The experiments of round 1, when there is no diagnosis yet: modulus tests of the patterns with the longest interface, printed
-/// turned by 90 degrees, which shows whether the printer's axes matter.
+/// The experiments of round 1, when there is no diagnosis yet: modulus tests of the patterns with the longest
+/// interface, printed turned by 90 degrees, which shows whether the printer's axes matter.
 std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates);
 
-/// Whether a specimen tested under `tested` answers an order for `ordered`: same orientation, rate within a quarter, thickness
-/// within a tenth (a person's callipers never show 3.2 exactly).
+/// Whether a specimen tested under `tested` answers an order for `ordered`: same orientation, rate within a quarter,
+/// thickness within a tenth (a person's callipers never show 3.2 exactly).
 bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered);
 
 }  // namespace nacre::game

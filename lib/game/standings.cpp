@@ -46,7 +46,8 @@ std::map<pattern::Pattern, MeasuredValues> measured_values(std::span<const measu
     if (specimen.test == tester::TestKind::modulus) {
       if (const auto modulus_pa = measurement::modulus_of(specimen)) values[*pattern].modulus_pa.push_back(*modulus_pa);
     } else if (specimen.test == tester::TestKind::toughness) {
-      if (const auto toughness_pa = measurement::toughness_of(specimen)) values[*pattern].toughness_pa.push_back(*toughness_pa);
+      if (const auto toughness_pa = measurement::toughness_of(specimen))
+        values[*pattern].toughness_pa.push_back(*toughness_pa);
     }
   }
   return values;
@@ -84,7 +85,8 @@ std::vector<optimize::Performance> benchmark_line(const std::vector<measurement:
   std::map<double, optimize::Performance> by_fraction;
   for (const measurement::Replicates& each : summarise_nominally(specimens)) {
     const pattern::Mixture* mixture = each.design.mixture();
-    if (mixture == nullptr || !upright(each.conditions) || each.modulus_count == 0 || each.toughness_count == 0) continue;
+    if (mixture == nullptr || !upright(each.conditions) || each.modulus_count == 0 || each.toughness_count == 0)
+      continue;
     by_fraction.try_emplace(mixture->rigid_fraction, optimize::Performance{each.modulus_pa, each.toughness_pa});
   }
   std::vector<optimize::Performance> line;

@@ -19,27 +19,29 @@ struct MeasuredValues {
   std::vector<double> toughness_pa;
 };
 
-/// Valid specimens of patterns tested under standard conditions, by pattern: what the measured front is made of. Coupons without the eightfold
-/// symmetry, homogeneous designs and turned twins are no competitors of proposals. `specimens` sorted by name.
+/// Valid specimens of patterns tested under standard conditions, by pattern: what the measured front is made of.
+/// Coupons without the eightfold symmetry, homogeneous designs and turned twins are no competitors of proposals.
+/// `specimens` sorted by name.
 std::map<pattern::Pattern, MeasuredValues> measured_values(std::span<const measurement::SpecimenRecord> specimens);
 
 /// Means of the patterns that have both E and T.
 std::vector<optimize::Performance> measured_performances(const std::map<pattern::Pattern, MeasuredValues>& values);
 
-/// Bootstrap standard error of the measured staircase hypervolume, GPa MPa: each pattern's replicates are drawn anew, E and T by
-/// themselves, their deviations from the mean widened by sqrt(n / (n - 1)) since a bootstrap of few replicates is too narrow by
-/// that factor. 0 when no pattern has two replicates. Deterministic in the seed.
-double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& values, std::uint64_t seed, int resamples = 1000);
+/// Bootstrap standard error of the measured staircase hypervolume, GPa MPa: each pattern's replicates are drawn anew, E
+/// and T by themselves, their deviations from the mean widened by sqrt(n / (n - 1)) since a bootstrap of few replicates
+/// is too narrow by that factor. 0 when no pattern has two replicates. Deterministic in the seed.
+double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& values, std::uint64_t seed,
+                         int resamples = 1000);
 
 /// l1 of 2.3.4: measured homogeneous designs that have both E and T, by increasing rigid fraction.
 std::vector<optimize::Performance> benchmark_line(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens that answer the same
-/// nominal question are replicates even where callipers read 3.17 and 3.24 mm.
+/// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens that
+/// answer the same nominal question are replicates even where callipers read 3.17 and 3.24 mm.
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Errors of predictions made before the designs were measured; designs without a valid measurement are left out. Predictions
-/// by canonical design name, as the testing machine would show them.
+/// Errors of predictions made before the designs were measured; designs without a valid measurement are left out.
+/// Predictions by canonical design name, as the testing machine would show them.
 sysid::PredictionErrors held_out_errors(const std::vector<measurement::Replicates>& measured,
                                         const std::map<std::string, sysid::Prediction>& predictions);
 

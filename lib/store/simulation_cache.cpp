@@ -26,7 +26,8 @@ constexpr const char* kSchema = R"sql(
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError::format(
-      "the simulation cache {} cannot be used: {}. Nothing else depends on it: move the file (and its -wal and -shm companions) "
+      "the simulation cache {} cannot be used: {}. Nothing else depends on it: move the file (and its -wal and -shm "
+      "companions) "
       "away and start again, and the simulations are done anew",
       path.string(), reason);
 }
@@ -81,7 +82,8 @@ SimulationCache::SimulationCache(const std::filesystem::path& path) : path_(path
   std::error_code ignored;  // the database's own message is clearer
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   guarded(path_, [&] {
-    database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
+    database_ =
+        std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
     database_->exec("PRAGMA journal_mode = WAL");
     // A power cut may lose the newest answers, never the file; they would be simulated again.
     database_->exec("PRAGMA synchronous = NORMAL");
@@ -96,9 +98,10 @@ SimulationCache::~SimulationCache() = default;
 std::optional<CachedSimulation> SimulationCache::find(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   return guarded(path_, [&]() -> std::optional<CachedSimulation> {
-    SQLite::Statement query(*database_,
-                            "SELECT failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve FROM simulation "
-                            "WHERE key = ?");
+    SQLite::Statement query(
+        *database_,
+        "SELECT failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve FROM simulation "
+        "WHERE key = ?");
     query.bind(1, key);
     if (!query.executeStep()) return std::nullopt;
     CachedSimulation answer;
@@ -117,7 +120,8 @@ void SimulationCache::insert(const std::string& key, const CachedSimulation& ans
   const std::vector<float> curve = pack_curve(answer.curve);
   const std::lock_guard lock(mutex_);
   guarded(path_, [&] {
-    SQLite::Statement insertion(*database_, "INSERT INTO simulation VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO NOTHING");
+    SQLite::Statement insertion(*database_,
+                                "INSERT INTO simulation VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO NOTHING");
     insertion.bind(1, key);
     insertion.bind(2, answer.failure);
     insertion.bind(3, answer.modulus_pa);

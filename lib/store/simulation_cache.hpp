@@ -30,8 +30,8 @@ struct CachedSimulation {
 /// A cache file shared by all threads of a process, and by several processes (WAL; a busy file is waited for).
 class SimulationCache {
  public:
-  /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it: not a database, damaged,
-  /// written by another version, not writable.
+  /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it: not a
+  /// database, damaged, written by another version, not writable.
   explicit SimulationCache(const std::filesystem::path& path);
   ~SimulationCache();
 

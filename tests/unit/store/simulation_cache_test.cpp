@@ -76,7 +76,8 @@ TEST_F(SimulationCacheFile, AFailureIsAnAnswer) {
 
 TEST_F(SimulationCacheFile, ThreadsAndASecondConnectionWriteSideBySide) {
   SimulationCache first(path_), second(path_);
-  parallel_for(200, [&](int i) { (i % 2 ? first : second).insert("key " + std::to_string(i), kAnswer); }, 4);
+  parallel_for(
+      200, [&](int i) { (i % 2 ? first : second).insert("key " + std::to_string(i), kAnswer); }, 4);
   EXPECT_EQ(first.size(), 200);
   EXPECT_EQ(second.find("key 101"), kAnswer);
 }

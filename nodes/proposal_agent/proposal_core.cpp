@@ -1,0 +1,169 @@
+#include "proposal_agent/proposal_core.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "explore/merge.hpp"
+#include "game/model.hpp"
+#include "proposal_agent/selection_work.hpp"
+
+namespace nacre::proposal_agent {
+namespace {
+
+constexpr int kGenerationOffspring = 10;  // patterns of one generation (thesis 3.2.5)
+
+void log(runtime::Outputs& outputs, runtime::LogLevel level, std::string text) {
+  outputs.log.push_back({level, std::move(text)});
+}
+
+}  // namespace
+
+ProposalCore::ProposalCore(const game::Scenario& scenario) : scenario_(scenario) {
+  for (int branch = 0; branch < scenario_.proposal.seeds; ++branch) explore::make_search(search_settings(branch));
+}
+
+runtime::Outputs ProposalCore::step(const runtime::Input& input) {
+  runtime::Outputs outputs;
+  if (const auto* message = std::get_if<runtime::Message>(&input)) {
+    if (message->channel == "PARAMETERS") accept_model(message->payload, outputs);
+    if (message->channel == "SIMULATED") accept_answer(message->payload, outputs);
+    if (message->channel == "ROUND") {
+      const auto summary = wire::read<wire::RoundSummary>(message->payload);
+      if (summary && summary->last) finished_ = true;
+    }
+  } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
+    accept_proposal(*work, outputs);
+  }
+  return outputs;
+}
+
+void ProposalCore::accept_model(const std::string& payload, runtime::Outputs& outputs) {
+  auto model = wire::read<wire::AdoptedModel>(payload);
+  if (!model) return log(outputs, runtime::LogLevel::warning, "a PARAMETERS is ignored: " + model.error().message);
+  if (model->fidelity != scenario_.fidelity) {
+    return log(outputs, runtime::LogLevel::warning,
+               fmt::format("PARAMETERS({}) is ignored: its fidelity is {}, the game's {}", model->round,
+                           tester::to_string(model->fidelity), tester::to_string(scenario_.fidelity)));
+  }
+  if (!known_rounds_.insert(model->round).second) return;
+  waiting_.emplace(model->round, *std::move(model));
+  if (!round_) start_next_round(outputs);
+}
+
+explore::SearchSettings ProposalCore::search_settings(int branch) const {
+  const game::ProposalSettings& settings = scenario_.proposal;
+  explore::SearchSettings search;
+  search.algorithm = settings.algorithm;
+  search.budget = settings.samples / settings.seeds + (branch < settings.samples % settings.seeds ? 1 : 0);
+  search.population = settings.population;
+  search.batch = std::min(kGenerationOffspring, settings.population);
+  // The same streams in every round: gamuts of successive models differ by the models, not by the luck of the start.
+  search.seed = RandomStream(scenario_.seed, fmt::format("gamut search {}", branch)).bits();
+  return search;
+}
+
+void ProposalCore::start_next_round(runtime::Outputs& outputs) {
+  const auto next = waiting_.begin();
+  round_.emplace();
+  round_->model = std::move(next->second);
+  waiting_.erase(next);
+  const bool same_model = last_parameters_ == game::material_side(round_->model.parameters);
+  log(outputs, runtime::LogLevel::info,
+      fmt::format("round {}: searching with {} samples in {} searches{}", round_->model.round,
+                  scenario_.proposal.samples, scenario_.proposal.seeds,
+                  same_model ? ", the model is that of the round before" : ""));
+  for (int number = 0; number < scenario_.proposal.seeds; ++number) {
+    explore::SearchSettings settings = search_settings(number);
+    if (same_model) settings.known = last_gamut_;
+    round_->branches.emplace_back(number, settings, fmt::format("proposal_agent/r{}", round_->model.round));
+  }
+  for (Branch& branch : round_->branches) ask_next(branch, outputs);
+}
+
+void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
+  wire::SimulateRequest model;
+  model.modulus = model.toughness = true;
+  model.fidelity = scenario_.fidelity;
+  model.parameters = game::material_side(round_->model.parameters);
+  for (const wire::SimulateRequest& request : branch.next(model)) {
+    outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  }
+  const bool all_finished =
+      std::all_of(round_->branches.begin(), round_->branches.end(), [](const Branch& each) { return each.finished(); });
+  if (all_finished && !round_->selecting) publish_gamut(outputs);
+}
+
+void ProposalCore::accept_answer(const std::string& payload, runtime::Outputs& outputs) {
+  auto part = wire::read<wire::SimulateResult>(payload);
+  if (!part) return log(outputs, runtime::LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
+  if (!round_) return;
+  const std::string request_id = part->request_id;
+  const auto branch = std::find_if(round_->branches.begin(), round_->branches.end(),
+                                   [&](const Branch& each) { return each.waits_for(request_id); });
+  if (branch == round_->branches.end()) return;  // answered before, or not ours
+  const auto answer = collector_.add(*std::move(part));
+  if (answer && branch->take(request_id, *answer)) ask_next(*branch, outputs);
+}
+
+int ProposalCore::simulations() const {
+  return std::accumulate(round_->branches.begin(), round_->branches.end(), 0,
+                         [](int sum, const Branch& branch) { return sum + branch.simulated(); });
+}
+
+void ProposalCore::publish_gamut(runtime::Outputs& outputs) {
+  std::vector<std::vector<explore::Evaluated>> gamuts;
+  for (const Branch& branch : round_->branches) gamuts.push_back(branch.evaluated());
+  round_->gamut = explore::merge_gamuts(gamuts);
+  round_->selecting = true;
+  const std::vector<wire::GamutChunk> chunks =
+      wire::gamut_chunks(round_->model.round, scenario_.fidelity, round_->gamut);
+  for (const wire::GamutChunk& chunk : chunks) outputs.messages.push_back({"GAMUT", wire::write(chunk)});
+  outputs.computes.push_back({.id = fmt::format("select/r{}", round_->model.round),
+                              .kind = "select",
+                              .spec = selection_spec({.model = round_->model,
+                                                      .gamut = chunks,
+                                                      .count = scenario_.proposal.designs,
+                                                      .simulations = simulations()})});
+}
+
+void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs) {
+  const auto proposal = wire::read<wire::Proposal>(work.result);
+  if (!round_ || !proposal || proposal->round != round_->model.round) {
+    return log(outputs, runtime::LogLevel::warning,
+               "the result of " + work.id + " is ignored: no selection is awaited");
+  }
+  outputs.messages.push_back({"PROPOSAL", work.result});
+  log(outputs, runtime::LogLevel::info,
+      fmt::format("round {}: {} designs proposed from {} samples, gamut hypervolume {:.4g} GPa MPa", proposal->round,
+                  proposal->designs.size(), round_->gamut.size(), proposal->gamut_hypervolume_staircase));
+  last_parameters_ = game::material_side(round_->model.parameters);
+  last_gamut_ = std::move(round_->gamut);
+  last_round_ = round_->model.round;
+  round_.reset();
+  if (!waiting_.empty()) start_next_round(outputs);
+}
+
+runtime::Status ProposalCore::status() const {
+  if (!round_) {
+    return {.phase = finished_ ? "the game is over" : "waiting for a model",
+            .round = std::max(0, last_round_),
+            .progress = -1.0,
+            .finished = finished_};
+  }
+  if (round_->selecting)
+    return {.phase = "selecting designs", .round = round_->model.round, .progress = -1.0, .finished = false};
+  return {.phase = "searching the gamut",
+          .round = round_->model.round,
+          .progress = std::min(1.0, static_cast<double>(simulations()) / std::max(1, scenario_.proposal.samples)),
+          .finished = false};
+}
+
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
+  return std::make_unique<ProposalCore>(scenario);
+}
+
+}  // namespace nacre::proposal_agent

@@ -1,0 +1,88 @@
+#include "proposal_agent/selection_work.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "optimize/pareto.hpp"
+#include "runtime/journal.hpp"
+#include "select/select.hpp"
+
+namespace nacre::proposal_agent {
+namespace {
+
+// A spec that this program wrote itself must read back.
+template <class T>
+T expected(Result<T> result) {
+  if (!result) throw std::logic_error("the spec of a selection: " + result.error().message);
+  return *std::move(result);
+}
+
+Selection selection_from(const std::string& spec) {
+  const std::vector<std::string> fields = expected(runtime::unpack(spec));
+  Selection selection;
+  selection.model = expected(wire::read<wire::AdoptedModel>(fields.at(0)));
+  selection.count = std::stoi(fields.at(1));
+  selection.simulations = std::stoi(fields.at(2));
+  for (std::size_t field = 3; field < fields.size(); ++field) {
+    selection.gamut.push_back(expected(wire::read<wire::GamutChunk>(fields[field])));
+  }
+  return selection;
+}
+
+void erase_patterns(std::vector<explore::Evaluated>& samples, const std::vector<pattern::Pattern>& patterns) {
+  const std::set<pattern::Pattern> gone(patterns.begin(), patterns.end());
+  std::erase_if(samples, [&](const explore::Evaluated& sample) { return gone.contains(sample.pattern); });
+}
+
+std::vector<select::Selected> choose(const Selection& selection, std::vector<explore::Evaluated> candidates) {
+  std::vector<pattern::Pattern> taken = selection.model.measured;
+  erase_patterns(candidates, taken);
+  std::vector<select::Selected> chosen =
+      select::select_designs(candidates, taken, selection.model.benchmark, {.count = selection.count});
+  const int missing = selection.count - static_cast<int>(chosen.size());
+  if (missing <= 0 || selection.model.benchmark.empty()) return chosen;
+  for (const select::Selected& each : chosen) taken.push_back(each.pattern);
+  erase_patterns(candidates, taken);
+  for (select::Selected& each : select::select_designs(candidates, taken, {}, {.count = missing})) {
+    each.reason = "below the homogeneous line, where too few samples lie above it: " + each.reason;
+    chosen.push_back(std::move(each));
+  }
+  return chosen;
+}
+
+std::string work(const std::string& spec) {
+  const Selection selection = selection_from(spec);
+  std::vector<explore::Evaluated> gamut;
+  std::vector<optimize::Performance> performances;
+  for (const wire::GamutChunk& chunk : selection.gamut)
+    gamut.insert(gamut.end(), chunk.samples.begin(), chunk.samples.end());
+  for (const explore::Evaluated& sample : gamut) performances.push_back(sample.performance);
+  wire::Proposal proposal;
+  proposal.round = selection.model.round;
+  proposal.fidelity = selection.model.fidelity;
+  proposal.gamut_hypervolume_staircase = optimize::hypervolume_staircase_gpa_mpa(performances);
+  proposal.gamut_hypervolume_polygon = optimize::hypervolume_polygon_gpa_mpa(performances);
+  proposal.simulations = selection.simulations;
+  for (const select::Selected& each : choose(selection, std::move(gamut))) {
+    proposal.designs.push_back({.design = each.pattern,
+                                .modulus_pa = each.predicted.modulus_pa,
+                                .toughness_pa = each.predicted.toughness_pa,
+                                .bin = each.bin,
+                                .reason = each.reason});
+  }
+  return wire::write(proposal);
+}
+
+}  // namespace
+
+std::string selection_spec(const Selection& selection) {
+  std::vector<std::string> fields = {wire::write(selection.model), std::to_string(selection.count),
+                                     std::to_string(selection.simulations)};
+  for (const wire::GamutChunk& chunk : selection.gamut) fields.push_back(wire::write(chunk));
+  return runtime::pack(fields);
+}
+
+std::map<std::string, runtime::WorkFunction> work_functions() { return {{"select", work}}; }
+
+}  // namespace nacre::proposal_agent

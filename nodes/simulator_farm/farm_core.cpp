@@ -1,0 +1,162 @@
+#include "simulator_farm/farm_core.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "simulator_farm/question.hpp"
+
+namespace nacre::simulator_farm {
+namespace {
+
+// Asking an answered question again for its curve: the cache has it, nothing is simulated twice.
+constexpr std::string_view kCurveSuffix = "/curve";
+
+bool wants_curve(const wire::SimulateRequest& request, tester::TestKind test) {
+  return request.curve_points > 0 && test == tester::TestKind::toughness;
+}
+
+void warn(runtime::Outputs& outputs, std::string text) {
+  outputs.log.push_back({runtime::LogLevel::warning, std::move(text)});
+}
+
+}  // namespace
+
+runtime::Outputs FarmCore::step(const runtime::Input& input) {
+  runtime::Outputs outputs;
+  if (const auto* message = std::get_if<runtime::Message>(&input)) {
+    if (message->channel == "SIMULATE") accept(message->payload, outputs);
+  } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
+    settle(*work, outputs);
+  }
+  return outputs;
+}
+
+void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
+  auto read = wire::read<wire::SimulateRequest>(payload);
+  if (!read) return warn(outputs, fmt::format("a SIMULATE is ignored: {}", read.error().message));
+  const auto [position, is_new] = requests_.try_emplace(read->request_id);
+  Request& entry = position->second;
+  if (!is_new) {
+    if (!(entry.request == *read)) {
+      warn(outputs, fmt::format("request {} came again with other content and is ignored", read->request_id));
+    } else if (entry.missing == 0) {
+      answer(entry.request, outputs);
+    }
+    return;
+  }
+  entry.request = *std::move(read);
+  const wire::SimulateRequest& request = entry.request;
+  if (open_requests_ == 0) asked_ = answered_ = 0;
+  for (const pattern::Design& design : request.designs) {
+    for (tester::TestKind test : tests_of(request)) {
+      const bool with_curve = wants_curve(request, test);
+      const std::string key = tester::simulation_key(simulation_of(request, design), test);
+      Question& question = questions_[key];
+      const bool curve_is_there = question.with_curve && !question.running;
+      if (question.answered && (!with_curve || curve_is_there || !question.answer.failure.empty())) continue;
+      question.test = test;
+      // A design that stands twice in the request waits twice and is settled twice.
+      question.waiting.push_back(request.request_id);
+      ++entry.missing;
+      ++asked_;
+      if (!question.running) launch(key, question_of(request, design, test, with_curve), outputs);
+    }
+  }
+  if (entry.missing == 0) {
+    answer(request, outputs);
+  } else {
+    ++open_requests_;
+  }
+}
+
+void FarmCore::launch(const std::string& key, const wire::SimulateRequest& question, runtime::Outputs& outputs) {
+  Question& entry = questions_[key];
+  entry.running = true;
+  entry.with_curve = question.curve_points > 0;
+  outputs.computes.push_back({.id = entry.answered ? fmt::format("{}{}", key, kCurveSuffix) : key,
+                              .kind = "simulate",
+                              .spec = wire::write(question)});
+}
+
+void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) {
+  std::string_view key = work.id;
+  if (key.ends_with(kCurveSuffix)) key.remove_suffix(kCurveSuffix.size());
+  const auto position = questions_.find(std::string(key));
+  auto result = wire::read<wire::SimulateResult>(work.result);
+  if (position == questions_.end() || !result || result->results.size() != 1) {
+    return warn(outputs, fmt::format("the result of {} is ignored: {}", work.id,
+                                     result ? "nobody asked for it" : result.error().message));
+  }
+  Question& question = position->second;
+  question.answered = true;
+  question.running = false;
+  question.answer = std::move(result->results.front());
+  const std::vector<std::string> waiting = std::exchange(question.waiting, {});
+  for (const std::string& id : waiting) {
+    Request& request = requests_.at(id);
+    if (wants_curve(request.request, question.test) && !question.with_curve && question.answer.failure.empty()) {
+      question.waiting.push_back(id);
+      if (!question.running) {
+        launch(position->first, question_of(request.request, question.answer.design, question.test, true), outputs);
+      }
+      continue;
+    }
+    ++answered_;
+    if (--request.missing == 0) {
+      --open_requests_;
+      answer(request.request, outputs);
+    }
+  }
+}
+
+wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, const pattern::Design& design) const {
+  wire::SimulatedDesign whole;
+  whole.design = design;
+  for (tester::TestKind test : tests_of(request)) {
+    const wire::SimulatedDesign& part =
+        questions_.at(tester::simulation_key(simulation_of(request, design), test)).answer;
+    if (!part.failure.empty()) {
+      wire::SimulatedDesign failed;
+      failed.design = design;
+      failed.failure = fmt::format("{}: {}", tester::to_string(test), part.failure);
+      return failed;
+    }
+    if (test == tester::TestKind::modulus) {
+      whole.modulus_pa = part.modulus_pa;
+      continue;
+    }
+    whole.toughness_pa = part.toughness_pa;
+    whole.peak_stress_pa = part.peak_stress_pa;
+    whole.failure_strain = part.failure_strain;
+    if (request.curve_points > 0) {
+      const int stored = static_cast<int>(part.curve.size());
+      whole.curve =
+          request.curve_points < stored ? tester::resampled(part.curve, std::max(2, request.curve_points)) : part.curve;
+    }
+  }
+  return whole;
+}
+
+void FarmCore::answer(const wire::SimulateRequest& request, runtime::Outputs& outputs) const {
+  std::vector<wire::SimulatedDesign> results;
+  results.reserve(request.designs.size());
+  for (const pattern::Design& design : request.designs) results.push_back(assembled(request, design));
+  for (const wire::SimulateResult& part : wire::simulate_answer(request.request_id, results)) {
+    outputs.messages.push_back({"SIMULATED", wire::write(part)});
+  }
+}
+
+runtime::Status FarmCore::status() const {
+  if (open_requests_ == 0) return {.phase = "idle", .round = 0, .progress = -1.0, .finished = false};
+  return {.phase = fmt::format("simulating {} of {}", answered_, asked_),
+          .round = 0,
+          .progress = static_cast<double>(answered_) / std::max(1, asked_),
+          .finished = false};
+}
+
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario&) { return std::make_unique<FarmCore>(); }
+
+}  // namespace nacre::simulator_farm

@@ -1,0 +1,57 @@
+#pragma once
+// The simulator farm's decisions: which questions are open, who waits for them, when a request is answered.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/scenario.hpp"
+#include "runtime/node_core.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::simulator_farm {
+
+/// Points of the curves kept in memory and in the cache; requests get at most so many.
+inline constexpr int kCurvePoints = 256;
+
+/// SIMULATE in, one Compute (kind "simulate", see simulate_work.hpp) per question that nobody has asked yet, SIMULATED
+/// out when all questions of a request are answered. A question is one design, one test, one set of parameters and
+/// conditions; its simulation_key is the id of its Compute. Equal questions of different requests are computed once.
+/// Computes are handed out in the order of the requests.
+class FarmCore : public runtime::NodeCore {
+ public:
+  runtime::Outputs step(const runtime::Input& input) override;
+  runtime::Status status() const override;
+
+ private:
+  struct Question {
+    tester::TestKind test = tester::TestKind::modulus;
+    bool answered = false;
+    bool running = false;
+    bool with_curve = false;  ///< the running or finished simulation was asked for its curve
+    wire::SimulatedDesign answer;
+    std::vector<std::string> waiting;  ///< request ids, in the order of asking
+  };
+  struct Request {
+    wire::SimulateRequest request;
+    int missing = 0;  ///< questions without an answer
+  };
+
+  void accept(const std::string& payload, runtime::Outputs& outputs);
+  void settle(const runtime::WorkDone& work, runtime::Outputs& outputs);
+  void launch(const std::string& key, const wire::SimulateRequest& question, runtime::Outputs& outputs);
+  void answer(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
+  wire::SimulatedDesign assembled(const wire::SimulateRequest& request, const pattern::Design& design) const;
+
+  std::map<std::string, Question> questions_;  // by simulation_key
+  std::map<std::string, Request> requests_;    // by request_id
+  int open_requests_ = 0;
+  int asked_ = 0;  // questions of the present busy spell
+  int answered_ = 0;
+};
+
+/// The core of the farm; the scenario decides nothing here.
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
+
+}  // namespace nacre::simulator_farm

@@ -1,0 +1,102 @@
+#include "game/measurement_book.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace nacre::game {
+namespace {
+
+using measurement::SpecimenRecord;
+using Entry = MeasurementBook::Entry;
+
+SpecimenRecord specimen(const std::string& name, double modulus_pa = 1e9) {
+  SpecimenRecord record;
+  record.specimen = name;
+  record.design = pattern::Mixture{0.65};
+  record.modulus_pa = modulus_pa;
+  return record;
+}
+
+Order order(const std::string& id, int replicates) {
+  Order order;
+  order.id = id;
+  order.round = 1;
+  order.design = pattern::Mixture{0.65};
+  order.replicates = replicates;
+  return order;
+}
+
+TEST(MeasurementBook, IdenticalRepeatIsIgnoredAndADifferentOneRefused) {
+  MeasurementBook book;
+  EXPECT_EQ(book.enter(specimen("a"), "o"), Entry::accepted);
+  EXPECT_EQ(book.enter(specimen("a"), "o"), Entry::repeated);
+  EXPECT_EQ(book.enter(specimen("a", 2e9), "o"), Entry::conflicting);
+  ASSERT_EQ(book.specimens().size(), 1u);
+  EXPECT_EQ(book.specimens().front().modulus_pa, 1e9);
+}
+
+TEST(MeasurementBook, ReplicatesCompleteAnOrderValidOrNot) {
+  MeasurementBook book;
+  SpecimenRecord broken = specimen("b");
+  broken.valid = false;
+  const std::vector<Order> orders = {order("o", 2)};
+  book.enter(specimen("a"), "o");
+  EXPECT_FALSE(book.progress(orders, 0).front().complete);
+  EXPECT_TRUE(book.progress(orders, 1).front().complete) << "one valid specimen is enough when the scenario says so";
+  book.enter(broken, "o");
+  EXPECT_TRUE(book.progress(orders, 0).front().complete);
+  EXPECT_EQ(book.progress(orders, 0).front().valid, 1);
+}
+
+TEST(MeasurementBook, SpecimensWithoutOrderIdFillTheOldestOrderThatAskedTheSame) {
+  MeasurementBook book;
+  for (const char* name : {"a", "b", "c"}) book.enter(specimen(name), "");
+  const std::vector<Order> orders = {order("first", 2), order("second", 2)};
+  const auto progress = book.progress(orders, 0);
+  EXPECT_EQ(progress[0].arrived, 2);
+  EXPECT_EQ(progress[1].arrived, 1);
+}
+
+TEST(MeasurementBook, ASpecimenOfAnotherQuestionDoesNotCount) {
+  MeasurementBook book;
+  SpecimenRecord turned = specimen("a");
+  turned.conditions.orientation_deg = 90.0;
+  SpecimenRecord fast = specimen("b");
+  fast.conditions.strain_rate_per_s *= 10.0;
+  SpecimenRecord tough = specimen("c");
+  tough.test = tester::TestKind::toughness;
+  for (const SpecimenRecord& each : {turned, fast, tough}) book.enter(each, "");
+  EXPECT_EQ(book.progress(std::vector{order("o", 1)}, 0).front().arrived, 0);
+}
+
+TEST(MeasurementBook, HighestRevisionOfAReviewWinsInWhateverOrder) {
+  std::vector<Review> reviews = {{1, false, "slipped"}, {2, true, "grip was fine"}, {3, false, "bubble"}};
+  std::sort(reviews.begin(), reviews.end(), [](const auto& a, const auto& b) { return a.revision < b.revision; });
+  do {
+    MeasurementBook book;
+    for (const Review& review : reviews) book.review("a", review);
+    book.enter(specimen("a"), "");
+    EXPECT_FALSE(book.specimens().front().valid);
+    EXPECT_EQ(book.specimens().front().note, "bubble");
+  } while (std::next_permutation(reviews.begin(), reviews.end(),
+                                 [](const auto& a, const auto& b) { return a.revision < b.revision; }));
+}
+
+TEST(MeasurementBook, OrderOfArrivalDoesNotMatter) {
+  std::vector<std::string> names = {"a", "b", "c", "d"};
+  std::vector<SpecimenRecord> reference;
+  do {
+    MeasurementBook book;
+    for (const std::string& name : names) book.enter(specimen(name), name == "b" ? "second" : "");
+    const auto progress = book.progress(std::vector{order("first", 2), order("second", 2)}, 0);
+    EXPECT_EQ(progress[0].arrived, 2);
+    EXPECT_EQ(progress[1].arrived, 2);
+    if (reference.empty()) reference = book.specimens();
+    EXPECT_EQ(book.specimens(), reference);
+  } while (std::next_permutation(names.begin(), names.end()));
+}
+
+}  // namespace
+}  // namespace nacre::game
