@@ -10,7 +10,7 @@
 namespace nacre::select {
 
 struct SelectionSettings {
-  int count = 8;        ///< M of 2.3.4
+  int count = 8;  ///< M of 2.3.4
   int beam_width = 100;
   int maximum_rank = 3;
 };
@@ -22,10 +22,13 @@ struct Selected {
   int bin = -1;  ///< radial bin 0..M-1, -1 when taken to fill up
 };
 
-/// Two-stage selection: rank <= 3 and above the benchmark lines l1 (measured homogeneous line, may be empty) and l2, then radial
-/// bins (Eq. 2.13 as corrected) and a beam search for Eq. 2.14 against `measured`. Fewer than count come back when the gamut has
-/// fewer candidates; empty bins are filled from the remaining candidates and the reason says so.
-std::vector<Selected> select_designs(std::span<const explore::Evaluated> gamut, std::span<const pattern::Pattern> measured,
-                                     std::span<const optimize::Performance> benchmark, const SelectionSettings& settings);
+/// Two-stage selection: rank <= 3 and above the benchmark lines l1 (measured homogeneous line, may be empty) and l2,
+/// then radial bins (Eq. 2.13 as corrected) and a beam search for Eq. 2.14 against `measured`. Fewer than count come
+/// back when the gamut has fewer candidates; empty bins are filled from the remaining candidates and the reason says
+/// so.
+std::vector<Selected> select_designs(std::span<const explore::Evaluated> gamut,
+                                     std::span<const pattern::Pattern> measured,
+                                     std::span<const optimize::Performance> benchmark,
+                                     const SelectionSettings& settings);
 
 }  // namespace nacre::select
