@@ -3,7 +3,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <memory>
 #include <thread>
@@ -15,6 +14,7 @@
 #include "game/scenario.hpp"
 #include "nacre/run_t.hpp"
 #include "runtime/endpoint.hpp"
+#include "runtime/interrupts.hpp"
 #include "runtime/live_display.hpp"
 #include "runtime/round_history.hpp"
 #include "runtime/run_folder.hpp"
@@ -28,28 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using State = SupervisedNode::State;
-
-volatile std::sig_atomic_t interrupt_count = 0;
-
-/// Counts SIGINT, SIGTERM and SIGHUP instead of dying of them, while it lives.
-class InterruptCounter {
- public:
-  InterruptCounter() {
-    interrupt_count = 0;
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupt_count = interrupt_count + 1; };
-    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &action, &before_[i]);
-    ::signal(SIGPIPE, SIG_IGN);  // a reader of our output that has gone must not end the run
-  }
-  ~InterruptCounter() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
-  }
-  int count() const { return interrupt_count; }
-
- private:
-  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
-  std::array<struct sigaction, 3> before_{};
-};
 
 RunFolder prepare_folder(const LaunchOptions& options, const std::optional<game::Scenario>& scenario) {
   return scenario ? RunFolder::create(options.logs, options.run_name, *scenario) : RunFolder::resume(options.resume);
@@ -83,6 +61,7 @@ class Launch {
         port_(std::move(port)),
         display_(stdout, terminal_columns(STDOUT_FILENO)) {
     run_.set_port(port_->port());
+    std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that has gone must not end the run
   }
 
   int play();
@@ -105,7 +84,7 @@ class Launch {
   LaunchOptions options_;
   RunFolder run_;
   std::unique_ptr<PortReservation> port_;
-  InterruptCounter interrupts_;
+  Interrupts interrupts_;
   LiveDisplay display_;
   std::unique_ptr<SupervisedNode> recorder_;
   std::vector<std::unique_ptr<SupervisedNode>> nodes_;
@@ -273,15 +252,15 @@ int Launch::play() {
       fmt::format("run {} on UDP port {}, in {}", run_.manifest().run_id, port_->port(), run_.path().string()));
   open_endpoint();
   start_recorder();
-  while (!recorder_is_ready_ && recorder_->state() != State::failed && interrupts_.count() == 0) turn(kTurn);
+  while (!recorder_is_ready_ && recorder_->state() != State::failed && !interrupts_.any()) turn(kTurn);
   bool is_complete = false;
   if (recorder_is_ready_) start_nodes();
-  while (interrupts_.count() == 0 && !nodes_.empty() && !has_failed() && !is_complete) {
+  while (!interrupts_.any() && !nodes_.empty() && !has_failed() && !is_complete) {
     turn(kTurn);
     announce_when_ready();
     is_complete = game_is_over();
   }
-  const bool was_interrupted = interrupts_.count() > 0 && !is_complete;
+  const bool was_interrupted = interrupts_.any() && !is_complete;
   display_.say(is_complete       ? "the game is over"
                : was_interrupted ? "stopping"
                                  : "a node has failed for good: stopping");

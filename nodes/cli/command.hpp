@@ -1,0 +1,38 @@
+#pragma once
+// A subcommand of nacre: it describes its options to CLI11 and, when it was the one typed, leaves what is to be done.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace nacre::cli {
+
+/// What the chosen subcommand does; its result is the exit status: 0 done, 1 the answer is no. Bad input is thrown as
+/// InputError.
+using Action = std::function<int()>;
+
+/// Adds a subcommand whose options are members of `Options`; `run` gets them when it is chosen.
+template <class Options>
+CLI::App& add_command(CLI::App& app, Action& action, const std::string& name, const std::string& description,
+                      const std::shared_ptr<Options>& options, int (*run)(const Options&)) {
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.callback([&action, options, run] { action = [options, run] { return run(*options); }; });
+  return command;
+}
+
+void add_simulate(CLI::App& app, Action& action);
+void add_explore(CLI::App& app, Action& action);
+void add_select(CLI::App& app, Action& action);
+void add_launch(CLI::App& app, Action& action);
+void add_record(CLI::App& app, Action& action);
+void add_status(CLI::App& app, Action& action);
+void add_echo(CLI::App& app, Action& action);
+void add_inject(CLI::App& app, Action& action);
+void add_approve(CLI::App& app, Action& action);
+void add_review(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
+void add_doctor(CLI::App& app, Action& action);
+
+}  // namespace nacre::cli

@@ -1,0 +1,125 @@
+// nacre explore: the search for the gamut in this process.
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/result.hpp"
+#include "command.hpp"
+#include "explore/gamut_csv.hpp"
+#include "explore/search.hpp"
+#include "material/parameters.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "runtime/interrupts.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string params;
+  std::string algorithm = "nsga2";
+  int budget = 300;
+  std::string out;
+  std::string fidelity = "full";
+  std::uint64_t seed = 1;
+  int population = 20;
+  int batch = 10;
+  bool json = false;
+};
+
+/// Both tests of one pattern; nothing when one of them has no result.
+std::optional<optimize::Performance> performance_of(const pattern::Pattern& pattern,
+                                                    const material::ParameterSet& parameters,
+                                                    tester::Fidelity fidelity) {
+  const tester::Simulation simulation{pattern, parameters, {}, fidelity};
+  const auto modulus = tester::test_modulus(simulation);
+  if (!modulus) return std::nullopt;
+  const auto toughness = tester::test_toughness(simulation);
+  if (!toughness) return std::nullopt;
+  return optimize::Performance{modulus->modulus_pa, toughness->toughness_pa};
+}
+
+void print_summary(const std::vector<explore::Evaluated>& gamut, const Options& options, int failed) {
+  std::vector<optimize::Performance> points;
+  for (const auto& sample : gamut) points.push_back(sample.performance);
+  const double hypervolume = optimize::hypervolume_staircase_gpa_mpa(points);
+  const std::size_t front_size = optimize::pareto_front(points).size();
+  if (options.json) {
+    print_json({{"evaluated", gamut.size()},
+                {"failed", failed},
+                {"front", front_size},
+                {"hypervolume_gpa_mpa", hypervolume},
+                {"gamut", options.out}});
+  } else {
+    fmt::print("{} patterns ({} failed), {} on the front, hypervolume {:.4f} GPa MPa: {}\n", gamut.size(), failed,
+               front_size, hypervolume, options.out);
+  }
+}
+
+int explore_gamut(const Options& options) {
+  const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
+  const material::ParameterSet defaults = material::default_parameters();
+  const auto parameters = options.params.empty() ? defaults : material::read_parameters(options.params, defaults);
+  const auto search = explore::make_search({.algorithm = options.algorithm,
+                                            .budget = options.budget,
+                                            .population = options.population,
+                                            .batch = options.batch,
+                                            .seed = options.seed,
+                                            .known = {}});
+  const runtime::Interrupts interrupts;
+  Progress progress("explore: patterns", options.budget);
+  constexpr auto kSaveEvery = std::chrono::seconds(5);
+  auto saved = std::chrono::steady_clock::time_point{};  // long ago: the first batch already shows whether the file can
+                                                         // be written
+  int failed = 0;
+  for (auto batch = search->ask(); !batch.empty(); batch = search->ask()) {
+    std::vector<std::optional<optimize::Performance>> performances(batch.size());
+    parallel_for(static_cast<int>(batch.size()), [&](int i) {
+      const auto index = static_cast<std::size_t>(i);
+      if (interrupts.any()) return;
+      performances[index] = performance_of(batch[index], parameters, fidelity);
+      progress.advance();
+    });
+    if (interrupts.any()) break;  // what is missing of this batch was not simulated: it must not count as failed
+    for (const auto& performance : performances) failed += performance ? 0 : 1;
+    search->tell(performances);
+    if (std::chrono::steady_clock::now() - saved < kSaveEvery) continue;
+    explore::write_gamut_csv(options.out, search->evaluated());
+    saved = std::chrono::steady_clock::now();
+  }
+  explore::write_gamut_csv(options.out, search->evaluated());
+  if (interrupts.any()) remark("stopped; the gamut found so far is kept");
+  print_summary(search->evaluated(), options, failed);
+  return interrupts.any() || search->evaluated().empty() ? 1 : 0;
+}
+
+}  // namespace
+
+void add_explore(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      add_command(app, action, "explore", "Search for the gamut of modulus and toughness", options, explore_gamut);
+  command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");
+  command.add_option("--algorithm", options->algorithm, "nsga2, nsga2-single-pixel, nsga2-rollback, random")
+      ->capture_default_str();
+  command.add_option("--budget", options->budget, "Simulations")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command.add_option("--out", options->out, "gamut.csv")->required();
+  command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
+      ->capture_default_str();
+  command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();
+  command.add_option("--population", options->population, "Population")
+      ->check(CLI::Range(2, 100'000))
+      ->capture_default_str();
+  command.add_option("--batch", options->batch, "Patterns simulated between two decisions")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,37 @@
+#pragma once
+// What the program says: answers on standard output, remarks on standard error.
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "tester/tester.hpp"
+
+namespace nacre::cli {
+
+/// One JSON document on standard output, with a line end; numbers that are not finite become null.
+void print_json(const nlohmann::ordered_json& document);
+
+/// The value, or null.
+template <class T>
+nlohmann::ordered_json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+/// A line on standard error.
+void remark(const std::string& line);
+void warn(const std::string& line);
+
+/// Throws InputError unless all that was written to standard output has arrived (full disk, closed pipe).
+void check_standard_output();
+
+/// A fidelity as typed; throws InputError with the choices.
+tester::Fidelity fidelity_from_option(const std::string& name);
+
+/// A name of a design as part of a file name: `mix:0.65` becomes mix_0.65.
+std::string file_stem(const std::string& design_name);
+
+/// Makes a folder with its parents; throws InputError.
+void make_folder(const std::string& folder);
+
+}  // namespace nacre::cli

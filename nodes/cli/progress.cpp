@@ -1,0 +1,55 @@
+#include "progress.hpp"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "runtime/terminal.hpp"
+
+namespace nacre::cli {
+
+Progress::Progress(std::string task, std::int64_t total)
+    : task_(std::move(task)), total_(total), columns_(runtime::terminal_columns(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+  if (is_drawn_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void Progress::advance(std::int64_t count) {
+  const std::lock_guard lock(mutex_);
+  done_ += count;
+  show();
+}
+
+void Progress::set(std::int64_t done, std::int64_t total, const std::string& note) {
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  total_ = total;
+  note_ = note;
+  show();
+}
+
+std::string Progress::line() const {
+  constexpr int kCells = 24;
+  const double share = total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 0.0;
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - begun_).count();
+  const std::string left = done_ > 0 ? runtime::in_words(elapsed_s * (1.0 - share) / share) : "";
+  return fmt::format("{} {}{}/{}{}{}", task_, columns_ > 0 ? runtime::bar(share, kCells) + " " : "", done_, total_,
+                     left.empty() ? "" : ", " + left + " left", note_.empty() ? "" : ", " + note_);
+}
+
+void Progress::show() {
+  constexpr auto kRedraw = std::chrono::milliseconds(100);
+  constexpr auto kPlainLine = std::chrono::seconds(5);
+  const Clock::time_point now = Clock::now();
+  if (now - shown_ < (columns_ > 0 ? Clock::duration(kRedraw) : Clock::duration(kPlainLine))) return;
+  shown_ = now;
+  if (columns_ > 0) {
+    fmt::print(stderr, "\r{}\x1b[K", runtime::fitted(line(), columns_ - 1));
+    is_drawn_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", line());
+  }
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,200 @@
+// nacre simulate: the two testers on patterns, without farm and cache.
+
+#include <time.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/files.hpp"
+#include "base/parallel.hpp"
+#include "command.hpp"
+#include "frames.hpp"
+#include "material/parameters.hpp"
+#include "output.hpp"
+#include "pattern/constraints.hpp"
+#include "pattern/design.hpp"
+#include "progress.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> patterns;
+  std::string params;
+  std::string test = "both";
+  std::string fidelity = "full";
+  std::string curves;
+  std::string frames;
+  int frame_count = 60;
+  bool json = false;
+};
+
+/// A design with what the testers said about it.
+struct Specimen {
+  std::string argument;
+  pattern::Design design;
+  std::optional<Result<tester::ModulusResult>> modulus;
+  std::optional<Result<tester::ToughnessResult>> toughness;
+  double kernel_s = 0.0;  ///< processor time of the toughness test
+
+  /// Why there is no number; empty when every test that was run succeeded.
+  std::string failure() const {
+    if (modulus && !*modulus) return "modulus: " + modulus->error().message;
+    if (toughness && !*toughness) return "toughness: " + toughness->error().message;
+    return "";
+  }
+};
+
+/// Processor time of the calling thread: what a kernel costs, whoever else uses the machine.
+double thread_time_s() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::vector<Specimen> read_specimens(const std::vector<std::string>& arguments) {
+  std::vector<Specimen> specimens;
+  for (const std::string& argument : arguments) {
+    Specimen& specimen = specimens.emplace_back();
+    specimen.argument = argument;
+    specimen.design = pattern::design_from_argument(argument);
+    const pattern::Layout* layout = specimen.design.layout();
+    if (layout == nullptr) continue;
+    const auto symmetric = pattern::Pattern::from_layout(*layout);
+    const auto violation = symmetric ? pattern::violation(*symmetric) : "it lacks the eightfold symmetry of proposals";
+    if (violation) warn(fmt::format("{}: {}; it is simulated all the same", argument, *violation));
+  }
+  return specimens;
+}
+
+void run_tests(std::vector<Specimen>& specimens, const Options& options, const material::ParameterSet& parameters) {
+  struct Task {
+    Specimen* specimen;
+    tester::TestKind test;
+  };
+  std::vector<Task> tasks;  // the long tests first
+  for (const auto test : {tester::TestKind::toughness, tester::TestKind::modulus}) {
+    if (options.test != "both" && options.test != tester::to_string(test)) continue;
+    for (Specimen& specimen : specimens) tasks.push_back({&specimen, test});
+  }
+  const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
+  const tester::Numerics numerics{.frame_count = options.frames.empty() ? 0 : options.frame_count};
+  Progress progress("simulate: tests", static_cast<std::int64_t>(tasks.size()));
+  parallel_for(static_cast<int>(tasks.size()), [&](int i) {
+    const Task& task = tasks[static_cast<std::size_t>(i)];
+    Specimen& specimen = *task.specimen;
+    const tester::Simulation simulation{specimen.design, parameters, {}, fidelity};
+    if (task.test == tester::TestKind::modulus) {
+      specimen.modulus = tester::test_modulus(simulation);
+    } else {
+      const double begun_s = thread_time_s();
+      specimen.toughness = tester::test_toughness(simulation, numerics);
+      specimen.kernel_s = thread_time_s() - begun_s;
+    }
+    progress.advance();
+  });
+}
+
+nlohmann::ordered_json to_json(const Specimen& specimen) {
+  nlohmann::ordered_json entry = {{"pattern", specimen.argument}, {"key", specimen.design.name()}};
+  if (const std::string failure = specimen.failure(); !failure.empty()) {
+    entry["error"] = failure;
+    return entry;
+  }
+  for (const char* field :
+       {"modulus_pa", "toughness_pa", "peak_stress_pa", "failure_strain", "steps", "element_steps_per_s"}) {
+    entry[field] = nullptr;
+  }
+  if (specimen.modulus) entry["modulus_pa"] = (*specimen.modulus)->modulus_pa;
+  if (specimen.toughness) {
+    const tester::ToughnessResult& result = **specimen.toughness;
+    entry["toughness_pa"] = result.toughness_pa;
+    entry["peak_stress_pa"] = result.peak_stress_pa;
+    entry["failure_strain"] = result.failure_strain;
+    entry["steps"] = result.steps;
+    entry["element_steps_per_s"] =
+        static_cast<double>(result.steps) * static_cast<double>(result.element_count) / specimen.kernel_s;
+  }
+  return entry;
+}
+
+void print_table(const std::vector<Specimen>& specimens) {
+  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>10}  {}\n", "pattern", "E / GPa", "T / MPa", "peak / MPa", "strain",
+             "end");
+  for (const Specimen& specimen : specimens) {
+    const std::string name = specimen.argument.size() <= 24 ? specimen.argument : specimen.design.name().substr(0, 24);
+    if (const std::string failure = specimen.failure(); !failure.empty()) {
+      fmt::print("{:<24} {}\n", name, failure);
+      continue;
+    }
+    fmt::print("{:<24} {:>10}", name,
+               specimen.modulus ? fmt::format("{:.4f}", 1e-9 * (*specimen.modulus)->modulus_pa) : "");
+    if (specimen.toughness) {
+      const tester::ToughnessResult& result = **specimen.toughness;
+      fmt::print(" {:>10.4f} {:>10.3f} {:>10.4f}  {} after {} steps", 1e-6 * result.toughness_pa,
+                 1e-6 * result.peak_stress_pa, result.failure_strain, tester::to_string(result.end), result.steps);
+    }
+    fmt::print("\n");
+  }
+}
+
+void write_curve(const std::filesystem::path& path, const tester::Curve& curve) {
+  std::string text = "strain,stress_pa\n";
+  for (std::size_t i = 0; i < curve.size(); ++i) text += fmt::format("{},{}\n", curve.strain[i], curve.stress_pa[i]);
+  write_file_atomically(path, text);
+}
+
+void write_files(const std::vector<Specimen>& specimens, const Options& options) {
+  for (const Specimen& specimen : specimens) {
+    if (!specimen.toughness || !*specimen.toughness) continue;
+    const std::string stem = file_stem(specimen.design.name());
+    if (!options.curves.empty()) {
+      write_curve(std::filesystem::path(options.curves) / (stem + ".csv"), (*specimen.toughness)->curve);
+    }
+    if (!options.frames.empty()) write_frames(options.frames, stem, (*specimen.toughness)->frames);
+  }
+}
+
+int simulate(const Options& options) {
+  std::vector<Specimen> specimens = read_specimens(options.patterns);
+  material::ParameterSet parameters = material::default_parameters();
+  if (!options.params.empty()) parameters = material::read_parameters(options.params, parameters);
+  if (!options.curves.empty()) make_folder(options.curves);
+  if (!options.frames.empty()) make_folder(options.frames);
+  run_tests(specimens, options, parameters);
+  write_files(specimens, options);
+  bool any_succeeded = false;
+  nlohmann::ordered_json document = nlohmann::ordered_json::array();
+  for (const Specimen& specimen : specimens) {
+    any_succeeded = any_succeeded || specimen.failure().empty();
+    document.push_back(to_json(specimen));
+  }
+  options.json ? print_json(document) : print_table(specimens);
+  return any_succeeded ? 0 : 1;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      add_command(app, action, "simulate", "Simulate patterns in the two virtual testers", options, simulate);
+  command.add_option("PATTERN", options->patterns, "Pattern file, key, soft, interface, rigid or mix:F")->required();
+  command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");
+  command.add_option("--test", options->test, "Which test")
+      ->check(CLI::IsMember({"modulus", "toughness", "both"}))
+      ->capture_default_str();
+  command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
+      ->capture_default_str();
+  command.add_option("--curves", options->curves, "Folder for the stress-strain curves, KEY.csv");
+  command.add_option("--frames", options->frames, "Folder for pictures of the fracture, KEY-NNNN.png");
+  command.add_option("--frame-count", options->frame_count, "Pictures per specimen")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli
