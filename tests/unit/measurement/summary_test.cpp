@@ -9,16 +9,20 @@ namespace nacre::measurement {
 namespace {
 
 SpecimenRecord toughness_specimen(std::string name, double toughness_pa) {
-  SpecimenRecord record{
-      .specimen = std::move(name), .design = pattern::Mixture{1.0}, .test = tester::TestKind::toughness};
+  SpecimenRecord record;
+  record.specimen = std::move(name);
+  record.design = pattern::Mixture{1.0};
+  record.test = tester::TestKind::toughness;
   record.toughness_pa = toughness_pa;
   record.curve = {{0.0, 0.1, 0.2, 0.3, 0.4}, {0.0, toughness_pa, 0.0, 0.0, 0.0}};
   return record;
 }
 
 SpecimenRecord modulus_specimen(std::string name, double modulus_pa) {
-  SpecimenRecord record{
-      .specimen = std::move(name), .design = pattern::Mixture{1.0}, .test = tester::TestKind::modulus};
+  SpecimenRecord record;
+  record.specimen = std::move(name);
+  record.design = pattern::Mixture{1.0};
+  record.test = tester::TestKind::modulus;
   record.modulus_pa = modulus_pa;
   return record;
 }

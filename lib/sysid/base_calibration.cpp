@@ -1,0 +1,325 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "sysid/base_fit.hpp"
+#include "sysid/calibration.hpp"
+#include "sysid/objective.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+using material::ParameterRange;
+using material::ParameterSet;
+
+constexpr double kModulusTolerance = 1e-6;
+constexpr int kMaterials = 3;  // 0 soft, 1 rigid, 2 interface, as in the vectors of parameters
+constexpr std::array<double, kMaterials> kRigidFractions = {0.0, 1.0, 0.5};
+// Places in the vectors theta and eta.
+constexpr int kE = 0, kNu = 3, kW = 6, kEtaGamma = 9;
+
+template <class Value>
+std::size_t at(Value place, int material) {
+  return static_cast<std::size_t>(static_cast<int>(place) + material);
+}
+
+double middle_of(const ParameterRange& range) { return 0.5 * (range.minimum + range.maximum); }
+
+double clamped(double value, const ParameterRange& range) { return std::clamp(value, range.minimum, range.maximum); }
+
+/// One candidate of one material; `modulus_pa` of theta or `trial` of eta.
+struct Candidate {
+  int material = 0;
+  double modulus_pa = 0.0;
+  MaterialTrial trial;
+};
+
+}  // namespace
+
+struct BaseCalibration::State {
+  struct Material {
+    std::optional<std::size_t> item;  ///< index into the measured designs
+    std::optional<RatioSearch> modulus;
+    std::optional<double> modulus_prediction_pa;  ///< at modulus->best()
+    int modulus_evaluations = 0;
+    std::optional<MaterialFit> toughness;
+  };
+  enum class Phase { start, search, confirm, done };
+
+  std::vector<measurement::Replicates> measured;
+  CalibrationSettings settings;
+  std::array<Material, kMaterials> materials;
+  Phase phase = Phase::start;
+  std::vector<WantedEvaluation> wanted;
+  std::vector<std::vector<Candidate>> candidates;  ///< of each wanted evaluation, one per item
+  std::vector<std::optional<std::vector<Prediction>>> told;
+  std::vector<Prediction> before, after;
+  int batch_number = 0;
+  Calibrated result;
+
+  std::span<const ParameterRange> theta_ranges() const { return material::modulus_ranges(settings.target); }
+  std::span<const ParameterRange> eta_ranges() const { return material::toughness_ranges(settings.target); }
+
+  void begin() {
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const pattern::Mixture* mixture = measured[i].design.mixture();
+      if (mixture == nullptr) continue;
+      for (int m = 0; m < kMaterials; ++m) {
+        if (mixture->rigid_fraction == kRigidFractions[at(0, m)]) begin_material(m, i);
+      }
+    }
+    before.resize(measured.size());
+    after.resize(measured.size());
+    result.parameters = centred_start();
+    ask();
+  }
+
+  void begin_material(int m, std::size_t item) {
+    Material& material = materials[at(0, m)];
+    if (material.item) return;  // measured under several conditions: the first ones count
+    material.item = item;
+    const measurement::Replicates& base = measured[item];
+    const ParameterSet start = centred_start();
+    const material::ToughnessVector eta = to_vector(start.toughness);
+    if (base.modulus_count > 0) {
+      const ParameterRange& range = theta_ranges()[at(kE, m)];
+      material.modulus.emplace(RatioSearch::Settings{
+          .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
+    }
+    if (base.toughness_count > 0) {
+      const MaterialRanges ranges = {eta_ranges()[at(kE, m)], eta_ranges()[at(kW, m)], eta_ranges()[at(kEtaGamma, 0)]};
+      const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE, m)];
+      material.toughness.emplace(base, ranges, MaterialTrial{e_pa, eta[at(kW, m)], eta[at(kEtaGamma, 0)]},
+                                 std::max(1, settings.toughness_budget));
+    }
+  }
+
+  /// The start within the ranges, Poisson's ratios in the middle of theirs: nothing measured here tells them.
+  ParameterSet centred_start() const {
+    material::ModulusVector theta = to_vector(settings.start.modulus);
+    material::ToughnessVector eta = to_vector(settings.start.toughness);
+    for (std::size_t j = 0; j < theta.size(); ++j) theta[j] = clamped(theta[j], theta_ranges()[j]);
+    for (std::size_t j = 0; j < eta.size(); ++j) eta[j] = clamped(eta[j], eta_ranges()[j]);
+    for (int m = 0; m < kMaterials; ++m) {
+      theta[at(kNu, m)] = middle_of(theta_ranges()[at(kNu, m)]);
+      eta[at(kNu, m)] = middle_of(eta_ranges()[at(kNu, m)]);
+    }
+    return {material::modulus_from_vector(theta), material::toughness_from_vector(eta), settings.start.extensions};
+  }
+
+  void ask() {
+    wanted.clear();
+    candidates.clear();
+    ++batch_number;
+    if (phase == Phase::start) want_start();
+    if (phase == Phase::search) want_candidates();
+    if (phase == Phase::confirm) want_confirmation();
+    for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].id = fmt::format("B{}.{}", batch_number, k);
+    told.assign(wanted.size(), std::nullopt);
+    if (!wanted.empty()) return;
+    if (phase == Phase::search) {
+      settle();
+      phase = Phase::confirm;
+      ask();
+    } else if (phase == Phase::start) {  // nothing measured
+      phase = Phase::done;
+    } else {
+      phase = Phase::done;
+      conclude();
+    }
+  }
+
+  std::vector<std::size_t> items_with(bool modulus) const {
+    std::vector<std::size_t> items;
+    for (const Material& material : materials) {
+      if (modulus ? material.modulus.has_value() : material.toughness.has_value()) items.push_back(*material.item);
+    }
+    return items;
+  }
+
+  void want_start() {
+    for (const bool modulus : {true, false}) {
+      const std::vector<std::size_t> items = items_with(modulus);
+      if (items.empty()) continue;
+      wanted.push_back({"", settings.start, modulus, !modulus, items});
+      candidates.emplace_back(items.size());
+    }
+  }
+
+  void want_candidates() {
+    const ParameterSet base = centred_start();
+    for (int m = 0; m < kMaterials; ++m) {
+      Material& material = materials[at(0, m)];
+      if (material.modulus && material.modulus_evaluations < std::max(1, settings.modulus_budget)) {
+        for (const double modulus_pa : material.modulus->ask(settings.batch)) want(base, true, {m, modulus_pa, {}});
+      }
+      if (!material.toughness) continue;
+      for (const MaterialTrial& trial : material.toughness->ask(settings.batch)) want(base, false, {m, 0.0, trial});
+    }
+  }
+
+  /// Candidates of different materials share an evaluation, since none depends on the others' parameters; all but the
+  /// damping.
+  void want(const ParameterSet& base, bool modulus, const Candidate& candidate) {
+    std::size_t k = 0;
+    for (; k < wanted.size(); ++k) {
+      if (wanted[k].modulus != modulus) continue;
+      const auto& others = candidates[k];
+      const bool same_material = std::any_of(
+          others.begin(), others.end(), [&](const Candidate& other) { return other.material == candidate.material; });
+      const bool same_damping = modulus || wanted[k].parameters.toughness.gamma_per_s == candidate.trial.gamma_per_s;
+      if (!same_material && same_damping) break;
+    }
+    if (k == wanted.size()) {
+      wanted.push_back({"", base, modulus, !modulus, {}});
+      candidates.emplace_back();
+    }
+    wanted[k].items.push_back(*materials[at(0, candidate.material)].item);
+    candidates[k].push_back(candidate);
+    if (modulus) {
+      material::ModulusVector theta = to_vector(wanted[k].parameters.modulus);
+      theta[at(kE, candidate.material)] = candidate.modulus_pa;
+      wanted[k].parameters.modulus = material::modulus_from_vector(theta);
+    } else {
+      material::ToughnessVector eta = to_vector(wanted[k].parameters.toughness);
+      eta[at(kE, candidate.material)] = candidate.trial.e_pa;
+      eta[at(kW, candidate.material)] = candidate.trial.w_j_per_m3;
+      eta[at(kEtaGamma, 0)] = candidate.trial.gamma_per_s;
+      wanted[k].parameters.toughness = material::toughness_from_vector(eta);
+    }
+  }
+
+  /// Materials that needed another damping than the median are tested once more with it.
+  void want_confirmation() {
+    WantedEvaluation evaluation{"", result.parameters, false, true, {}};
+    for (const Material& material : materials) {
+      if (!material.toughness) continue;
+      const bool same = material.toughness->best().gamma_per_s == result.parameters.toughness.gamma_per_s;
+      if (!same) evaluation.items.push_back(*material.item);
+    }
+    if (evaluation.items.empty()) return;
+    candidates.emplace_back(evaluation.items.size());
+    wanted.push_back(std::move(evaluation));
+  }
+
+  void take(std::size_t index, const std::vector<Prediction>& predictions) {
+    assert(index < wanted.size() && predictions.size() == wanted[index].items.size());
+    if (told[index]) return;  // a repeat
+    std::vector<Prediction> shown;
+    for (const Prediction& prediction : predictions) shown.push_back(observed(prediction, settings.start.extensions));
+    told[index] = std::move(shown);
+    result.simulations += static_cast<int>(predictions.size());
+    if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;
+    for (std::size_t k = 0; k < wanted.size(); ++k) hand_over(wanted[k], candidates[k], *told[k]);
+    if (phase == Phase::start) phase = Phase::search;
+    ask();
+  }
+
+  void hand_over(const WantedEvaluation& evaluation, const std::vector<Candidate>& tried,
+                 const std::vector<Prediction>& predictions) {
+    for (std::size_t j = 0; j < evaluation.items.size(); ++j) {
+      const std::size_t item = evaluation.items[j];
+      if (phase != Phase::search) {
+        Prediction& kept = (phase == Phase::start ? before : after)[item];
+        if (evaluation.modulus) kept.modulus_pa = predictions[j].modulus_pa;
+        if (evaluation.toughness) {
+          kept.toughness_pa = predictions[j].toughness_pa;
+          kept.curve = predictions[j].curve;
+        }
+        continue;
+      }
+      Material& material = materials[at(0, tried[j].material)];
+      if (evaluation.modulus) {
+        const std::optional<double>& modulus = predictions[j].modulus_pa;
+        material.modulus->tell(tried[j].modulus_pa,
+                               modulus ? std::optional(*modulus / measured[item].modulus_pa) : std::nullopt);
+        ++material.modulus_evaluations;
+        const double wanted_pa = measured[item].modulus_pa;
+        if (relative_error(modulus, wanted_pa) < relative_error(material.modulus_prediction_pa, wanted_pa)) {
+          material.modulus_prediction_pa = modulus;
+        }
+      } else {
+        material.toughness->tell(tried[j].trial, predictions[j]);
+      }
+    }
+  }
+
+  /// Puts the best of each material into one set; the damping is the median of the three (thesis 3.2).
+  void settle() {
+    material::ModulusVector theta = to_vector(result.parameters.modulus);
+    material::ToughnessVector eta = to_vector(result.parameters.toughness);
+    std::vector<double> dampings;
+    for (int m = 0; m < kMaterials; ++m) {
+      const Material& material = materials[at(0, m)];
+      if (material.modulus && material.modulus->best()) {
+        theta[at(kE, m)] = *material.modulus->best();
+        after[*material.item].modulus_pa = material.modulus_prediction_pa;
+      }
+      if (!material.toughness) continue;
+      const MaterialTrial& best = material.toughness->best();
+      eta[at(kE, m)] = best.e_pa;
+      eta[at(kW, m)] = best.w_j_per_m3;
+      dampings.push_back(best.gamma_per_s);
+      after[*material.item].toughness_pa = material.toughness->best_prediction().toughness_pa;
+      after[*material.item].curve = material.toughness->best_prediction().curve;
+    }
+    if (!dampings.empty()) {
+      std::sort(dampings.begin(), dampings.end());
+      eta[at(kEtaGamma, 0)] = dampings[(dampings.size() - 1) / 2];
+    }
+    result.parameters.modulus = material::modulus_from_vector(theta);
+    result.parameters.toughness = material::toughness_from_vector(eta);
+  }
+
+  void conclude() {
+    const std::vector<double> equal(measured.size(), 1.0);
+    result.before = prediction_errors(measured, before);
+    result.after = prediction_errors(measured, after);
+    result.modulus_objective_before = modulus_objective(measured, equal, before);
+    result.modulus_objective_after = modulus_objective(measured, equal, after);
+    result.toughness_objective_before = toughness_objective(measured, equal, before);
+    result.toughness_objective_after = toughness_objective(measured, equal, after);
+    result.predictions = after;
+  }
+
+  double progress() const {
+    if (phase == Phase::done) return 1.0;
+    double sum = 0.0;
+    int count = 0;
+    for (const Material& material : materials) {
+      if (!material.toughness) continue;
+      sum += material.toughness->progress();
+      ++count;
+    }
+    return count == 0 ? 0.0 : sum / count;
+  }
+};
+
+BaseCalibration::BaseCalibration(std::vector<measurement::Replicates> base_materials,
+                                 const CalibrationSettings& settings)
+    : state_(std::make_unique<State>()) {
+  state_->measured = std::move(base_materials);
+  state_->settings = settings;
+  state_->begin();
+}
+
+BaseCalibration::~BaseCalibration() = default;
+BaseCalibration::BaseCalibration(BaseCalibration&&) noexcept = default;
+BaseCalibration& BaseCalibration::operator=(BaseCalibration&&) noexcept = default;
+
+const std::vector<WantedEvaluation>& BaseCalibration::wanted() const { return state_->wanted; }
+
+void BaseCalibration::tell(std::size_t index, const std::vector<Prediction>& predictions) {
+  state_->take(index, predictions);
+}
+
+bool BaseCalibration::finished() const { return state_->wanted.empty(); }
+
+double BaseCalibration::progress() const { return state_->progress(); }
+
+const Calibrated& BaseCalibration::result() const { return state_->result; }
+
+}  // namespace nacre::sysid

@@ -1,0 +1,57 @@
+#pragma once
+// Round 0 (thesis 3.2) for one material: the parameters that its own tests depend on.
+
+#include <optional>
+#include <vector>
+
+#include "sysid/calibration.hpp"
+#include "sysid/ratio_search.hpp"
+
+namespace nacre::sysid {
+
+/// The parameters of one material in the toughness tester.
+struct MaterialTrial {
+  double e_pa = 0.0, w_j_per_m3 = 0.0, gamma_per_s = 0.0;
+};
+
+struct MaterialRanges {
+  material::ParameterRange e, w, gamma;
+};
+
+/// Finds E, W and gamma of eta for one homogeneous material. E stays as near to the measured modulus as its range
+/// allows, and W is searched until the toughness is met; only when no W meets it (the range ends, or the toughness
+/// jumps across it) other moduli and then other dampings are tried. Where a curve was measured, E moves once it is met
+/// so that the peak stress agrees too: at the same W, toughness hardly depends on E while stress grows with its square
+/// root.
+class MaterialFit {
+ public:
+  MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges, const MaterialTrial& start,
+              int budget);
+  std::vector<MaterialTrial> ask(int count);
+  void tell(const MaterialTrial& trial, const Prediction& prediction);
+  bool finished() const { return finished_; }
+  double progress() const;
+  const MaterialTrial& best() const { return best_; }
+  const Prediction& best_prediction() const { return best_prediction_; }
+
+ private:
+  void begin_search(double e_pa, double gamma_per_s, double first_w);
+  bool next_stage();
+  bool match_peak();
+
+  measurement::Replicates measured_;
+  MaterialRanges ranges_;
+  MaterialTrial start_;
+  int budget_ = 0;
+  int evaluations_ = 0;
+  std::optional<RatioSearch> search_;
+  double e_pa_ = 0.0, gamma_per_s_ = 0.0;  ///< of the search in progress
+  std::size_t stage_ = 0;
+  int peak_matches_ = 0;
+  bool any_ = false, finished_ = false;
+  MaterialTrial best_;
+  Prediction best_prediction_;
+  double best_misfit_ = 0.0;
+};
+
+}  // namespace nacre::sysid
