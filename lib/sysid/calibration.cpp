@@ -7,6 +7,7 @@
 
 #include "sysid/fit.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/spread.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -169,6 +170,26 @@ struct Calibration::State {
     if (!of_toughness.empty()) toughness.fit->tell(std::move(of_toughness));
   }
 
+  template <class Vector>
+  void add_estimates(std::string_view table, std::span<const std::string_view> names,
+                     std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit) {
+    constexpr double kReach90 = 1.645;  // standard deviations
+    std::vector<double> deviations;
+    if (fit != nullptr) deviations = fit->deviations();
+    deviations.resize(vector.size(), kUnknownDeviation);  // theta's gamma is not searched
+    for (std::size_t j = 0; j < vector.size(); ++j) {
+      ParameterEstimate estimate{fmt::format("{}.{}", table, names[j]), vector[j], ranges[j].minimum, ranges[j].maximum,
+                                 false};
+      estimate.determined = deviations[j] < 0.5 * kUnknownDeviation;
+      if (estimate.determined) {
+        const double unit = to_unit(ranges[j], vector[j]), reach = kReach90 * deviations[j];
+        estimate.low90 = from_unit(ranges[j], std::max(0.0, unit - reach));
+        estimate.high90 = from_unit(ranges[j], std::min(1.0, unit + reach));
+      }
+      result.estimates.push_back(std::move(estimate));
+    }
+  }
+
   void conclude() {
     std::vector<Prediction> before(measured.size());
     std::vector<Prediction>& after = result.predictions;
@@ -192,6 +213,10 @@ struct Calibration::State {
         after[toughness.items[k]].curve = best.curve;
       }
     }
+    add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
+                  to_vector(result.parameters.modulus), modulus.fit.get());
+    add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
+                  to_vector(result.parameters.toughness), toughness.fit.get());
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);
   }

@@ -72,6 +72,14 @@ struct WantedEvaluation {
   std::vector<std::size_t> items;  ///< indices into the measured designs
 };
 
+/// What the calibration says of one parameter.
+struct ParameterEstimate {
+  std::string name;  ///< `modulus.e_tb_pa`, `toughness.w_if_j_per_m3`, ...
+  double value = 0.0;
+  double low90 = 0.0, high90 = 0.0;  ///< 90 % interval; the whole range when the parameter is not determined
+  bool determined = false;           ///< the data narrow the parameter to less than half of what its range alone says
+};
+
 /// Result of a calibration.
 struct Calibrated {
   material::ParameterSet parameters;
@@ -79,6 +87,9 @@ struct Calibrated {
   double modulus_objective_before = 0.0, modulus_objective_after = 0.0;
   double toughness_objective_before = 0.0, toughness_objective_after = 0.0;
   std::vector<Prediction> predictions;  ///< of `parameters`, per measured design
+  /// All of theta and eta, in the order of their vectors. Intervals hold near the optimum (a linear model of the
+  /// residuals, in which misfit counts as noise). None from BaseCalibration.
+  std::vector<ParameterEstimate> estimates;
   int simulations = 0;
 };
 

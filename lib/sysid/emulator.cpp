@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sysid/spread.hpp"
+
 namespace nacre::sysid {
 namespace {
 
@@ -156,6 +158,44 @@ double FeatureEmulator::deviation(const Point& point) const {
   const Eigen::VectorXd difference = covariances(at) - covariances(centre_);
   const double prior = covariance(at, at) - 2.0 * covariance(at, centre_) + covariance(centre_, centre_);
   return std::sqrt(std::max(0.0, prior - difference.dot(factor_.solve(difference))));
+}
+
+std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+                                         const std::vector<double>& spans, bool poisson_searched) {
+  constexpr double kStep = 0.05, kSmallestNoise = 0.03;
+  std::vector<double> unknown(kEtaCount, kUnknownDeviation);
+  if (trials.size() < 2) return unknown;
+  FeatureEmulator emulator(spans, data.measured.size());
+  emulator.learn(trials, best);
+  const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2 * designs, kEtaCount);
+  Eigen::VectorXd residuals = Eigen::VectorXd::Zero(2 * designs), weights = residuals;
+  std::vector<FeatureChange> changes;
+  for (int j = 0; j < kEtaCount; ++j) {
+    const bool is_poisson = j >= kNu0 && j < kW0;
+    if (is_poisson && !poisson_searched) continue;
+    Point moved = trials[best].point;
+    moved[static_cast<std::size_t>(j)] += kStep;
+    emulator.predict(moved, changes);
+    for (Eigen::Index i = 0; i < designs; ++i) {
+      jacobian(i, j) = changes[static_cast<std::size_t>(i)].log_toughness / kStep;
+      jacobian(designs + i, j) = changes[static_cast<std::size_t>(i)].log_peak / kStep;
+    }
+  }
+  for (Eigen::Index i = 0; i < designs; ++i) {
+    const measurement::Replicates& measured = data.measured[static_cast<std::size_t>(i)];
+    const std::optional<FeatureChange> simulated = features_of(trials[best].predictions[static_cast<std::size_t>(i)]);
+    if (!simulated) continue;  // weight 0
+    residuals[i] = simulated->log_toughness - std::log(measured.toughness_pa);
+    weights[i] = data.weights[static_cast<std::size_t>(i)];
+    const auto& stress = measured.representative_curve.stress_pa;
+    const double peak = stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
+    if (peak <= 0.0) continue;
+    residuals[designs + i] = simulated->log_peak - std::log(peak);
+    weights[designs + i] = weights[i];
+  }
+  if (weights.sum() <= 0.0) return unknown;
+  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise);
 }
 
 void FeatureEmulator::add_pending(const Point& point) {

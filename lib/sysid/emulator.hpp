@@ -56,4 +56,9 @@ class FeatureEmulator {
   Eigen::RowVectorXd at_centre_;
 };
 
+/// Deviations of eta at trials[best] by the emulator's slopes of log T and log peak stress and the residuals of both;
+/// those of Poisson's ratios are unknown when they were not searched.
+std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+                                         const std::vector<double>& spans, bool poisson_searched);
+
 }  // namespace nacre::sysid

@@ -60,7 +60,9 @@ class EmulatorFit final : public Fit {
   }
   const Trial& first() const override { return trials_.front(); }
   const Trial& best() const override { return trials_[best_]; }
-  const std::vector<Trial>& trials() const override { return trials_; }
+  std::vector<double> deviations() const override {
+    return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/false);
+  }
 
  private:
   double cost(const Trial& trial) const { return trial.objective + pull_to_start(trial.point, settings_.start, kPull); }

@@ -4,15 +4,17 @@
 
 #include "sysid/fit.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/spread.hpp"
 
 namespace nacre::sysid {
 namespace {
 
 /// Cost of moving every parameter across its whole range, as relative error: far below what any data with noise say.
 constexpr double kPull = 0.002;
-constexpr double kDifference = 0.02;     // of a parameter's range; the static tester is smooth
-constexpr double kSmallResidual = 0.01;  // below 1 % a residual counts quadratically, above by its magnitude
-constexpr double kLeastGain = 1e-4;      // relative gain in objective below which the fit has converged
+constexpr double kDifference = 0.02;      // of a parameter's range; the static tester is smooth
+constexpr double kSmallResidual = 0.01;   // below 1 % a residual counts quadratically, above by its magnitude
+constexpr double kLeastGain = 1e-4;       // relative gain in objective below which the fit has converged
+constexpr double kSmallestNoise = 0.002;  // of log E, when deviations are told: no data are better
 constexpr double kFailedResidual = 1.0;
 
 class ModulusFit final : public Fit {
@@ -41,7 +43,12 @@ class ModulusFit final : public Fit {
   }
   const Trial& first() const override { return trials_.front(); }
   const Trial& best() const override { return trials_[best_]; }
-  const std::vector<Trial>& trials() const override { return trials_; }
+  std::vector<double> deviations() const override {
+    if (jacobian_.size() == 0) return std::vector<double>(settings_.start.size(), kUnknownDeviation);
+    return parameter_deviations(jacobian_, residuals(trials_[best_]),
+                                Eigen::Map<const Eigen::VectorXd>(data_.weights.data(), residual_.size()),
+                                kSmallestNoise);
+  }
 
  private:
   int dimension() const { return static_cast<int>(settings_.start.size()); }

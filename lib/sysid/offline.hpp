@@ -1,0 +1,57 @@
+#pragma once
+// Calibration in this process, on all cores: what `nacre calibrate` does.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sysid/calibration.hpp"
+
+namespace nacre::sysid {
+
+struct OfflineSettings {
+  CalibrationSettings calibration;  ///< its seed also chooses the patterns held out
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  int hold_out = 0;  ///< whole patterns kept out of the fit
+  int threads = 0;   ///< 0 all allowed cores
+};
+
+struct OfflineCalibration {
+  Calibrated calibrated;
+  bool base_materials = false;  ///< the set holds no patterns: round 0, each material by itself
+  PredictionErrors before_fitted, before_held_out;
+  PredictionErrors after_fitted, after_held_out;
+  std::vector<std::string> fitted, held_out;  ///< names of designs
+  int simulations = 0;                        ///< really done, held-out ones included
+};
+
+/// Called after every simulation with the share done (0..1) and what is being done.
+using ProgressCallback = std::function<void(double, std::string_view)>;
+
+/// Simulates designs[i] under conditions[i] with `tests` of one evaluation; equal questions are answered once. Failed
+/// simulations give predictions without value.
+class LocalSimulator {
+ public:
+  LocalSimulator(tester::Fidelity fidelity, int threads);
+  ~LocalSimulator();
+  /// One prediction per item of each evaluation. `done` is called after each simulation (from any thread, one at a
+  /// time).
+  std::vector<std::vector<Prediction>> simulate(const std::vector<measurement::Replicates>& measured,
+                                                const std::vector<WantedEvaluation>& evaluations,
+                                                const std::function<void()>& done = {});
+  int simulations() const;  ///< not answered from memory
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Fits the patterns of a measurement set, as the thesis does (homogeneous specimens are left out), or, when it holds
+/// no patterns, the base materials of it one by one over the ranges of Table A.1. Throws InputError when there is
+/// nothing to fit, or fewer than hold_out + 1 patterns.
+OfflineCalibration calibrate_offline(const measurement::MeasurementSet& set, const OfflineSettings& settings,
+                                     const ProgressCallback& progress = {});
+
+}  // namespace nacre::sysid

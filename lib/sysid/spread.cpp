@@ -1,0 +1,22 @@
+#include "sysid/spread.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::sysid {
+
+std::vector<double> parameter_deviations(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
+                                         const Eigen::VectorXd& weights, double smallest_residual) {
+  const double count = static_cast<double>(residuals.size()), freedom = std::max(1.0, count - jacobian.cols());
+  const double variance = residuals.cwiseProduct(weights).dot(residuals) / weights.sum() * count / freedom;
+  const double noise = std::max(variance, smallest_residual * smallest_residual);
+  Eigen::MatrixXd information = jacobian.transpose() * weights.asDiagonal() * jacobian / noise;
+  information.diagonal().array() += 1.0 / (kUnknownDeviation * kUnknownDeviation);
+  const Eigen::MatrixXd covariance =
+      information.llt().solve(Eigen::MatrixXd::Identity(jacobian.cols(), jacobian.cols()));
+  std::vector<double> deviations;
+  for (Eigen::Index j = 0; j < covariance.cols(); ++j) deviations.push_back(std::sqrt(covariance(j, j)));
+  return deviations;
+}
+
+}  // namespace nacre::sysid
