@@ -74,6 +74,9 @@ class Bus {
   /// the wait.
   int receive(int timeout_ms, const std::function<void(const Received&)>& handler, int wake_fd = -1, int limit = 256);
 
+  /// The same without any check, for recorders: every datagram as it came.
+  int receive_raw(int timeout_ms, const std::function<void(Datagram)>& handler, int wake_fd = -1, int limit = 256);
+
   const BusCounters& counters() const;
   std::int64_t epoch() const;
 

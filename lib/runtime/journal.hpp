@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "runtime/log_file.hpp"
 
 namespace nacre::runtime {
 
@@ -28,59 +29,6 @@ inline constexpr std::string_view kPeerChannel = "~peer";        ///< node, its 
 std::string pack(const std::vector<std::string>& fields);
 /// The fields again; the error says that the record is damaged.
 Result<std::vector<std::string>> unpack(std::string_view record);
-
-/// One record of a log.
-struct LogRecord {
-  std::int64_t number = 0;
-  std::int64_t utime = 0;
-  std::string channel;
-  std::string data;
-  std::int64_t offset = 0;  ///< where it starts in the file
-};
-
-/// How a log ends.
-struct LogEnd {
-  std::int64_t sound_bytes = 0;  ///< up to the end of the last whole record
-  std::int64_t torn_bytes = 0;   ///< behind it: a record that was being written
-};
-
-/// Reads an LCM log one record at a time. A torn tail ends the log; damage in the middle is an error.
-class LogReader {
- public:
-  /// Throws InputError when the file cannot be read.
-  explicit LogReader(const std::filesystem::path& path);
-  ~LogReader();
-  /// The next record; nothing at the end. Throws InputError naming file and offset when the log is damaged in the
-  /// middle, and where it goes on (see resync).
-  std::optional<LogRecord> next();
-  /// After damage: goes on at the next sound record.
-  void resync();
-  LogEnd end() const;  ///< after next() returned nothing
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-/// Writes an LCM log.
-class LogWriter {
- public:
-  /// Appends to `path` (created when absent), numbering from `next_number`. Throws InputError.
-  LogWriter(const std::filesystem::path& path, std::int64_t next_number = 0);
-  ~LogWriter();
-  LogWriter(const LogWriter&) = delete;
-  LogWriter& operator=(const LogWriter&) = delete;
-  /// Adds a record; it may stay in memory until flush().
-  Result<void> append(std::int64_t utime, std::string_view channel, std::string_view data);
-  /// Hands everything to the operating system: it survives this process.
-  Result<void> flush();
-  /// Waits until the disk has it: it survives the machine.
-  Result<void> sync();
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 /// A node's journal, opened for going on: locked against a second process, torn tail cut off.
 class Journal {

@@ -18,7 +18,7 @@ namespace nacre::runtime {
 struct ReliableSettings {
   std::int64_t first_retry_us = 50'000;
   std::int64_t last_retry_us = 1'000'000;
-  std::size_t window_bytes = 200'000;  ///< sent and not acknowledged; the others wait in order
+  std::size_t window_bytes = 200'000;  ///< sent and not acknowledged, per receiver; the others wait in order
   std::int64_t ack_delay_us = 20'000;
 };
 
@@ -45,7 +45,8 @@ class Outbox {
   /// When due() has something next; nothing when it will not before something happens.
   std::optional<std::int64_t> next_due() const;
 
-  int unacknowledged() const { return waiting_count_; }
+  /// Messages that somebody has not acknowledged (or that were not sent yet).
+  int unacknowledged() const { return static_cast<int>(active_.size()); }
   std::int64_t retries() const { return retries_; }
   /// Nodes that a message is still waiting for.
   std::set<std::string> waiting_for(const std::string& hash) const;
@@ -54,18 +55,22 @@ class Outbox {
  private:
   struct Entry {
     Message message;
-    std::string request_id;                            ///< of an answer
-    std::set<std::string> waiting;                     ///< receivers that have not acknowledged
-    std::map<std::string, std::int64_t> acknowledged;  ///< receiver -> its epoch then
+    std::string request_id;  ///< of an answer
+    std::vector<std::string> receivers;
+    std::set<std::string> waiting;                              ///< receivers that have not acknowledged
+    std::map<std::string, std::int64_t> acknowledged_in_epoch;  ///< receiver -> its epoch then
     std::int64_t next_us = 0;
-    std::int64_t interval_us = 0;  ///< 0: not sent yet
+    std::int64_t interval_us = 0;  ///< 0: due at once
     std::uint64_t order = 0;
+    bool sent = false;
+    bool send_once = false;  ///< nobody must acknowledge
   };
   struct Peer {
     std::int64_t epoch = 0;
     std::int64_t journal = 0;
   };
   void restart(Entry& entry);
+  std::vector<Entry*> admitted() const;
 
   ReliableSettings settings_;
   std::unordered_map<std::string, Entry> entries_;
@@ -73,7 +78,6 @@ class Outbox {
   std::map<std::string, Peer> peers_;
   std::uint64_t next_order_ = 0;
   std::int64_t retries_ = 0;
-  int waiting_count_ = 0;
 };
 
 /// Messages that came in: which are known, which acknowledgements are owed.

@@ -1,0 +1,67 @@
+#include "runtime/endpoint.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "wire/channels.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::runtime {
+
+Endpoint::Endpoint(std::unique_ptr<Bus> bus, std::string node, std::vector<std::string> participants)
+    : bus_(std::move(bus)), node_(std::move(node)), participants_(std::move(participants)) {}
+
+Result<std::unique_ptr<Endpoint>> Endpoint::open(BusOptions options, std::vector<std::string> participants,
+                                                 std::vector<std::string> channels) {
+  std::string node = options.node;
+  Result<std::unique_ptr<Bus>> bus = Bus::open(std::move(options));
+  if (!bus) return tl::unexpected(bus.error());
+  channels.insert(channels.end(), {"STATUS", "ACK"});
+  std::ranges::sort(channels);
+  channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+  if (const Result<void> listening = (*bus)->subscribe(channels); !listening) return tl::unexpected(listening.error());
+  return std::unique_ptr<Endpoint>(new Endpoint(std::move(*bus), std::move(node), std::move(participants)));
+}
+
+Result<std::string> Endpoint::offer(const Message& message) {
+  const wire::Channel* channel = wire::find_channel(message.channel);
+  if (!channel) return fail("there is no channel {}", message.channel);
+  if (const Result<void> sound = channel->validate(message.payload); !sound) return tl::unexpected(sound.error());
+  const std::string hash = wire::message_hash(message.channel, message.payload);
+  outbox_.offer(hash, message, wire::receivers_of(*channel, message.payload, participants_, node_));
+  return hash;
+}
+
+void Endpoint::pump(int timeout_ms, const std::function<void(const Received&)>& handler) {
+  const std::int64_t end = now_utime() + std::int64_t{1000} * timeout_ms;
+  std::int64_t now = now_utime();
+  do {
+    for (const Message* message : outbox_.due(now)) bus_->publish(*message);
+    const std::int64_t until = std::min(end, outbox_.next_due().value_or(end));
+    const int wait_ms = static_cast<int>(std::max<std::int64_t>(0, (until - now + 999) / 1000));
+    bus_->receive(wait_ms, [&](const Received& received) {
+      handle(received);
+      if (handler) handler(received);
+    });
+    now = now_utime();
+  } while (now < end);
+}
+
+bool Endpoint::deliver(double timeout_s, const std::function<void(const Received&)>& handler) {
+  const std::int64_t end = now_utime() + static_cast<std::int64_t>(1e6 * timeout_s);
+  while (outbox_.unacknowledged() > 0 && now_utime() < end) pump(20, handler);
+  return outbox_.unacknowledged() == 0;
+}
+
+void Endpoint::handle(const Received& received) {
+  if (received.message.channel == "STATUS") {
+    const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+    if (status) outbox_.saw(received.header.node, received.header.epoch, status->journal);
+  } else if (received.message.channel == "ACK") {
+    const auto ack = wire::decode_safe<ack_t>(received.message.payload);
+    if (!ack) return;
+    for (const std::string& hash : ack->hashes) outbox_.acknowledge(hash, received.header.node);
+  }
+}
+
+}  // namespace nacre::runtime

@@ -1,0 +1,141 @@
+#include "runtime/fold.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "runtime/journal.hpp"
+#include "wire/channels.hpp"
+#include "wire/header.hpp"
+#include "wire/schema.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+std::string place(const LogRecord& record) {
+  return fmt::format("record {} (byte {}, {})", record.number, record.offset, record.channel);
+}
+
+/// What differs between two payloads of a channel, field by field where the type is known.
+std::string difference(const std::string& channel, const std::string& recorded, const std::string& now) {
+  const wire::Channel* known = wire::find_channel(channel);
+  if (!known) return "the bytes differ";
+  return wire::first_difference(known->type, recorded, now).value_or("the bytes differ");
+}
+
+Result<std::vector<std::string>> fields_of(const LogRecord& record, std::size_t count) {
+  Result<std::vector<std::string>> fields = unpack(record.data);
+  if (!fields) return fail("{}: {}", place(record), fields.error().message);
+  if (fields->size() != count) return fail("{}: {} fields, expected {}", place(record), fields->size(), count);
+  return fields;
+}
+
+}  // namespace
+
+Result<void> Fold::feed(const LogRecord& record) {
+  if (record.channel.starts_with(kOutPrefix)) return output(record);
+  if (record.channel == kComputeChannel) return compute(record);
+  if (!record.channel.starts_with('~')) {
+    const Result<wire::Blanked> blanked = wire::blank_header(record.channel, record.data);
+    if (!blanked) return fail("{}: {}", place(record), blanked.error().message);
+    const Message message{record.channel, blanked->payload};
+    if (on_message_input) on_message_input(message);
+    return input(record, message);
+  }
+  const std::size_t field_count = record.channel == kTickChannel || record.channel == kJournalChannel ? 1 : 2;
+  const auto fields = fields_of(record, field_count);
+  if (!fields) return tl::unexpected(fields.error());
+  if (record.channel == kTickChannel) return input(record, Tick{std::stoll(fields->at(0))});
+  if (record.channel == kWorkChannel) return work_done(record, *fields);
+  if (record.channel == kAckedChannel) {
+    if (on_acknowledged) on_acknowledged(fields->at(0), fields->at(1));
+  } else if (record.channel == kPeerChannel) {
+    if (on_peer) on_peer(fields->at(0), std::stoll(fields->at(1)));
+  } else if (record.channel != kJournalChannel) {
+    return fail("{}: a record of an unknown kind", place(record));
+  }
+  return {};
+}
+
+Result<void> Fold::input(const LogRecord& record, const Input& input) {
+  if (!expected_messages_.empty()) {
+    return fail("before {}: the core now also says {}, which the journal does not hold", place(record),
+                expected_messages_.front().channel);
+  }
+  if (!expected_computes_.empty()) {
+    return fail("before {}: the core now also asks for the work {}, which the journal does not hold", place(record),
+                expected_computes_.front().id);
+  }
+  ++inputs;
+  Outputs now = core_.step(input);
+  expected_messages_.assign(std::make_move_iterator(now.messages.begin()), std::make_move_iterator(now.messages.end()));
+  expected_computes_.assign(std::make_move_iterator(now.computes.begin()), std::make_move_iterator(now.computes.end()));
+  last_log_ = std::move(now.log);
+  return {};
+}
+
+Result<void> Fold::output(const LogRecord& record) {
+  const std::string channel = record.channel.substr(kOutPrefix.size());
+  if (expected_messages_.empty()) return fail("{}: the core no longer says this", place(record));
+  const Message now = std::move(expected_messages_.front());
+  expected_messages_.pop_front();
+  if (now.channel != channel) return fail("{}: the core now says {} instead", place(record), now.channel);
+  if (now.payload != record.data) {
+    return fail("{}: recorded against now: {}", place(record), difference(channel, record.data, now.payload));
+  }
+  ++outputs;
+  if (on_output) on_output(now);
+  return {};
+}
+
+Result<void> Fold::compute(const LogRecord& record) {
+  const auto fields = fields_of(record, 3);
+  if (!fields) return tl::unexpected(fields.error());
+  const Compute recorded{fields->at(0), fields->at(1), fields->at(2)};
+  if (expected_computes_.empty())
+    return fail("{}: the core no longer asks for the work {}", place(record), recorded.id);
+  const Compute now = std::move(expected_computes_.front());
+  expected_computes_.pop_front();
+  if (!(now == recorded)) {
+    return fail("{}: recorded the work {} ({}), now {} ({}){}", place(record), recorded.id, recorded.kind, now.id,
+                now.kind, now.id == recorded.id && now.kind == recorded.kind ? " with another spec" : "");
+  }
+  ++computes;
+  asked_index_[now.id] = asked_.size();
+  asked_.push_back(now);
+  return {};
+}
+
+Result<void> Fold::work_done(const LogRecord& record, const std::vector<std::string>& fields) {
+  const auto asked = asked_index_.find(fields[0]);
+  if (asked == asked_index_.end())
+    return fail("{}: the result of work {} that nobody asked for", place(record), fields[0]);
+  if (on_work_done) {
+    const Result<void> agreed = on_work_done(asked_[asked->second], fields[1]);
+    if (!agreed) return fail("{}: {}", place(record), agreed.error().message);
+  }
+  done_.insert(fields[0]);
+  return input(record, WorkDone{fields[0], fields[1]});
+}
+
+Outputs Fold::take_unfinished() {
+  Outputs unfinished;
+  if (expected_messages_.empty() && expected_computes_.empty()) return unfinished;
+  unfinished.messages.assign(std::make_move_iterator(expected_messages_.begin()),
+                             std::make_move_iterator(expected_messages_.end()));
+  unfinished.computes.assign(std::make_move_iterator(expected_computes_.begin()),
+                             std::make_move_iterator(expected_computes_.end()));
+  unfinished.log = std::move(last_log_);
+  expected_messages_.clear();
+  expected_computes_.clear();
+  return unfinished;
+}
+
+std::vector<Compute> Fold::open_work() const {
+  std::vector<Compute> open;
+  for (const Compute& compute : asked_) {
+    if (!done_.count(compute.id)) open.push_back(compute);
+  }
+  return open;
+}
+
+}  // namespace nacre::runtime

@@ -1,0 +1,137 @@
+#include "runtime/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/hash.hpp"
+#include "runtime/log_file.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+void append_u32(std::string& bytes, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(value >> shift));
+}
+
+std::uint32_t read_u32(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<std::uint8_t>(byte);
+  return value;
+}
+
+constexpr std::size_t kHashSize = 32;
+
+/// Opens and locks FOLDER/lock; the lock ends with the process, however that ends.
+int lock_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "lock";
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (fd < 0) throw InputError::format("{}: cannot be opened: {}", path.string(), std::strerror(errno));
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
+    char owner[32] = {};
+    const ssize_t length = ::read(fd, owner, sizeof owner - 1);
+    ::close(fd);
+    throw InputError::format("{}: another process (pid {}) runs this node in this run; stop it first", path.string(),
+                             length > 0 ? owner : "unknown");
+  }
+  const std::string pid = std::to_string(::getpid());
+  // The number is for people; the lock does not depend on it, and a full disk must not keep a node from saying so
+  // itself.
+  [[maybe_unused]] const bool noted = ::ftruncate(fd, 0) == 0 && ::write(fd, pid.data(), pid.size()) > 0;
+  return fd;
+}
+
+/// A new file is on disk only when its folder's entry is.
+void sync_folder(const std::filesystem::path& folder) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+/// All records of the journal, its torn tail cut off. Returns a sentence about the cut, or nothing.
+std::string read_and_mend(const std::filesystem::path& path, std::vector<LogRecord>& records) {
+  if (!std::filesystem::exists(path)) return {};
+  LogReader reader(path);
+  while (auto record = reader.next()) records.push_back(std::move(*record));
+  const LogEnd end = reader.end();
+  if (end.torn_bytes == 0) return {};
+  if (::truncate(path.c_str(), end.sound_bytes) != 0) {
+    throw InputError::format("{}: its torn tail cannot be cut off: {}", path.string(), std::strerror(errno));
+  }
+  return fmt::format(
+      "{}: the last {} bytes were a record that was being written when the node ended; cut off at byte {}",
+      path.string(), end.torn_bytes, end.sound_bytes);
+}
+
+}  // namespace
+
+std::string pack(const std::vector<std::string>& fields) {
+  std::string record;
+  for (const std::string& field : fields) {
+    append_u32(record, static_cast<std::uint32_t>(field.size()));
+    record += field;
+  }
+  return record + content_hash(record);
+}
+
+Result<std::vector<std::string>> unpack(std::string_view record) {
+  if (record.size() < kHashSize) return fail("a record of {} bytes is too short", record.size());
+  std::string_view rest = record.substr(0, record.size() - kHashSize);
+  if (content_hash(rest) != record.substr(rest.size())) return fail("the record's checksum does not fit its bytes");
+  std::vector<std::string> fields;
+  while (!rest.empty()) {
+    if (rest.size() < 4 || read_u32(rest) > rest.size() - 4) return fail("the record's lengths do not fit");
+    const std::uint32_t length = read_u32(rest);
+    fields.emplace_back(rest.substr(4, length));
+    rest.remove_prefix(4 + length);
+  }
+  return fields;
+}
+
+std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std::int64_t now_utime) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem) throw InputError::format("{}: cannot be created: {}", folder.string(), problem.message());
+  std::unique_ptr<Journal> journal(new Journal());
+  journal->lock_fd_ = lock_folder(folder);
+  journal->path_ = folder / "journal.lcm";
+  journal->warning_ = read_and_mend(journal->path_, journal->records_);
+  for (const LogRecord& record : journal->records_) {
+    if (record.channel != kJournalChannel) continue;
+    const auto fields = unpack(record.data);
+    if (!fields || fields->empty()) {
+      throw InputError::format("{}: record {} at byte {} is damaged", journal->path_.string(), record.number,
+                               record.offset);
+    }
+    journal->identity_ = std::stoll(fields->front());
+  }
+  journal->writer_ = std::make_unique<LogWriter>(journal->path_, static_cast<std::int64_t>(journal->records_.size()));
+  if (journal->identity_ == 0 || !journal->warning_.empty()) {
+    // What a torn tail held may have been acknowledged (a disk that lies, a machine that failed): begin a new identity.
+    journal->identity_ = now_utime;
+    const auto written = journal->append(now_utime, kJournalChannel, pack({std::to_string(now_utime)}), true);
+    if (!written) throw InputError(written.error().message);
+    sync_folder(folder);
+  }
+  return journal;
+}
+
+Journal::~Journal() {
+  writer_.reset();
+  if (lock_fd_ >= 0) ::close(lock_fd_);
+}
+
+Result<void> Journal::append(std::int64_t utime, std::string_view channel, std::string_view data, bool to_disk) {
+  Result<void> written = writer_->append(utime, channel, data);
+  if (written) written = writer_->flush();
+  if (written && to_disk) written = writer_->sync();
+  return written;
+}
+
+}  // namespace nacre::runtime

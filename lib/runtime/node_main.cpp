@@ -1,0 +1,53 @@
+#include <exception>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "base/result.hpp"
+#include "game/scenario.hpp"
+#include "runtime/node_shell.hpp"
+
+namespace nacre::runtime {
+
+void add_node_options(CLI::App& app, NodeOptions& options) {
+  app.add_option("--run-dir", options.run_dir, "folder of the run, logs/RUN")->required();
+  app.add_option("--scenario", options.scenario_file, "scenario (default: scenario.toml of the run)");
+  app.add_option("--run-id", options.run_id, "name of the run (default: name of its folder)");
+  app.add_option("--port", options.port, "UDP port of the run's bus")->required()->check(CLI::Range(1, 65535));
+  app.add_option("--threads", options.threads, "threads for long work")->check(CLI::Range(0, 4096));
+  app.add_option("--epoch", options.epoch, "start of this process in microseconds since 1970 (default: now)");
+  app.add_option("--url", options.url, "LCM address instead of the port's");
+  app.add_flag("!--detached", options.follow_parent, "go on when the process that started the node ends");
+}
+
+int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
+              const std::function<void(CLI::App&)>& add_options) {
+  CLI::App app("nacre " + node);
+  NodeOptions options;
+  options.node = node;
+  add_node_options(app, options);
+  if (add_options) add_options(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    const int status = app.exit(problem);
+    return status == 0 ? 0 : 2;
+  }
+  try {
+    if (options.scenario_file.empty()) options.scenario_file = options.run_dir / "scenario.toml";
+    const game::Scenario scenario = game::read_scenario(options.scenario_file);
+    options.participants = scenario.nodes();
+    options.lan = scenario.hosts == "lan";
+    NodeProgram program = make(options, scenario);
+    if (options.threads == 0) options.threads = program.default_threads;
+    return run_node(std::move(options), std::move(program.core), std::move(program.work));
+  } catch (const InputError& problem) {
+    std::cerr << node << ": " << problem.what() << '\n';
+    return 2;
+  } catch (const std::exception& problem) {
+    std::cerr << node << ": " << problem.what() << '\n';
+    return 1;
+  }
+}
+
+}  // namespace nacre::runtime

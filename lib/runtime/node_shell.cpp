@@ -1,0 +1,379 @@
+#include "runtime/node_shell.hpp"
+
+#include <sys/eventfd.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "base/result.hpp"
+#include "runtime/bus.hpp"
+#include "runtime/fold.hpp"
+#include "runtime/journal.hpp"
+#include "runtime/reliable.hpp"
+#include "runtime/text_log.hpp"
+#include "runtime/work_pool.hpp"
+#include "wire/channels.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+constexpr std::int64_t kStatusPeriodUs = 500'000;
+constexpr std::int64_t kLongestWaitUs = 500'000;
+
+/// Something that ends the node with exit status 1; the journal holds all that was acknowledged.
+class NodeFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+volatile std::sig_atomic_t stop_requested = 0;
+int wake_fd = -1;  // an eventfd: signals and workers end the wait for messages
+
+void wake() {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = ::write(wake_fd, &one, sizeof one);
+}
+
+extern "C" void request_stop(int) {
+  const int saved = errno;
+  stop_requested = 1;
+  wake();
+  errno = saved;
+}
+
+void prepare_process(bool follow_parent) {
+  wake_fd = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit becomes a write error, which is handled
+  std::signal(SIGPIPE, SIG_IGN);  // so does a reader of our standard error that went away
+  if (follow_parent) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+}
+
+/// Time left, from the progress since the phase began.
+class Eta {
+ public:
+  double seconds_left(const Status& status, std::int64_t now) {
+    if (status.phase != phase_ || status.round != round_) {
+      phase_ = status.phase;
+      round_ = status.round;
+      start_ = now;
+      start_progress_ = status.progress;
+    }
+    const double gained = status.progress - start_progress_;
+    if (status.progress < 0.0 || start_progress_ < 0.0 || gained <= 0.0) return -1.0;
+    return 1e-6 * static_cast<double>(now - start_) * (1.0 - status.progress) / gained;
+  }
+
+ private:
+  std::string phase_;
+  int round_ = -1;
+  std::int64_t start_ = 0;
+  double start_progress_ = -1.0;
+};
+
+class NodeShell {
+ public:
+  NodeShell(NodeOptions options, NodeCore& core, std::map<std::string, WorkFunction> work, TextLog& log)
+      : options_(std::move(options)), core_(core), log_(log), pool_(std::move(work), options_.threads, wake) {}
+
+  void start() {
+    journal_ = Journal::open(options_.node_dir(), now_utime());
+    if (!journal_->warning().empty()) problem(LogLevel::warning, journal_->warning());
+    open_bus();
+    resume();
+    next_status_ = now_utime();
+    tick_period_us_ = static_cast<std::int64_t>(1e6 * core_.tick_period_s());
+    next_tick_ = now_utime() + tick_period_us_;
+  }
+
+  void run() {
+    while (!stop_requested) {
+      bus_->receive(
+          wait_ms(), [this](const Received& received) { handle(received); }, wake_fd);
+      std::uint64_t count = 0;
+      [[maybe_unused]] const ssize_t drained = ::read(wake_fd, &count, sizeof count);
+      for (FinishedWork& finished : pool_.finished()) take_result(std::move(finished));
+      if (tick_period_us_ > 0 && now_utime() >= next_tick_) tick();
+      send_due();
+      if (now_utime() >= next_status_) publish_status();
+    }
+  }
+
+  bool busy() const { return pool_.pending() > 0; }
+
+ private:
+  void open_bus() {
+    BusOptions bus;
+    bus.url = options_.url.empty() ? bus_url(options_.port, options_.lan) : options_.url;
+    bus.node = options_.node;
+    bus.run_id = options_.run_id;
+    bus.epoch = options_.epoch;
+    bus.faults = faults_from_environment();
+    bus.report = [this](LogLevel level, const std::string& text) { problem(level, text); };
+    Result<std::unique_ptr<Bus>> opened = Bus::open(std::move(bus));
+    if (!opened) throw InputError(opened.error().message);
+    bus_ = std::move(*opened);
+    std::vector<std::string> channels;
+    for (const wire::Channel& channel : wire::channels()) {
+      if (wire::listens(channel, options_.node)) channels.emplace_back(channel.name);
+    }
+    if (const Result<void> listening = bus_->subscribe(channels); !listening)
+      throw InputError(listening.error().message);
+  }
+
+  /// Restart is replay: the journal is folded through the core, what it said without an acknowledgement is offered
+  /// again, and work without a result is started again.
+  void resume() {
+    Fold fold(core_);
+    fold.on_message_input = [this](const Message& m) { inbox_.remember(wire::message_hash(m.channel, m.payload)); };
+    fold.on_output = [this](const Message& m) { offer(m); };
+    fold.on_acknowledged = [this](const std::string& hash, const std::string& node) {
+      outbox_.acknowledge(hash, node);
+    };
+    fold.on_peer = [this](const std::string& node, std::int64_t journal) { outbox_.saw(node, 0, journal); };
+    for (const LogRecord& record : journal_->records()) {
+      if (const Result<void> agreed = fold.feed(record); !agreed) {
+        throw InputError::format("{}: the journal cannot be resumed: {}", journal_path(), agreed.error().message);
+      }
+    }
+    const std::size_t records = journal_->records().size();
+    journal_->release();
+    for (Compute& compute : fold.open_work()) pool_.start(std::move(compute));
+    carry_out(fold.take_unfinished());
+    if (fold.inputs > 0) {
+      log_.write(LogLevel::info, fmt::format("resumed from {} records ({} inputs); {} messages and {} works are open",
+                                             records, fold.inputs, outbox_.unacknowledged(), pool_.pending()));
+    }
+  }
+
+  std::string journal_path() const { return (options_.node_dir() / "journal.lcm").string(); }
+
+  void write_down(std::string_view channel, std::string_view data, bool to_disk = false) {
+    const Result<void> written = journal_->append(now_utime(), channel, data, to_disk);
+    if (written) return;
+    throw NodeFailure(
+        fmt::format("{}. The node stops; nothing that it acknowledged is lost. Make room and start it again",
+                    written.error().message));
+  }
+
+  void problem(LogLevel level, const std::string& text) {
+    last_problem_ = text.substr(0, 500);
+    log_.write(level, text);
+  }
+
+  // ---- Inputs ----
+
+  void handle(const Received& received) {
+    const std::string& channel = received.message.channel;
+    if (channel == "STATUS") return handle_status(received);
+    if (received.header.node == options_.node) return;
+    if (channel == "ACK") return handle_ack(received);
+    const wire::Channel& known = *wire::find_channel(channel);
+    if (!wire::is_meant_for(known, received.message.payload, options_.node)) return;
+    const std::string hash = wire::message_hash(channel, received.message.payload);
+    if (!inbox_.is_new(hash)) {
+      ++inbox_.duplicates;
+      repeat_answers(received);
+    } else {
+      write_down(channel, received.bytes, known.synced);
+      inbox_.remember(hash);
+      step(received.message);
+    }
+    inbox_.owe(hash, now_utime());
+  }
+
+  void handle_status(const Received& received) {
+    if (received.header.node == options_.node) {
+      if (received.header.epoch == bus_->epoch()) {
+        heard_itself_ = true;
+      } else if (received.header.epoch > bus_->epoch()) {
+        problem(LogLevel::error, fmt::format("another process calls itself {} in this run", options_.node));
+      }
+      return;
+    }
+    const auto status = wire::decode_safe<node_status_t>(received.message.payload);
+    if (!status || !outbox_.saw(received.header.node, received.header.epoch, status->journal)) return;
+    write_down(kPeerChannel, pack({received.header.node, std::to_string(status->journal)}));
+  }
+
+  void handle_ack(const Received& received) {
+    const auto ack = wire::decode_safe<ack_t>(received.message.payload);
+    if (!ack) return;
+    for (const std::string& hash : ack->hashes) {
+      if (outbox_.acknowledge(hash, received.header.node))
+        write_down(kAckedChannel, pack({hash, received.header.node}));
+    }
+  }
+
+  /// A requester that lost its journal asks again what was answered already.
+  void repeat_answers(const Received& received) {
+    if (received.message.channel != "SIMULATE") return;
+    const auto request = wire::decode_safe<simulate_request_t>(received.message.payload);
+    if (request) outbox_.answer_again(request->request_id, received.header.node);
+  }
+
+  void take_result(FinishedWork finished) {
+    const Compute& compute = finished.compute;
+    if (!finished.result) {
+      throw NodeFailure(
+          fmt::format("the work {} ({}) failed: {}", compute.id, compute.kind, finished.result.error().message));
+    }
+    write_down(kWorkChannel, pack({compute.id, *finished.result}));
+    step(WorkDone{compute.id, *finished.result});
+  }
+
+  void tick() {
+    const std::int64_t now = now_utime();
+    next_tick_ = now + tick_period_us_;
+    write_down(kTickChannel, pack({std::to_string(now)}));
+    step(Tick{now});
+  }
+
+  // ---- Outputs ----
+
+  void step(const Input& input) { carry_out(core_.step(input)); }
+
+  void carry_out(Outputs outputs) {
+    for (const LogLine& line : outputs.log) log_.write(line.level, line.text);
+    for (const Message& message : outputs.messages) {
+      expect_sound(message);
+      write_down(std::string(kOutPrefix) + message.channel, message.payload);
+      offer(message);
+    }
+    for (Compute& compute : outputs.computes) {
+      if (!pool_.knows(compute.kind)) {
+        throw NodeFailure(fmt::format("the core asks for work of the unknown kind {} ({})", compute.kind, compute.id));
+      }
+      write_down(kComputeChannel, pack({compute.id, compute.kind, compute.spec}));
+      pool_.start(std::move(compute));
+    }
+  }
+
+  /// A core that says something invalid has a bug: every receiver would drop it and the game would stand still without
+  /// a word.
+  void expect_sound(const Message& message) const {
+    const wire::Channel* channel = wire::find_channel(message.channel);
+    if (!channel) throw NodeFailure(fmt::format("the core speaks on the unknown channel {}", message.channel));
+    if (const Result<void> sound = channel->validate(message.payload); !sound) {
+      throw NodeFailure(fmt::format("the core's message on {} is invalid: {}", message.channel, sound.error().message));
+    }
+  }
+
+  void offer(const Message& message) {
+    const wire::Channel* channel = wire::find_channel(message.channel);
+    if (!channel) return;
+    outbox_.offer(wire::message_hash(message.channel, message.payload), message,
+                  wire::receivers_of(*channel, message.payload, options_.participants, options_.node));
+  }
+
+  void send_due() {
+    const std::int64_t now = now_utime();
+    for (const Message* message : outbox_.due(now)) bus_->publish(*message);
+    if (std::vector<std::string> hashes = inbox_.due(now); !hashes.empty()) {
+      ack_t ack{};
+      ack.hashes = std::move(hashes);
+      bus_->publish({"ACK", wire::encode(ack)});
+    }
+  }
+
+  void publish_status() {
+    const std::int64_t now = now_utime();
+    next_status_ = now + kStatusPeriodUs;
+    const Status status = core_.status();
+    const BusCounters& bus = bus_->counters();
+    node_status_t message{};
+    message.journal = journal_->identity();
+    message.ready = heard_itself_;
+    message.unacknowledged = outbox_.unacknowledged();
+    message.computing = pool_.pending();
+    message.finished = status.finished && message.unacknowledged == 0 && message.computing == 0;
+    message.phase = status.phase;
+    message.round = status.round;
+    message.progress = std::clamp(status.progress, -1.0, 1.0);
+    message.eta_s = eta_.seconds_left(status, now);
+    message.received = static_cast<std::int64_t>(inbox_.size());
+    message.published = bus.published;
+    message.retries = outbox_.retries();
+    message.duplicates = inbox_.duplicates;
+    message.rejected = bus.rejected();
+    message.lost = bus.lost;
+    message.last_problem = last_problem_;
+    bus_->publish({"STATUS", wire::encode(message)});
+  }
+
+  int wait_ms() const {
+    const std::int64_t now = now_utime();
+    std::int64_t until = std::min(now + kLongestWaitUs, next_status_);
+    if (tick_period_us_ > 0) until = std::min(until, next_tick_);
+    if (const auto due = outbox_.next_due()) until = std::min(until, *due);
+    if (const auto due = inbox_.next_due()) until = std::min(until, *due);
+    return static_cast<int>(std::max<std::int64_t>(0, (until - now + 999) / 1000));
+  }
+
+  NodeOptions options_;
+  NodeCore& core_;
+  TextLog& log_;
+  std::unique_ptr<Journal> journal_;
+  std::unique_ptr<Bus> bus_;
+  Outbox outbox_;
+  Inbox inbox_;
+  WorkPool pool_;
+  Eta eta_;
+  std::string last_problem_;
+  bool heard_itself_ = false;
+  std::int64_t next_status_ = 0;
+  std::int64_t next_tick_ = 0;
+  std::int64_t tick_period_us_ = 0;
+};
+
+/// Ends the process without waiting for work that is still running: it has no effects, and a restart does it again.
+[[noreturn]] void leave_at_once(int status, TextLog& log) {
+  log.flush();
+  std::fflush(nullptr);
+  ::_exit(status);
+}
+
+}  // namespace
+
+int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work) {
+  prepare_process(options.follow_parent);
+  if (options.run_id.empty()) options.run_id = std::filesystem::absolute(options.run_dir).lexically_normal().filename();
+  std::error_code ignored;  // Journal::open says why the folder cannot be created
+  std::filesystem::create_directories(options.node_dir(), ignored);
+  TextLog log(options.node, options.node_dir());
+  int status = 0;
+  bool busy = false;
+  try {
+    NodeShell shell(options, *core, std::move(work), log);
+    try {
+      shell.start();
+      log.write(LogLevel::info, fmt::format("{} of run {} listens", options.node, options.run_id));
+      shell.run();
+      log.write(LogLevel::info, "stopped in order");
+    } catch (const InputError& problem) {
+      log.write(LogLevel::error, problem.what());
+      status = 2;
+    } catch (const std::exception& problem) {
+      log.write(LogLevel::error, problem.what());
+      status = 1;
+    }
+    busy = shell.busy();
+  } catch (const std::exception& problem) {
+    log.write(LogLevel::error, problem.what());
+    status = 1;
+  }
+  if (busy) leave_at_once(status, log);
+  return status;
+}
+
+}  // namespace nacre::runtime

@@ -1,0 +1,141 @@
+#include "runtime/reliable.hpp"
+
+#include <algorithm>
+
+#include "wire/codec.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+/// The request that an answer belongs to; empty for other messages.
+std::string request_of(const Message& message) {
+  if (message.channel != "SIMULATED") return {};
+  const Result<simulate_result_t> answer = wire::decode_safe<simulate_result_t>(message.payload);
+  return answer ? answer->request_id : std::string();
+}
+
+}  // namespace
+
+void Outbox::offer(const std::string& hash, Message message, const std::vector<std::string>& receivers) {
+  const auto [position, is_new] = entries_.try_emplace(hash);
+  if (!is_new) return;
+  Entry& entry = position->second;
+  entry.request_id = request_of(message);
+  entry.message = std::move(message);
+  entry.order = next_order_++;
+  entry.receivers = receivers;
+  entry.waiting = {receivers.begin(), receivers.end()};
+  if (receivers.empty()) entry.send_once = true;
+  restart(entry);
+}
+
+/// Makes an entry due at once, at the first interval again.
+void Outbox::restart(Entry& entry) {
+  entry.next_us = 0;
+  entry.interval_us = 0;
+  active_[entry.order] = &entry;
+}
+
+bool Outbox::acknowledge(const std::string& hash, const std::string& node) {
+  const auto found = entries_.find(hash);
+  if (found == entries_.end()) return false;
+  Entry& entry = found->second;
+  if (entry.waiting.erase(node) == 0) return false;
+  entry.acknowledged_in_epoch[node] = peers_[node].epoch;
+  if (entry.waiting.empty()) active_.erase(entry.order);
+  return true;
+}
+
+bool Outbox::saw(const std::string& node, std::int64_t epoch, std::int64_t journal) {
+  Peer& peer = peers_[node];
+  const bool restarted = peer.epoch != epoch;
+  const bool other_journal = peer.journal != journal;
+  const bool lost_journal = other_journal && peer.journal != 0;
+  peer = {epoch, journal};
+  if (!restarted && !lost_journal) return other_journal;
+  for (auto& [hash, entry] : entries_) {
+    const bool receives = std::ranges::find(entry.receivers, node) != entry.receivers.end();
+    if (lost_journal && receives) entry.waiting.insert(node);
+    if (entry.waiting.count(node)) restart(entry);
+  }
+  return other_journal;
+}
+
+void Outbox::answer_again(const std::string& request_id, const std::string& node) {
+  for (auto& [hash, entry] : entries_) {
+    if (entry.request_id != request_id || entry.waiting.count(node)) continue;
+    const auto acknowledged = entry.acknowledged_in_epoch.find(node);
+    if (acknowledged == entry.acknowledged_in_epoch.end() || acknowledged->second == peers_[node].epoch) continue;
+    entry.waiting.insert(node);
+    restart(entry);
+  }
+}
+
+/// The entries that may be under way now: each receiver has a window of its own, so that one that is down does not hold
+/// up the others. Those that do not fit wait in order.
+std::vector<Outbox::Entry*> Outbox::admitted() const {
+  std::vector<Entry*> entries;
+  std::map<std::string_view, std::size_t> in_flight;
+  for (const auto& [order, entry] : active_) {
+    const std::size_t size = entry->message.payload.size();
+    const auto has_room = [&](const std::string& node) {
+      const std::size_t bytes = in_flight[node];
+      return bytes == 0 || bytes + size <= settings_.window_bytes;
+    };
+    if (!entry->send_once && std::ranges::none_of(entry->waiting, has_room)) continue;
+    for (const std::string& node : entry->waiting) in_flight[node] += size;
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
+std::vector<const Message*> Outbox::due(std::int64_t now_us) {
+  std::vector<const Message*> messages;
+  for (Entry* entry : admitted()) {
+    if (entry->next_us > now_us) continue;
+    if (entry->sent) ++retries_;
+    entry->sent = true;
+    messages.push_back(&entry->message);
+    entry->interval_us =
+        entry->interval_us == 0 ? settings_.first_retry_us : std::min(2 * entry->interval_us, settings_.last_retry_us);
+    entry->next_us = now_us + entry->interval_us;
+    if (entry->send_once) active_.erase(entry->order);
+  }
+  return messages;
+}
+
+std::optional<std::int64_t> Outbox::next_due() const {
+  std::optional<std::int64_t> earliest;
+  for (const Entry* entry : admitted()) {
+    if (!earliest || entry->next_us < *earliest) earliest = entry->next_us;
+  }
+  return earliest;
+}
+
+std::set<std::string> Outbox::waiting_for(const std::string& hash) const {
+  const auto found = entries_.find(hash);
+  return found == entries_.end() ? std::set<std::string>{} : found->second.waiting;
+}
+
+void Inbox::owe(const std::string& hash, std::int64_t now_us) {
+  if (!owed_set_.insert(hash).second) return;
+  if (owed_.empty()) owed_since_us_ = now_us;
+  owed_.push_back(hash);
+}
+
+std::vector<std::string> Inbox::due(std::int64_t now_us) {
+  if (owed_.empty() || now_us < owed_since_us_ + settings_.ack_delay_us) return {};
+  constexpr std::size_t kMostHashes = 1000;  // 37 bytes each: below a datagram
+  const auto end = owed_.begin() + static_cast<std::ptrdiff_t>(std::min(owed_.size(), kMostHashes));
+  std::vector<std::string> hashes(owed_.begin(), end);
+  owed_.erase(owed_.begin(), end);
+  for (const std::string& hash : hashes) owed_set_.erase(hash);
+  return hashes;
+}
+
+std::optional<std::int64_t> Inbox::next_due() const {
+  if (owed_.empty()) return std::nullopt;
+  return owed_since_us_ + settings_.ack_delay_us;
+}
+
+}  // namespace nacre::runtime
