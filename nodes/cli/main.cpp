@@ -18,7 +18,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", NACRE_VERSION);
   app.require_subcommand(1);
   Action action;
-  for (const auto add : {add_simulate, add_explore}) {
+  for (const auto add : {add_simulate, add_explore, add_select, add_measure}) {
     add(app, action);
   }
   try {

@@ -1,0 +1,55 @@
+// nacre measure: the virtual laboratory as a batch tool.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "output.hpp"
+#include "pattern/design.hpp"
+#include "virtual_lab/laboratory.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> patterns;
+  std::string laboratory;
+  std::string out;
+  std::string test = "both";
+  bool json = false;
+};
+
+int measure(const Options& options) {
+  std::vector<pattern::Design> designs;
+  for (const std::string& argument : options.patterns) designs.push_back(pattern::design_from_argument(argument));
+  std::vector<tester::TestKind> tests = {tester::TestKind::modulus, tester::TestKind::toughness};
+  if (options.test != "both") tests = {*tester::test_kind_from_string(options.test)};
+  remark(fmt::format("measuring {} designs", designs.size()));
+  const auto records = virtual_laboratory::measure_set(options.laboratory, options.out, designs, tests);
+  const auto valid = std::count_if(records.begin(), records.end(), [](const auto& record) { return record.valid; });
+  if (options.json) {
+    print_json({{"specimens", records.size()}, {"valid", valid}, {"set", options.out}});
+  } else {
+    fmt::print("{} specimens ({} valid): {}\n", records.size(), valid, options.out);
+  }
+  return valid > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      add_command(app, action, "measure", "Measure patterns in the virtual laboratory", options, measure);
+  command.add_option("PATTERN", options->patterns, "Pattern file, key, soft, interface, rigid or mix:F")->required();
+  command.add_option("--lab", options->laboratory, "LAB.toml (docs/FORMATS.md)")->required();
+  command.add_option("--out", options->out, "Folder of the measurement set; the sealed truth goes beside it")
+      ->required();
+  command.add_option("--test", options->test, "Which test")
+      ->check(CLI::IsMember({"modulus", "toughness", "both"}))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

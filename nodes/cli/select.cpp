@@ -1,0 +1,81 @@
+// nacre select: which samples of a gamut are worth a measurement.
+
+#include "select/select.hpp"
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "explore/gamut_csv.hpp"
+#include "measurement/measurement.hpp"
+#include "output.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string gamut;
+  std::string measured;
+  int count = 8;
+  bool json = false;
+};
+
+/// What is measured already: patterns, and the homogeneous line l1 from soft, interface, rigid and the mixtures.
+struct Measured {
+  std::vector<pattern::Pattern> patterns;
+  std::vector<optimize::Performance> benchmark;
+};
+
+Measured read_measured(const std::string& folder) {
+  Measured measured;
+  if (folder.empty()) return measured;
+  const measurement::MeasurementSet set = measurement::read_measurement_set(folder);
+  for (const std::string& warning : set.warnings) warn(warning);
+  for (const auto& row : set.rejected)
+    warn(fmt::format("{}: line {}, {}: {}", folder, row.line, row.column, row.reason));
+  std::set<pattern::Pattern> patterns;
+  for (const measurement::Replicates& design : measurement::summarise(set.specimens)) {
+    if (const pattern::Layout* layout = design.design.layout()) {
+      if (const auto symmetric = pattern::Pattern::from_layout(*layout)) patterns.insert(*symmetric);
+    } else if (design.modulus_count > 0 && design.toughness_count > 0) {
+      measured.benchmark.push_back({design.modulus_pa, design.toughness_pa});
+    }
+  }
+  measured.patterns.assign(patterns.begin(), patterns.end());
+  return measured;
+}
+
+int select_samples(const Options& options) {
+  const std::vector<explore::Evaluated> gamut = explore::read_gamut_csv(options.gamut);
+  const Measured measured = read_measured(options.measured);
+  const auto selected = select::select_designs(gamut, measured.patterns, measured.benchmark, {.count = options.count});
+  nlohmann::ordered_json document = nlohmann::ordered_json::array();
+  for (const select::Selected& one : selected) {
+    document.push_back({{"key", one.pattern.key()},
+                        {"modulus_pa", one.predicted.modulus_pa},
+                        {"toughness_pa", one.predicted.toughness_pa},
+                        {"reason", one.reason},
+                        {"bin", one.bin}});
+    if (options.json) continue;
+    fmt::print("{}  E {:.4f} GPa  T {:.4f} MPa  bin {:>2}  {}\n", one.pattern.key(), 1e-9 * one.predicted.modulus_pa,
+               1e-6 * one.predicted.toughness_pa, one.bin, one.reason);
+  }
+  if (options.json) print_json(document);
+  if (selected.empty()) remark("nothing to select: no sample of the gamut lies above the benchmark lines");
+  return selected.empty() ? 1 : 0;
+}
+
+}  // namespace
+
+void add_select(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "select", "Choose the samples of a gamut that are worth a measurement",
+                                  options, select_samples);
+  command.add_option("GAMUT", options->gamut, "gamut.csv of nacre explore")->required();
+  command.add_option("--measured", options->measured, "Measurement set: patterns to stay away from, homogeneous line");
+  command.add_option("--count", options->count, "How many")->check(CLI::Range(1, 1000))->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli
