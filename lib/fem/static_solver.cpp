@@ -11,6 +11,9 @@ namespace nacre::fem {
 namespace {
 
 constexpr double kTolerance = 1e-11;
+/// Where a soft layer carries stiff ones, the rounding of displacements alone leaves a residual above kTolerance: below
+/// this level the solution is also accepted when another correction no longer halves it.
+constexpr double kRoundingLevel = 1e-8;
 constexpr int kMaximumCorrections = 30;
 
 /// Prescribed unknowns (2 per node): vertical ones in the grips, one sideways, and all of nodes that no element holds.
@@ -105,12 +108,15 @@ std::vector<double> stretched(const Grid& grid, double strain) {
 Result<void> balance(const Grid& grid, const std::vector<material::Lame>& lame, const std::vector<char>& held,
                      FrontalCholesky& stiffness, StaticSolution& solution, std::vector<double>& force) {
   std::vector<double> step;
+  double previous = 1.0;
   for (;; ++solution.corrections) {
     if (!nodal_forces(grid, lame, solution.displacement, force))
       return fail("static solver: an element is turned inside out");
     const Balance forces = balance_of(held, force);
     solution.relative_residual = forces.held > 0.0 ? forces.free / forces.held : forces.free;
     if (solution.relative_residual < kTolerance) return {};
+    if (solution.relative_residual < kRoundingLevel && solution.relative_residual > 0.5 * previous) return {};
+    previous = solution.relative_residual;
     if (!std::isfinite(solution.relative_residual) || solution.corrections == kMaximumCorrections)
       return fail("static solver: relative residual {} after {} corrections", solution.relative_residual,
                   solution.corrections);
