@@ -1,0 +1,60 @@
+#include "virtual_lab/question.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace nacre::virtual_laboratory {
+
+using nlohmann::json;
+
+std::string to_spec(const Question& question) {
+  return json{{"design", question.design.name()},
+              {"test", tester::to_string(question.test)},
+              {"fidelity", tester::to_string(question.fidelity)},
+              {"orientation_deg", question.conditions.orientation_deg},
+              {"strain_rate_per_s", question.conditions.strain_rate_per_s},
+              {"thickness_mm", question.conditions.thickness_mm}}
+      .dump();
+}
+
+Result<Question> question_from_spec(std::string_view spec) try {
+  const json fields = json::parse(spec);
+  const auto design = pattern::design_from_name(fields.at("design").get<std::string>());
+  if (!design) return tl::unexpected(design.error());
+  const auto test = tester::test_kind_from_string(fields.at("test").get<std::string>());
+  if (!test) return tl::unexpected(test.error());
+  const auto fidelity = tester::fidelity_from_string(fields.at("fidelity").get<std::string>());
+  if (!fidelity) return tl::unexpected(fidelity.error());
+  return Question{.design = *design,
+                  .test = *test,
+                  .conditions = {.orientation_deg = fields.at("orientation_deg").get<double>(),
+                                 .strain_rate_per_s = fields.at("strain_rate_per_s").get<double>(),
+                                 .thickness_mm = fields.at("thickness_mm").get<double>()},
+                  .fidelity = *fidelity};
+} catch (const json::exception& error) {
+  return fail("question of the virtual laboratory: {}", error.what());
+}
+
+std::string to_text(const Result<Response>& response) {
+  if (!response) return json{{"failure", response.error().message}}.dump();
+  return json{{"modulus_pa", response->modulus_pa},
+              {"strain", response->curve.strain},
+              {"stress_pa", response->curve.stress_pa},
+              {"remark", response->remark}}
+      .dump();
+}
+
+Result<Response> response_from_text(std::string_view text) try {
+  const json fields = json::parse(text);
+  if (fields.contains("failure")) return fail("{}", fields["failure"].get<std::string>());
+  Response response;
+  response.modulus_pa = fields.at("modulus_pa").get<double>();
+  response.curve.strain = fields.at("strain").get<std::vector<double>>();
+  response.curve.stress_pa = fields.at("stress_pa").get<std::vector<double>>();
+  response.remark = fields.at("remark").get<std::string>();
+  if (response.curve.strain.size() != response.curve.stress_pa.size()) return fail("response of the virtual laboratory: lengths differ");
+  return response;
+} catch (const json::exception& error) {
+  return fail("response of the virtual laboratory: {}", error.what());
+}
+
+}  // namespace nacre::virtual_laboratory

@@ -1,0 +1,135 @@
+#include "virtual_lab/virtual_lab_core.hpp"
+
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
+#include "base/random.hpp"
+#include "virtual_lab/question.hpp"
+
+namespace nacre::virtual_laboratory {
+namespace {
+
+using runtime::LogLevel;
+using runtime::Outputs;
+
+constexpr const char* kOrderChannel = "TEST_ORDER";
+constexpr const char* kMeasurementChannel = "MEASUREMENT";
+constexpr const char* kWorkKind = "measure";
+constexpr int kPrintPositions = 1000;
+
+Question question_of(const wire::TestOrder& order) {
+  return {.design = order.design, .test = order.test, .conditions = order.conditions, .fidelity = order.fidelity};
+}
+
+/// Where on the print bed's list a specimen stands: drawn, so that it is known before the rest of the batch is.
+int print_position(std::uint64_t seed, const std::string& batch, const std::string& specimen) {
+  RandomStream stream(seed, fmt::format("print/{}/{}", batch, specimen));
+  return 1 + stream.index(kPrintPositions);
+}
+
+}  // namespace
+
+Outputs VirtualLabCore::step(const runtime::Input& input) {
+  Outputs outputs;
+  if (const auto* message = std::get_if<runtime::Message>(&input)) {
+    if (message->channel == kOrderChannel) accept(message->payload, outputs);
+  } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
+    settle(*work, outputs);
+  }
+  return outputs;
+}
+
+void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
+  const Result<wire::TestOrder> order = wire::read<wire::TestOrder>(payload);
+  if (!order) {
+    outputs.log.push_back({LogLevel::warning, "TEST_ORDER refused: " + order.error().message});
+    return;
+  }
+  const auto [known, is_new] = orders_.try_emplace(order->order_id, *order);
+  if (!is_new) {
+    if (known->second != *order) {
+      outputs.log.push_back({LogLevel::warning, fmt::format("TEST_ORDER {} came again with another content", order->order_id)});
+    }
+    return;
+  }
+  latest_round_ = std::max(latest_round_, order->round);
+  const Question question = question_of(*order);
+  if (order->loading != "monotonic") {
+    report(*order, question, fail("loading \"{}\": this laboratory only pulls monotonically", order->loading), outputs);
+    return;
+  }
+  const std::string spec = to_spec(question);
+  const std::string id = "measure/" + content_hash(spec);
+  const auto [simulation, first] = simulations_.try_emplace(id, Simulation{.question = question, .response = {}, .waiting = {}});
+  if (simulation->second.response) {
+    report(*order, question, *simulation->second.response, outputs);
+    return;
+  }
+  simulation->second.waiting.push_back(order->order_id);
+  if (!first) return;
+  outputs.computes.push_back({.id = id, .kind = kWorkKind, .spec = spec});
+  outputs.log.push_back({LogLevel::info, fmt::format("{}: {} of {}, {} specimens", order->order_id, tester::to_string(order->test),
+                                                     order->design.name(), order->replicates)});
+}
+
+void VirtualLabCore::settle(const runtime::WorkDone& work, Outputs& outputs) {
+  const auto found = simulations_.find(work.id);
+  if (found == simulations_.end() || found->second.response) {
+    outputs.log.push_back({LogLevel::warning, fmt::format("result {} was not asked for", work.id)});
+    return;
+  }
+  Simulation& simulation = found->second;
+  simulation.response = response_from_text(work.result);
+  ++settled_;
+  for (const std::string& order_id : simulation.waiting) {
+    report(orders_.at(order_id), simulation.question, *simulation.response, outputs);
+  }
+  simulation.waiting.clear();
+}
+
+void VirtualLabCore::report(const wire::TestOrder& order, const Question& question, const Result<Response>& response,
+                            Outputs& outputs) const {
+  if (!response) {
+    outputs.log.push_back({LogLevel::warning, fmt::format("{}: no valid specimen: {}", order.order_id, response.error().message)});
+  }
+  for (int k = 1; k <= order.replicates; ++k) {
+    const std::string specimen = fmt::format("{}/{}", order.order_id, k);
+    const Replicate replicate{.specimen = specimen, .batch = order.batch,
+                              .print_order = print_position(truth_.seed, order.batch, specimen)};
+    const wire::Measurement measurement{.round = order.round,
+                                        .order_id = order.order_id,
+                                        .fidelity = order.fidelity,
+                                        .record = record_specimen(truth_, question, response, replicate)};
+    outputs.messages.push_back({.channel = kMeasurementChannel, .payload = wire::write(measurement)});
+  }
+}
+
+runtime::Status VirtualLabCore::status() const {
+  const auto total = static_cast<int>(simulations_.size());
+  const bool busy = settled_ < total;
+  return {.phase = busy ? fmt::format("measuring, {} of {} tests done", settled_, total) : "waiting for orders",
+          .round = latest_round_,
+          .progress = busy ? settled_ / static_cast<double>(total) : -1.0,
+          .finished = false};
+}
+
+Truth truth_of(const game::Scenario& scenario) {
+  if (scenario.laboratory.file.empty()) return draw_truth(scenario.seed, scenario.fidelity);
+  Truth truth = read_laboratory(scenario.laboratory.file);
+  truth.fidelity = scenario.fidelity;
+  return truth;
+}
+
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
+  return std::make_unique<VirtualLabCore>(truth_of(scenario));
+}
+
+std::map<std::string, runtime::WorkFunction> work_functions(const Truth& truth) {
+  return {{kWorkKind, [truth](const std::string& spec) {
+             const Result<Question> question = question_from_spec(spec);
+             if (!question) return to_text(tl::unexpected(question.error()));
+             return to_text(respond(truth, *question));
+           }}};
+}
+
+}  // namespace nacre::virtual_laboratory
