@@ -1,0 +1,138 @@
+#include "runtime/recorder.hpp"
+
+#include <bit>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "runtime/log_file.hpp"
+#include "runtime/sequence.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+volatile std::sig_atomic_t recorder_stop = 0;
+extern "C" void request_recorder_stop(int) { recorder_stop = 1; }
+
+/// Cuts a torn tail off an existing log; returns the number of records in it.
+std::int64_t mend(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return 0;
+  LogReader reader(path);
+  std::int64_t records = 0;
+  while (true) {
+    try {
+      if (!reader.next()) break;
+      ++records;
+    } catch (const InputError&) {
+      reader.resync();  // damaged in the middle: what stands behind it is still worth keeping
+    }
+  }
+  std::error_code ignored;
+  if (reader.end().torn_bytes > 0)
+    std::filesystem::resize_file(path, static_cast<std::uintmax_t>(reader.end().sound_bytes), ignored);
+  return records;
+}
+
+}  // namespace
+
+struct Recorder::State {
+  RecorderOptions options;
+  std::unique_ptr<LogWriter> writer;
+  std::unique_ptr<Bus> bus;
+  SequenceCounter sequences;
+  RecorderCounters counters;
+  std::int64_t next_flush = 0;
+  bool unflushed = false;
+
+  void report(LogLevel level, const std::string& text) const {
+    if (options.report) options.report(level, text);
+  }
+
+  Result<void> record(const Datagram& datagram) {
+    const Result<void> written = writer->append(now_utime(), datagram.channel, datagram.bytes);
+    if (!written) return written;
+    unflushed = true;
+    ++counters.messages;
+    counters.bytes += static_cast<std::int64_t>(datagram.bytes.size());
+    const Result<wire::Blanked> blanked = wire::blank_header(datagram.channel, datagram.bytes);
+    if (!blanked) return {};  // recorded all the same: that it was on the bus is what the log is for
+    sequences.count(datagram.channel, blanked->header);
+    if (sequences.lost() > counters.lost && std::has_single_bit(static_cast<std::uint64_t>(sequences.lost()))) {
+      report(LogLevel::warning,
+             fmt::format("{} messages so far are missing in {}", sequences.lost(), options.log.string()));
+    }
+    counters.lost = sequences.lost();
+    return {};
+  }
+};
+
+Recorder::Recorder(RecorderOptions options) : state_(std::make_unique<State>()) {
+  state_->options = std::move(options);
+  const std::filesystem::path& log = state_->options.log;
+  std::error_code ignored;  // the writer says why the file cannot be made
+  if (log.has_parent_path()) std::filesystem::create_directories(log.parent_path(), ignored);
+  state_->writer = std::make_unique<LogWriter>(log, mend(log));
+  BusOptions bus;
+  bus.url = state_->options.url;
+  bus.node = "recorder";
+  bus.accept_any_run = true;
+  Result<std::unique_ptr<Bus>> opened = Bus::open(std::move(bus));
+  if (!opened) throw InputError(opened.error().message);
+  state_->bus = std::move(*opened);
+  if (const Result<void> listening = state_->bus->subscribe({}); !listening)
+    throw InputError(listening.error().message);
+}
+
+Recorder::~Recorder() {
+  if (state_ && state_->writer) [[maybe_unused]]
+    const Result<void> flushed = state_->writer->flush();
+}
+
+Result<void> Recorder::pump(int timeout_ms) {
+  Result<void> written;
+  state_->bus->receive_raw(timeout_ms, [&](const Datagram& datagram) {
+    if (written) written = state_->record(datagram);
+  });
+  const std::int64_t now = now_utime();
+  if (written && state_->unflushed && now >= state_->next_flush) {
+    written = state_->writer->flush();
+    state_->unflushed = false;
+    state_->next_flush = now + static_cast<std::int64_t>(1e6 * state_->options.flush_every_s);
+  }
+  return written;
+}
+
+RecorderCounters Recorder::counters() const { return state_->counters; }
+
+int run_recorder(const RecorderOptions& options, const std::atomic<bool>* stop, bool handle_signals) {
+  if (handle_signals) {
+    std::signal(SIGINT, request_recorder_stop);
+    std::signal(SIGTERM, request_recorder_stop);
+  }
+  const auto say = [&](LogLevel level, const std::string& text) {
+    if (options.report) {
+      options.report(level, text);
+    } else {
+      std::fprintf(stderr, "recorder: %s\n", text.c_str());
+    }
+  };
+  try {
+    Recorder recorder(options);
+    while (!(handle_signals && recorder_stop) && !(stop && stop->load())) {
+      if (const Result<void> written = recorder.pump(50); !written) {
+        say(LogLevel::error, written.error().message);
+        return 1;
+      }
+    }
+    for (int i = 0; i < 4; ++i) {  // what is still on its way
+      if (!recorder.pump(20)) return 1;
+    }
+    return 0;
+  } catch (const InputError& problem) {
+    say(LogLevel::error, problem.what());
+    return 2;
+  }
+}
+
+}  // namespace nacre::runtime

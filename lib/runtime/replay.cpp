@@ -1,0 +1,152 @@
+#include "runtime/replay.hpp"
+
+#include <deque>
+#include <set>
+#include <utility>
+
+#include "base/result.hpp"
+#include "runtime/fold.hpp"
+#include "runtime/journal.hpp"
+#include "wire/channels.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+Result<std::string> do_work(const std::map<std::string, WorkFunction>& work, const Compute& compute) {
+  const auto function = work.find(compute.kind);
+  if (function == work.end()) return fail("work {}: there is no function for its kind {}", compute.id, compute.kind);
+  try {
+    return function->second(compute.spec);
+  } catch (const std::exception& problem) {
+    return fail("work {} ({}) failed: {}", compute.id, compute.kind, problem.what());
+  }
+}
+
+/// Recomputes a journaled result and compares.
+Result<void> compare_work(const std::map<std::string, WorkFunction>& work, const Compute& compute,
+                          const std::string& recorded) {
+  const Result<std::string> now = do_work(work, compute);
+  if (!now) return tl::unexpected(now.error());
+  if (*now == recorded) return {};
+  std::size_t at = 0;
+  while (at < now->size() && at < recorded.size() && (*now)[at] == recorded[at]) ++at;
+  return fail("the result of work {} ({}) differs from byte {} on ({} bytes recorded, {} now)", compute.id,
+              compute.kind, at, recorded.size(), now->size());
+}
+
+/// What is played from a bus log: the core's side of the game.
+class BusReplay {
+ public:
+  BusReplay(const std::string& node, NodeCore& core, const std::map<std::string, WorkFunction>& work,
+            ReplayReport& report)
+      : node_(node), core_(core), work_(work), report_(report) {}
+
+  void feed(const LogRecord& record) {
+    const wire::Channel* channel = wire::find_channel(record.channel);
+    if (!channel || !channel->reliable) return;
+    const Result<wire::Blanked> blanked = wire::blank_header(record.channel, record.data);
+    if (!blanked || !channel->validate(blanked->payload)) return;  // a receiver would have dropped it
+    const std::string hash = wire::message_hash(record.channel, blanked->payload);
+    if (blanked->header.node == node_) {
+      said_.emplace(hash, record.channel);
+    } else if (wire::is_meant_for(*channel, blanked->payload, node_) && heard_.insert(hash).second) {
+      step(Message{record.channel, blanked->payload});
+    }
+  }
+
+  void compare() {
+    for (const auto& [hash, channel] : said_) {
+      if (!now_.count(hash)) differs(fmt::format("a message on {} was said then and is not now", channel));
+    }
+    for (const auto& [hash, channel] : now_) {
+      if (!said_.count(hash))
+        differs(fmt::format("a message on {} is said now and was not then (or was not recorded)", channel));
+    }
+    report_.outputs = static_cast<std::int64_t>(said_.size());
+    report_.equal = report_.difference.empty();
+  }
+
+ private:
+  void differs(const std::string& sentence) {
+    if (report_.difference.empty()) report_.difference = sentence;
+  }
+
+  void step(const Input& first) {
+    std::deque<Input> inputs{first};
+    while (!inputs.empty()) {
+      ++report_.inputs;
+      Outputs outputs = core_.step(inputs.front());
+      inputs.pop_front();
+      for (const Message& message : outputs.messages) {
+        now_.emplace(wire::message_hash(message.channel, message.payload), message.channel);
+      }
+      for (const Compute& compute : outputs.computes) {
+        ++report_.computes;
+        Result<std::string> result = do_work(work_, compute);
+        if (result) {
+          inputs.push_back(WorkDone{compute.id, std::move(*result)});
+        } else {
+          differs(result.error().message);
+        }
+      }
+    }
+  }
+
+  const std::string& node_;
+  NodeCore& core_;
+  const std::map<std::string, WorkFunction>& work_;
+  ReplayReport& report_;
+  std::set<std::string> heard_;
+  std::map<std::string, std::string> said_, now_;  ///< hash -> channel
+};
+
+}  // namespace
+
+ReplayReport replay_journal(const std::filesystem::path& journal, NodeCore& core,
+                            const std::map<std::string, WorkFunction>& work, bool recompute) {
+  ReplayReport report;
+  Fold fold(core);
+  if (recompute) {
+    fold.on_work_done = [&](const Compute& compute, const std::string& recorded) {
+      ++report.recomputed;
+      return compare_work(work, compute, recorded);
+    };
+  }
+  LogReader reader(journal);
+  Result<void> agreed;
+  while (const auto record = reader.next()) {
+    agreed = fold.feed(*record);
+    if (!agreed) break;
+  }
+  const Outputs unfinished = fold.take_unfinished();
+  report.inputs = fold.inputs;
+  report.outputs = fold.outputs;
+  report.computes = fold.computes;
+  report.equal = agreed.has_value();
+  if (!agreed) {
+    report.difference = agreed.error().message;
+    return report;
+  }
+  report.unfinished = static_cast<std::int64_t>(unfinished.messages.size() + unfinished.computes.size());
+  if (report.unfinished > 0) report.note = "the node was stopped before it wrote down all that its last input caused";
+  if (reader.end().torn_bytes > 0)
+    report.note += fmt::format("{}the journal ends in a torn record", report.note.empty() ? "" : "; ");
+  return report;
+}
+
+ReplayReport replay_bus_log(const std::filesystem::path& log, const std::string& node, NodeCore& core,
+                            const std::map<std::string, WorkFunction>& work) {
+  ReplayReport report;
+  report.note =
+      "best effort: the bus log holds the order in which the recorder heard the messages, not the node; ticks are not "
+      "recorded, and "
+      "work is done at once. The node's own journal gives the exact answer";
+  BusReplay replay(node, core, work, report);
+  LogReader reader(log);
+  while (const auto record = reader.next()) replay.feed(*record);
+  replay.compare();
+  return report;
+}
+
+}  // namespace nacre::runtime
