@@ -37,14 +37,36 @@ const std::array<ShapeGradients, kGaussPoints>& shape_gradients() {
 }
 
 bool internal_force(const ElementVector& displacement, const material::Lame& lame, ElementVector& force) {
-  Eigen::Matrix<double, 2, kElementNodes> sum = Eigen::Matrix<double, 2, kElementNodes>::Zero();
+  // first_piola and displacement_gradient, written out: this loop is the residual of the static solver.
+  double fx[kElementNodes] = {}, fy[kElementNodes] = {};
   bool usable = true;
   for (const ShapeGradients& gradients : shape_gradients()) {
-    const Eigen::Matrix2d h = displacement_gradient(displacement, gradients);
-    usable = usable && material::volume_change(h) > -1.0;
-    sum.noalias() += (kGaussWeight * material::first_piola(h, lame)) * gradients;
+    const double* g = gradients.data();  // dN_a/dx, dN_a/dy in turn
+    double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
+    for (int a = 0; a < kElementNodes; ++a) {
+      xx += displacement[2 * a] * g[2 * a];
+      xy += displacement[2 * a] * g[2 * a + 1];
+      yx += displacement[2 * a + 1] * g[2 * a];
+      yy += displacement[2 * a + 1] * g[2 * a + 1];
+    }
+    const double change = xx + yy + (xx * yy - xy * yx);
+    usable = usable && change > -1.0;
+    const double inverse_j = 1.0 / (1.0 + change);
+    const double mu = kGaussWeight * lame.mu_pa * inverse_j;
+    const double bulk = kGaussWeight * lame.lambda_pa * inverse_j * std::log1p(change);
+    const double pxx = mu * (xx - yy + change * (1.0 + xx)) + bulk * (1.0 + yy);
+    const double pxy = mu * (xy + yx + change * xy) - bulk * yx;
+    const double pyx = mu * (xy + yx + change * yx) - bulk * xy;
+    const double pyy = mu * (yy - xx + change * (1.0 + yy)) + bulk * (1.0 + xx);
+    for (int a = 0; a < kElementNodes; ++a) {
+      fx[a] += pxx * g[2 * a] + pxy * g[2 * a + 1];
+      fy[a] += pyx * g[2 * a] + pyy * g[2 * a + 1];
+    }
   }
-  force = Eigen::Map<const ElementVector>(sum.data());
+  for (int a = 0; a < kElementNodes; ++a) {
+    force[2 * a] = fx[a];
+    force[2 * a + 1] = fy[a];
+  }
   return usable;
 }
 

@@ -44,6 +44,18 @@ TEST(Element, ForceIsTheDerivativeOfTheEnergy) {
   }
 }
 
+TEST(Element, ForceIsTheStressOfTheLawSummedOverThePoints) {
+  const ElementVector displacement = some_displacement(0.15);
+  ElementVector force, expected = ElementVector::Zero();
+  ASSERT_TRUE(internal_force(displacement, kLame, force));
+  for (const ShapeGradients& gradients : shape_gradients()) {
+    const Eigen::Matrix2d stress = material::first_piola(displacement_gradient(displacement, gradients), kLame);
+    for (int node = 0; node < kElementNodes; ++node)
+      expected.segment<2>(2 * node) += kGaussWeight * stress * gradients.col(node);
+  }
+  EXPECT_LT((force - expected).norm(), 1e-14 * kLame.lambda_pa);
+}
+
 TEST(Element, StiffnessIsTheDerivativeOfTheForceAtRest) {
   const ElementMatrix stiffness = kLame.mu_pa * unit_stiffness().shear + kLame.lambda_pa * unit_stiffness().bulk;
   for (int i = 0; i < 8; ++i) {
