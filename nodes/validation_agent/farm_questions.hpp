@@ -1,0 +1,42 @@
+#pragma once
+// Evaluations that the farm is asked for, and their answers put together again.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "measurement/measurement.hpp"
+#include "sysid/calibration.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::validation_agent {
+
+/// One batch of evaluations at the farm. Answers may come in any order and any number of times; what predictions()
+/// holds does not depend on it.
+class FarmQuestions {
+ public:
+  /// SIMULATE requests for the batch: items of one evaluation that share test conditions go together, at most 64 a
+  /// request. Request ids are `validation_agent/LABEL/EVALUATION/PART`; a label is used once.
+  std::vector<wire::SimulateRequest> ask(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
+                                         const std::vector<measurement::Replicates>& measured,
+                                         tester::Fidelity fidelity);
+
+  /// Takes a SIMULATED. Returns whether the batch is complete with it.
+  bool take(wire::SimulateResult part);
+
+  /// Of each evaluation of the batch, one prediction per item; empty where the simulation failed.
+  const std::vector<std::vector<sysid::Prediction>>& predictions() const { return predictions_; }
+
+ private:
+  struct Place {
+    std::size_t evaluation = 0;
+    std::vector<std::size_t> items;  // positions within the evaluation
+    bool modulus = false;
+    bool toughness = false;
+  };
+  std::map<std::string, Place> open_;  // by request id
+  wire::AnswerCollector collector_;
+  std::vector<std::vector<sysid::Prediction>> predictions_;
+};
+
+}  // namespace nacre::validation_agent

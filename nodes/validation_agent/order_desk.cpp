@@ -1,0 +1,100 @@
+#include "validation_agent/order_desk.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/random.hpp"
+#include "pattern/random_pattern.hpp"
+
+namespace nacre::validation_agent {
+namespace {
+
+std::vector<pattern::Pattern> draw_random_patterns(const game::Scenario& scenario) {
+  RandomStream random(scenario.seed, "stratified random patterns");
+  return pattern::stratified_patterns(scenario.validation.random_patterns, random);
+}
+
+}  // namespace
+
+OrderDesk::OrderDesk(const game::Scenario& scenario)
+    : scenario_(scenario), random_patterns_(draw_random_patterns(scenario)) {}
+
+std::vector<game::Order> OrderDesk::place(std::vector<game::Order> orders) {
+  orders_.insert(orders_.end(), orders.begin(), orders.end());
+  return orders;
+}
+
+bool OrderDesk::refused(const pattern::Design& design) const {
+  return std::any_of(decisions_.begin(), decisions_.end(),
+                     [&](const auto& entry) { return entry.first.second == design.name() && !entry.second.approved; });
+}
+
+std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::Design> designs,
+                                               std::vector<game::Experiment> experiments) {
+  round_ = round;
+  waiting_.clear();
+  std::vector<game::Order> orders;
+  const auto add = [&](std::vector<game::Order> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(orders));
+  };
+  if (round == 1) {
+    add(game::opening_orders(scenario_, random_patterns_));
+    if (experiments.empty()) experiments = game::rotated_twins(random_patterns_, scenario_.validation.replicates);
+  }
+  std::vector<pattern::Design> approved;
+  for (const pattern::Design& design : designs) {
+    const auto decision = decisions_.find({round - 1, design.name()});
+    if (!scenario_.validation.approval || (decision != decisions_.end() && decision->second.approved)) {
+      approved.push_back(design);
+    } else if (decision == decisions_.end()) {
+      waiting_.push_back(design);
+    }
+  }
+  add(game::proposal_orders(scenario_, round, approved));
+  std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
+  if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
+  return place(std::move(orders));
+}
+
+Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pattern::Design& design,
+                                                   const Decision& decision) {
+  if (!scenario_.validation.approval) return fail("this game does not ask for approvals");
+  const auto [held, is_new] = decisions_.try_emplace({proposal_round, design.name()}, decision);
+  if (!is_new) {
+    if (held->second.approved == decision.approved) return std::vector<game::Order>{};
+    return fail("{} was {} before by {}", design.name(), held->second.approved ? "approved" : "refused",
+                held->second.by);
+  }
+  const auto waiting = std::find(waiting_.begin(), waiting_.end(), design);
+  if (proposal_round != round_ - 1 || waiting == waiting_.end()) return std::vector<game::Order>{};
+  waiting_.erase(waiting);
+  if (!decision.approved) return std::vector<game::Order>{};
+  return place(game::proposal_orders(scenario_, round_, std::vector{design}));
+}
+
+std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) const {
+  const auto progress = book.progress(orders_, scenario_.validation.enough_valid);
+  std::pair<int, int> count{0, 0};
+  for (std::size_t order = 0; order < orders_.size(); ++order) {
+    if (orders_[order].round != round_) continue;
+    ++count.second;
+    count.first += progress[order].complete;
+  }
+  return count;
+}
+
+std::set<pattern::Pattern> OrderDesk::settled_patterns() const {
+  std::set<pattern::Pattern> patterns(random_patterns_.begin(), random_patterns_.end());
+  const auto add = [&](const pattern::Design& design) {
+    if (design.layout() == nullptr) return;
+    if (const auto pattern = pattern::Pattern::from_layout(*design.layout())) patterns.insert(*pattern);
+  };
+  for (const game::Order& order : orders_) add(order.design);
+  for (const auto& [key, decision] : decisions_) {
+    if (decision.approved) continue;
+    if (const auto design = pattern::design_from_name(key.second)) add(*design);
+  }
+  return patterns;
+}
+
+}  // namespace nacre::validation_agent

@@ -1,0 +1,64 @@
+#pragma once
+// What is ordered from the laboratory in the present round, and what a person has to say about it.
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/measurement_book.hpp"
+#include "game/rounds.hpp"
+#include "game/scenario.hpp"
+
+namespace nacre::validation_agent {
+
+/// A person's decision about a proposed design.
+struct Decision {
+  bool approved = false;
+  std::string by;
+  std::string why;
+};
+
+/// The orders of the game. The orders of a round depend on the proposal, the decisions and the experiments wanted, not
+/// on when a decision came.
+class OrderDesk {
+ public:
+  explicit OrderDesk(const game::Scenario& scenario);
+
+  /// Opens a round: `designs` proposed for it, `experiments` that the diagnosis wants. Returns the orders that can go
+  /// out at once.
+  std::vector<game::Order> open_round(int round, std::vector<pattern::Design> designs,
+                                      std::vector<game::Experiment> experiments);
+
+  /// A decision about a design of the proposal of `proposal_round`, before or after that round is opened. The first one
+  /// counts: its order may be in print. Returns orders that go out because of it, or why the decision changes nothing.
+  Result<std::vector<game::Order>> decide(int proposal_round, const pattern::Design& design, const Decision& decision);
+
+  /// Proposed designs of the open round that still wait for a person.
+  int undecided() const { return static_cast<int>(waiting_.size()); }
+
+  /// Orders of all rounds.
+  const std::vector<game::Order>& orders() const { return orders_; }
+
+  /// Orders of the open round that are complete, and how many there are.
+  std::pair<int, int> completed(const game::MeasurementBook& book) const;
+
+  /// Patterns ordered or to be ordered whatever happens, and those that a person refused: not worth proposing again.
+  std::set<pattern::Pattern> settled_patterns() const;
+
+ private:
+  std::vector<game::Order> place(std::vector<game::Order> orders);
+  bool refused(const pattern::Design& design) const;
+
+  game::Scenario scenario_;
+  std::vector<pattern::Pattern> random_patterns_;
+  int round_ = 0;
+  std::vector<pattern::Design> waiting_;  // of the open round, undecided
+  std::vector<game::Order> orders_;
+  std::map<std::pair<int, std::string>, Decision> decisions_;  // by round of the proposal and design
+};
+
+}  // namespace nacre::validation_agent

@@ -1,0 +1,195 @@
+// Inputs of the validation agent: each is judged here, and what follows from it is decided in validation_rounds.cpp.
+
+#include "validation_agent/validation_core.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "game/reference_tables.hpp"
+
+namespace nacre::validation_agent {
+
+using runtime::LogLevel;
+
+ValidationCore::ValidationCore(const game::Scenario& scenario, StartingTables tables)
+    : scenario_(scenario), tables_(std::move(tables)), desk_(scenario), model_(material::default_parameters()) {}
+
+runtime::Outputs ValidationCore::step(const runtime::Input& input) {
+  outputs_ = {};
+  if (const auto* message = std::get_if<runtime::Message>(&input)) accept_message(*message);
+  return std::exchange(outputs_, {});
+}
+
+void ValidationCore::accept_message(const runtime::Message& message) {
+  using Accept = void (ValidationCore::*)(const std::string&);
+  static const std::map<std::string, Accept> kAccept = {
+      {"RUN", &ValidationCore::accept_run},
+      {"SIMULATED", &ValidationCore::accept_answer},
+      {"GAMUT", &ValidationCore::accept_gamut},
+      {"PROPOSAL", &ValidationCore::accept_proposal},
+      {"DIAGNOSIS", &ValidationCore::accept_diagnosis},
+      {"MEASUREMENT", &ValidationCore::accept_measurement},
+      {"REVIEW", &ValidationCore::accept_review},
+      {"APPROVAL", &ValidationCore::accept_approval},
+  };
+  if (const auto accept = kAccept.find(message.channel); accept != kAccept.end())
+    (this->*accept->second)(message.payload);
+}
+
+void ValidationCore::accept_run(const std::string& payload) {
+  const auto run = wire::decode_safe<run_t>(payload);
+  if (!run) return say(LogLevel::warning, "a RUN is ignored: " + run.error().message);
+  if (phase_ != Phase::waiting_for_run) return;
+  if (static_cast<std::uint64_t>(run->seed) != scenario_.seed) {
+    return say(LogLevel::error,
+               fmt::format("RUN announces seed {}, this node's scenario has {}: both must come from the same run",
+                           run->seed, scenario_.seed));
+  }
+  begin_round(0);
+}
+
+void ValidationCore::accept_answer(const std::string& payload) {
+  auto part = wire::read<wire::SimulateResult>(payload);
+  if (!part) return say(LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
+  if (!questions_.take(*std::move(part))) return;
+  if (phase_ == Phase::predicting) {
+    finish_held_out(questions_.predictions().front());
+  } else if (phase_ == Phase::calibrating) {
+    fitting_->tell(questions_.predictions());
+    calibrate_on();
+  }
+}
+
+void ValidationCore::accept_gamut(const std::string& payload) {
+  auto chunk = wire::read<wire::GamutChunk>(payload);
+  if (!chunk) return say(LogLevel::warning, "a GAMUT is ignored: " + chunk.error().message);
+  const int round = chunk->round;
+  if (chunk->fidelity != scenario_.fidelity || round != round_ || gamuts_.contains(round)) return;
+  if (auto whole = gamut_chunks_.add(*std::move(chunk))) gamuts_.emplace(round, *std::move(whole));
+  close_round_when_proposed();
+}
+
+void ValidationCore::accept_proposal(const std::string& payload) {
+  auto proposal = wire::read<wire::Proposal>(payload);
+  if (!proposal) return say(LogLevel::warning, "a PROPOSAL is ignored: " + proposal.error().message);
+  if (proposal->fidelity != scenario_.fidelity || proposal->round != round_) return;
+  proposals_.emplace(proposal->round, *std::move(proposal));
+  close_round_when_proposed();
+}
+
+void ValidationCore::accept_diagnosis(const std::string& payload) {
+  const auto diagnosis = wire::decode_safe<diagnosis_t>(payload);
+  const auto sound = diagnosis ? wire::validate(*diagnosis) : Result<void>(tl::unexpected(diagnosis.error()));
+  if (!sound) return say(LogLevel::warning, "a DIAGNOSIS is ignored: " + sound.error().message);
+  if (phase_ != Phase::diagnosing || diagnosis->round != round_) return;
+  diagnosis_ = *diagnosis;
+  say(LogLevel::info, fmt::format("round {}: diagnosis {}: {}", round_, diagnosis->verdict, diagnosis->summary));
+  if (adopt(*diagnosis)) {
+    begin_calibration();
+  } else {
+    publish_model();
+  }
+}
+
+void ValidationCore::accept_measurement(const std::string& payload) {
+  const auto measured = wire::read<wire::Measurement>(payload);
+  if (!measured) return say(LogLevel::warning, "a MEASUREMENT is ignored: " + measured.error().message);
+  const measurement::SpecimenRecord& record = measured->record;
+  if (measured->fidelity != scenario_.fidelity) {
+    return say(LogLevel::warning,
+               fmt::format("specimen {} is refused: measured at fidelity {}, the game is played at {}", record.specimen,
+                           tester::to_string(measured->fidelity), tester::to_string(scenario_.fidelity)));
+  }
+  switch (book_.enter(record, measured->order_id)) {
+    case game::MeasurementBook::Entry::repeated:
+      return;
+    case game::MeasurementBook::Entry::conflicting:
+      return say(LogLevel::warning,
+                 fmt::format("specimen {} is refused: it was reported before with other content", record.specimen));
+    case game::MeasurementBook::Entry::accepted:
+      break;
+  }
+  const std::string what =
+      fmt::format("specimen {} of {}, {} test", record.specimen, record.design.name(), tester::to_string(record.test));
+  if (record.valid) {
+    say(LogLevel::info, what);
+  } else {
+    say(LogLevel::warning, fmt::format("{}: not valid ({}), not used", what, record.note));
+  }
+  if (phase_ == Phase::measuring) measure_on();
+}
+
+void ValidationCore::accept_review(const std::string& payload) {
+  const auto review = wire::decode_safe<review_t>(payload);
+  const auto sound = review ? wire::validate(*review) : Result<void>(tl::unexpected(review.error()));
+  if (!sound) return say(LogLevel::warning, "a REVIEW is ignored: " + sound.error().message);
+  if (!book_.review(review->specimen, {review->revision, review->valid != 0, review->why})) return;
+  say(LogLevel::info, fmt::format("{} says that specimen {} is {}valid: {}", review->by, review->specimen,
+                                  review->valid ? "" : "not ", review->why));
+  if (phase_ == Phase::measuring) measure_on();
+}
+
+void ValidationCore::accept_approval(const std::string& payload) {
+  const auto approval = wire::decode_safe<approval_t>(payload);
+  const auto sound = approval ? wire::validate(*approval) : Result<void>(tl::unexpected(approval.error()));
+  if (!sound) return say(LogLevel::warning, "an APPROVAL is ignored: " + sound.error().message);
+  const auto design = pattern::design_from_name(approval->design);
+  if (!design) return say(LogLevel::warning, "an APPROVAL is ignored: " + design.error().message);
+  if (const auto proposal = proposals_.find(approval->round); proposal != proposals_.end()) {
+    const auto& designs = proposal->second.designs;
+    if (std::none_of(designs.begin(), designs.end(), [&](const auto& each) { return each.design == *design; })) {
+      return say(LogLevel::warning, fmt::format("an APPROVAL is ignored: {} is not in the proposal of round {}",
+                                                approval->design, approval->round));
+    }
+  }
+  const auto orders = desk_.decide(approval->round, *design, {approval->approved != 0, approval->by, approval->why});
+  if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
+  say(LogLevel::info, fmt::format("{} {} {}: {}", approval->by, approval->approved ? "approves" : "refuses",
+                                  approval->design, approval->why));
+  send_orders(*orders);
+  if (phase_ == Phase::measuring) measure_on();
+}
+
+runtime::Status ValidationCore::status() const {
+  runtime::Status status{.phase = "", .round = round_, .progress = -1.0, .finished = phase_ == Phase::finished};
+  switch (phase_) {
+    case Phase::waiting_for_run:
+      status.phase = "waiting for the run to be announced";
+      break;
+    case Phase::measuring: {
+      const auto [complete, all] = desk_.completed(book_);
+      status.phase = fmt::format("measuring, {} of {} orders complete", complete, all);
+      if (desk_.undecided() > 0) status.phase += fmt::format(", {} designs wait for approval", desk_.undecided());
+      status.progress = all == 0 ? 1.0 : static_cast<double>(complete) / all;
+      break;
+    }
+    case Phase::predicting:
+      status.phase = "comparing predictions with measurements";
+      break;
+    case Phase::calibrating:
+      status.phase = extended_ ? "calibrating the extended model" : "calibrating";
+      status.progress = fitting_->progress();
+      break;
+    case Phase::diagnosing:
+      status.phase = "waiting for the diagnosis";
+      break;
+    case Phase::waiting_for_proposal:
+      status.phase = "waiting for gamut and proposal";
+      break;
+    case Phase::finished:
+      status.phase = "the game is over";
+      break;
+  }
+  return status;
+}
+
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
+  StartingTables tables;
+  tables.base_materials = game::read_base_materials(scenario.base_materials_file);
+  if (!scenario.benchmark_file.empty()) tables.benchmark = game::read_benchmark_line(scenario.benchmark_file);
+  return std::make_unique<ValidationCore>(scenario, std::move(tables));
+}
+
+}  // namespace nacre::validation_agent

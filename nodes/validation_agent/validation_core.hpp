@@ -1,0 +1,108 @@
+#pragma once
+// The validation agent's decisions: it has proposals measured, calibrates the model on everything measured so far, and
+// says when the game is over (design, section 4; thesis 2.3.2 and 3.2).
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "game/equilibrium.hpp"
+#include "game/measurement_book.hpp"
+#include "game/scenario.hpp"
+#include "optimize/pareto.hpp"
+#include "runtime/node_core.hpp"
+#include "validation_agent/farm_questions.hpp"
+#include "validation_agent/fitting.hpp"
+#include "validation_agent/order_desk.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::validation_agent {
+
+/// The measured tables that a game starts from, read before it begins.
+struct StartingTables {
+  std::vector<measurement::Replicates> base_materials;
+  std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
+};
+
+/// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).
+/// Round n: TEST_ORDERs -> MEASUREMENTs -> held-out errors -> calibration -> DIAGNOSE, DIAGNOSIS -> PARAMETERS(n) ->
+/// GAMUT(n), PROPOSAL(n) -> ROUND(n).
+class ValidationCore : public runtime::NodeCore {
+ public:
+  ValidationCore(const game::Scenario& scenario, StartingTables tables);
+  runtime::Outputs step(const runtime::Input& input) override;
+  runtime::Status status() const override;
+
+ private:
+  enum class Phase { waiting_for_run, measuring, predicting, calibrating, diagnosing, waiting_for_proposal, finished };
+
+  // Inputs (validation_core.cpp).
+  void accept_message(const runtime::Message& message);
+  void accept_run(const std::string& payload);
+  void accept_answer(const std::string& payload);
+  void accept_gamut(const std::string& payload);
+  void accept_proposal(const std::string& payload);
+  void accept_diagnosis(const std::string& payload);
+  void accept_measurement(const std::string& payload);
+  void accept_review(const std::string& payload);
+  void accept_approval(const std::string& payload);
+
+  // The course of a round (validation_rounds.cpp).
+  void begin_round(int round);
+  void measure_on();
+  void predict_held_out();
+  void finish_held_out(const std::vector<sysid::Prediction>& predictions);
+  void begin_calibration();
+  void calibrate_on();
+  void finish_calibration();
+  void diagnose();
+  bool adopt(const diagnosis_t& diagnosis);
+  void publish_model();
+  void close_round_when_proposed();
+  wire::RoundSummary summary() const;
+
+  // Short cuts for outputs.
+  template <class Domain>
+  void send(const char* channel, const Domain& value) {
+    outputs_.messages.push_back({channel, wire::write(value)});
+  }
+  void say(runtime::LogLevel level, std::string text) { outputs_.log.push_back({level, std::move(text)}); }
+  void ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
+                const std::vector<measurement::Replicates>& measured);
+  void send_orders(const std::vector<game::Order>& orders);
+
+  game::Scenario scenario_;
+  StartingTables tables_;
+  Phase phase_ = Phase::waiting_for_run;
+  int round_ = 0;
+  runtime::Outputs outputs_;  // of the present step
+
+  game::MeasurementBook book_;
+  OrderDesk desk_;
+  material::ParameterSet model_;
+
+  // Of the present round. The specimens are those that its calibration saw: later ones belong to the next round.
+  std::vector<measurement::SpecimenRecord> specimens_;
+  std::vector<measurement::Replicates> calibration_set_;
+  FarmQuestions questions_;
+  std::optional<Fitting> fitting_;
+  std::vector<measurement::Replicates> held_out_set_;
+  sysid::PredictionErrors before_, after_, held_out_;
+  int simulations_ = 0;
+  bool extended_ = false;  // calibrated again because of an extension adopted in this round
+
+  std::set<std::string> calibrated_designs_;  // ever calibrated on: no longer held out
+  wire::GamutCollector gamut_chunks_;
+  std::map<int, std::vector<explore::Evaluated>> gamuts_;
+  std::map<int, wire::Proposal> proposals_;
+  std::optional<diagnosis_t> diagnosis_;  // of the last round that had one
+  std::vector<game::RoundFigures> history_;
+};
+
+/// Reads the scenario's tables. Throws InputError when one cannot be used.
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
+
+}  // namespace nacre::validation_agent

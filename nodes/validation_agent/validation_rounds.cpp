@@ -1,0 +1,248 @@
+// The course of a round, from its orders to its ROUND.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/random.hpp"
+#include "game/model.hpp"
+#include "game/standings.hpp"
+#include "material/extensions.hpp"
+#include "sysid/objective.hpp"
+#include "validation_agent/validation_core.hpp"
+
+namespace nacre::validation_agent {
+namespace {
+
+using runtime::LogLevel;
+
+std::vector<game::Experiment> experiments_of(const diagnosis_t& diagnosis) {
+  std::vector<game::Experiment> experiments;
+  for (const next_experiment_t& next : diagnosis.next_experiments) {
+    const auto design = pattern::design_from_name(next.design);
+    const auto test = wire::test_kind_from_wire(next.test);
+    const auto conditions = wire::from_wire(next.conditions);
+    if (!design || !test || !conditions) continue;  // validated on arrival
+    experiments.push_back({.design = *design, .test = *test, .conditions = *conditions, .replicates = next.replicates});
+  }
+  return experiments;
+}
+
+}  // namespace
+
+void ValidationCore::begin_round(int round) {
+  round_ = round;
+  before_ = after_ = held_out_ = {};
+  simulations_ = 0;
+  extended_ = false;
+  if (round == 0) {
+    calibration_set_ = tables_.base_materials;
+    begin_calibration();
+    return;
+  }
+  std::vector<pattern::Design> designs;
+  for (const wire::ProposedDesign& proposed : proposals_.at(round - 1).designs) designs.push_back(proposed.design);
+  const auto experiments = diagnosis_ ? experiments_of(*diagnosis_) : std::vector<game::Experiment>{};
+  phase_ = Phase::measuring;
+  send_orders(desk_.open_round(round, std::move(designs), experiments));
+  measure_on();
+}
+
+void ValidationCore::send_orders(const std::vector<game::Order>& orders) {
+  for (const game::Order& order : orders) {
+    send("TEST_ORDER", wire::TestOrder{.round = order.round,
+                                       .order_id = order.id,
+                                       .design = order.design,
+                                       .test = order.test,
+                                       .fidelity = scenario_.fidelity,
+                                       .replicates = order.replicates,
+                                       .conditions = order.conditions,
+                                       .loading = "monotonic",
+                                       .batch = order.batch,
+                                       .reason = std::string(game::to_string(order.reason))});
+  }
+  if (!orders.empty())
+    say(LogLevel::info, fmt::format("round {}: {} orders for the laboratory", round_, orders.size()));
+}
+
+void ValidationCore::measure_on() {
+  const auto [complete, all] = desk_.completed(book_);
+  if (desk_.undecided() > 0 || complete < all) return;
+  specimens_ = book_.specimens();
+  calibration_set_ = game::calibration_set(specimens_);
+  say(LogLevel::info, fmt::format("round {}: measured, {} designs to calibrate on", round_, calibration_set_.size()));
+  predict_held_out();
+}
+
+void ValidationCore::predict_held_out() {
+  std::map<std::string, sysid::Prediction> proposed;
+  for (const wire::ProposedDesign& each : proposals_.at(round_ - 1).designs) {
+    proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
+  }
+  held_out_set_.clear();
+  std::vector<sysid::Prediction> predictions;
+  for (const measurement::Replicates& measured : calibration_set_) {
+    const auto prediction = proposed.find(measured.design.name());
+    if (prediction == proposed.end() || calibrated_designs_.contains(prediction->first)) continue;
+    held_out_set_.push_back(measured);
+    predictions.push_back(prediction->second);
+  }
+  if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(predictions);
+  // What the testing machine makes of a prediction needs its curve, which a proposal does not carry: asked for again,
+  // and answered from the farm's cache.
+  sysid::WantedEvaluation evaluation{.id = "0", .parameters = model_, .modulus = true, .toughness = true, .items = {}};
+  for (std::size_t item = 0; item < held_out_set_.size(); ++item) evaluation.items.push_back(item);
+  phase_ = Phase::predicting;
+  ask_farm("h", {evaluation}, held_out_set_);
+}
+
+void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predictions) {
+  std::vector<sysid::Prediction> shown;
+  for (const sysid::Prediction& prediction : predictions) {
+    shown.push_back(game::has_measurement_side(model_) ? sysid::observed(prediction, model_.extensions) : prediction);
+  }
+  held_out_ = sysid::prediction_errors(held_out_set_, shown);
+  begin_calibration();
+}
+
+void ValidationCore::begin_calibration() {
+  sysid::CalibrationSettings settings;
+  settings.target = round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
+  settings.start = model_;
+  settings.modulus_budget = scenario_.validation.modulus_evaluations;
+  settings.toughness_budget = scenario_.validation.calibration_evaluations;
+  settings.batch = scenario_.validation.calibration_batch;
+  settings.seed = RandomStream(scenario_.seed, fmt::format("calibration of round {}", round_)).bits();
+  fitting_.emplace(calibration_set_, settings);
+  phase_ = Phase::calibrating;
+  calibrate_on();
+}
+
+void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
+                              const std::vector<measurement::Replicates>& measured) {
+  for (const wire::SimulateRequest& request :
+       questions_.ask(fmt::format("r{}/{}", round_, label), wanted, measured, scenario_.fidelity)) {
+    send("SIMULATE", request);
+  }
+}
+
+void ValidationCore::calibrate_on() {
+  if (fitting_->finished()) return finish_calibration();
+  ask_farm(extended_ ? "x" : "c", fitting_->wanted(), fitting_->measured());
+}
+
+void ValidationCore::finish_calibration() {
+  const sysid::Calibrated& result = fitting_->result();
+  if (!extended_) before_ = result.before;
+  after_ = result.after;
+  simulations_ += result.simulations;
+  model_ = result.parameters;
+  fitting_.reset();
+  for (const measurement::Replicates& measured : calibration_set_) calibrated_designs_.insert(measured.design.name());
+  say(LogLevel::info, fmt::format("round {}: calibrated with {} simulations, mean errors E {:.1f} %, T {:.1f} %",
+                                  round_, simulations_, 100.0 * after_.modulus_mean, 100.0 * after_.toughness_mean));
+  const bool something_to_diagnose = round_ > 0 && !calibration_set_.empty();
+  if (scenario_.diagnosis.enabled && something_to_diagnose && !extended_) return diagnose();
+  publish_model();
+}
+
+void ValidationCore::diagnose() {
+  wire::DiagnoseRequest request{.round = round_, .fidelity = scenario_.fidelity, .parameters = model_, .specimens = {}};
+  for (const measurement::SpecimenRecord& specimen : specimens_) {
+    if (specimen.valid) request.specimens.push_back(specimen.specimen);
+  }
+  phase_ = Phase::diagnosing;
+  send("DIAGNOSE", request);
+}
+
+bool ValidationCore::adopt(const diagnosis_t& diagnosis) {
+  const bool established = diagnosis.has_gain && diagnosis.relative_reduction > 0.0 && diagnosis.reduction_low > 0.0;
+  if (diagnosis.verdict != "named" || !established) return false;
+  material::ParameterSet extended = model_;
+  for (const effect_t& effect : diagnosis.effects) {
+    if (material::find_effect(effect.name) == nullptr) {
+      say(LogLevel::warning,
+          fmt::format("the diagnosis names {}, which is not in the library of effects", effect.name));
+      return false;
+    }
+    extended.extensions[effect.name] = {effect.parameter};
+  }
+  if (extended == model_) return false;
+  if (const std::string fault = material::parameter_fault(extended); !fault.empty()) {
+    say(LogLevel::warning, "the diagnosed extension cannot be adopted: " + fault);
+    return false;
+  }
+  model_ = std::move(extended);
+  extended_ = true;
+  say(LogLevel::info,
+      fmt::format("round {}: the model is extended, held-out error falls by {:.0f} % (90 %: {:.0f} to {:.0f})", round_,
+                  100.0 * diagnosis.relative_reduction, 100.0 * diagnosis.reduction_low,
+                  100.0 * diagnosis.reduction_high));
+  return true;
+}
+
+void ValidationCore::publish_model() {
+  wire::AdoptedModel adopted;
+  adopted.round = round_;
+  adopted.fidelity = scenario_.fidelity;
+  adopted.parameters = model_;
+  adopted.before = before_;
+  adopted.after = after_;
+  adopted.simulations = simulations_;
+  adopted.benchmark = game::benchmark_line(specimens_);
+  if (adopted.benchmark.empty()) adopted.benchmark = tables_.benchmark;
+  std::set<pattern::Pattern> settled = desk_.settled_patterns();
+  for (const auto& [pattern, values] : game::measured_values(specimens_)) settled.insert(pattern);
+  adopted.measured.assign(settled.begin(), settled.end());
+  phase_ = Phase::waiting_for_proposal;
+  send("PARAMETERS", adopted);
+}
+
+void ValidationCore::close_round_when_proposed() {
+  if (phase_ != Phase::waiting_for_proposal || !gamuts_.contains(round_) || !proposals_.contains(round_)) return;
+  wire::RoundSummary round = summary();
+  history_.push_back({.round = round_,
+                      .measured_hypervolume = round.measured_hypervolume_staircase,
+                      .hypervolume_error = round.hypervolume_error,
+                      .signed_gap = round.signed_gap});
+  const game::Verdict verdict = game::judge_equilibrium(history_);
+  round.equilibrium = verdict.equilibrium;
+  round.last = round_ >= scenario_.rounds || (verdict.equilibrium && scenario_.stop_at_equilibrium);
+  round.decided_by = verdict.decided_by;
+  if (round.last && !verdict.equilibrium)
+    round.decided_by += fmt::format("; the limit of {} rounds is reached", scenario_.rounds);
+  gamuts_.clear();
+  send("ROUND", round);
+  say(LogLevel::info, fmt::format("round {} is closed: gap {:.4g}, measured hypervolume {:.4g} GPa MPa; {}", round_,
+                                  round.gap, round.measured_hypervolume_staircase, round.decided_by));
+  if (round.last) {
+    phase_ = Phase::finished;
+  } else {
+    begin_round(round_ + 1);
+  }
+}
+
+wire::RoundSummary ValidationCore::summary() const {
+  const auto values = game::measured_values(specimens_);
+  const auto measured = game::measured_performances(values);
+  std::vector<optimize::Performance> gamut;
+  for (const explore::Evaluated& sample : gamuts_.at(round_)) gamut.push_back(sample.performance);
+  wire::RoundSummary round;
+  round.round = round_;
+  round.fidelity = scenario_.fidelity;
+  round.calibration_count = static_cast<int>(calibration_set_.size());
+  round.measured_hypervolume_staircase = optimize::hypervolume_staircase_gpa_mpa(measured);
+  round.measured_hypervolume_polygon = optimize::hypervolume_polygon_gpa_mpa(measured);
+  round.gamut_hypervolume_staircase = optimize::hypervolume_staircase_gpa_mpa(gamut);
+  round.gamut_hypervolume_polygon = optimize::hypervolume_polygon_gpa_mpa(gamut);
+  round.gap = optimize::front_gap_gpa_mpa(gamut, measured);
+  round.signed_gap = round.gamut_hypervolume_staircase - round.measured_hypervolume_staircase;
+  round.hypervolume_error = game::hypervolume_error(values, scenario_.seed);
+  round.before = before_;
+  round.after = after_;
+  round.held_out = held_out_;
+  return round;
+}
+
+}  // namespace nacre::validation_agent
