@@ -1,0 +1,115 @@
+// nacre echo: messages as they pass, or as they stand in a log, one JSON line each.
+
+#include <limits>
+#include <string>
+
+#include "base/result.hpp"
+#include "command.hpp"
+#include "output.hpp"
+#include "run_access.hpp"
+#include "runtime/interrupts.hpp"
+#include "runtime/journal.hpp"
+#include "wire/channels.hpp"
+#include "wire/header.hpp"
+#include "wire/schema.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string channel;
+  std::string run = "logs/latest";
+  std::string log;
+  std::int64_t count = std::numeric_limits<std::int64_t>::max();
+};
+
+/// A message as JSON; why it cannot be read where it cannot.
+nlohmann::ordered_json to_json(std::string_view channel, std::string_view payload) {
+  const wire::Channel* known = wire::find_channel(channel);
+  if (known == nullptr) return {{"error", fmt::format("unknown channel, {} bytes", payload.size())}};
+  auto message = wire::to_json(known->type, payload);
+  if (!message) return {{"error", message.error().message}};
+  message->erase("header");
+  return *message;
+}
+
+void print_line(const nlohmann::ordered_json& line) {
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  check_standard_output();  // at once: whoever reads us wants it now
+}
+
+nlohmann::ordered_json head(std::string_view channel, const wire::Header& header) {
+  return {{"channel", channel},    {"utime", header.utime}, {"node", header.node},
+          {"epoch", header.epoch}, {"seq", header.seq},     {"run_id", header.run_id}};
+}
+
+/// A record of a bus log or of a node's journal; nothing for what a journal keeps for itself.
+std::optional<nlohmann::ordered_json> record_to_json(const runtime::LogRecord& record, const std::string& wanted) {
+  const bool is_output = record.channel.rfind(runtime::kOutPrefix, 0) == 0;
+  const std::string channel = is_output ? record.channel.substr(runtime::kOutPrefix.size()) : record.channel;
+  if ((!wanted.empty() && channel != wanted) || channel.rfind('~', 0) == 0) return std::nullopt;
+  if (is_output) {
+    return nlohmann::ordered_json{{"channel", channel},
+                                  {"utime", record.utime},
+                                  {"direction", "out"},
+                                  {"message", to_json(channel, record.data)}};
+  }
+  const auto blanked = wire::blank_header(channel, record.data);
+  if (!blanked)
+    return nlohmann::ordered_json{{"channel", channel}, {"utime", record.utime}, {"error", blanked.error().message}};
+  nlohmann::ordered_json line = head(channel, blanked->header);
+  line["message"] = to_json(channel, blanked->payload);
+  return line;
+}
+
+int echo_log(const Options& options) {
+  runtime::LogReader reader(options.log);
+  for (std::int64_t printed = 0; printed < options.count;) {
+    const auto record = reader.next();
+    if (!record) break;
+    const auto line = record_to_json(*record, options.channel);
+    if (!line) continue;
+    print_line(*line);
+    ++printed;
+  }
+  return 0;
+}
+
+int echo_bus(const Options& options) {
+  const auto bus = listen(open_run(options.run), options.channel.empty() ? std::vector<std::string>{}
+                                                                         : std::vector<std::string>{options.channel});
+  const runtime::Interrupts interrupts;
+  std::int64_t printed = 0;
+  while (!interrupts.any() && printed < options.count) {
+    bus->receive(100, [&](const runtime::Received& received) {
+      if (printed++ >= options.count) return;
+      nlohmann::ordered_json line = head(received.message.channel, received.header);
+      line["message"] = to_json(received.message.channel, received.message.payload);
+      print_line(line);
+    });
+  }
+  return 0;
+}
+
+int echo(const Options& options) {
+  if (!options.channel.empty() && wire::find_channel(options.channel) == nullptr) {
+    std::string names;
+    for (const wire::Channel& channel : wire::channels())
+      names += (names.empty() ? "" : ", ") + std::string(channel.name);
+    throw InputError::format("{}: no such channel: expected one of {}", options.channel, names);
+  }
+  return options.log.empty() ? echo_bus(options) : echo_log(options);
+}
+
+}  // namespace
+
+void add_echo(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "echo", "Print messages, one JSON line each", options, echo);
+  command.add_option("CHANNEL", options->channel, "Only this channel (lcmtypes/README.md)");
+  add_run_option(command, options->run);
+  command.add_option("--log", options->log, "Read a log (RUN/run.lcm or a node's journal.lcm) instead of the bus");
+  command.add_option("--count", options->count, "Stop after so many messages")->check(CLI::PositiveNumber);
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,154 @@
+// nacre inject: measurements from anywhere into a running game.
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "command.hpp"
+#include "measurement/measurement.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "run_access.hpp"
+#include "runtime/interrupts.hpp"
+#include "wire/convert.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string set;
+  std::string run = "logs/latest";
+  double timeout_s = 60.0;
+  bool json = false;
+};
+
+/// Every n-th point of a curve that is too long for one message, both ends kept.
+tester::Curve thinned(const tester::Curve& curve, std::size_t most) {
+  if (curve.size() <= most) return curve;
+  tester::Curve thin;
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t k = i * (curve.size() - 1) / (most - 1);
+    thin.strain.push_back(curve.strain[k]);
+    thin.stress_pa.push_back(curve.stress_pa[k]);
+  }
+  return thin;
+}
+
+runtime::Message message_of(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
+  wire::Measurement measurement;
+  measurement.fidelity = fidelity;
+  measurement.record = specimen;
+  if (specimen.curve.size() > wire::kMaximumCurvePoints) {
+    // The area under the curve as recorded, not as thinned.
+    if (specimen.test == tester::TestKind::toughness)
+      measurement.record.toughness_pa = measurement::toughness_of(specimen);
+    measurement.record.curve = thinned(specimen.curve, wire::kMaximumCurvePoints);
+  }
+  return {"MEASUREMENT", wire::write(measurement)};
+}
+
+/// What became of the specimens of a set.
+struct Delivery {
+  int accepted = 0;  ///< new to the validation agent
+  int repeated = 0;  ///< it had them already
+  int unanswered = 0;
+  std::vector<measurement::RejectedRow> rejected;
+};
+
+std::set<std::string> hashes_known(const RunAccess& run) {
+  std::set<std::string> hashes;
+  for (const std::string& payload : received_by_validation_agent(run, "MEASUREMENT")) {
+    hashes.insert(wire::message_hash("MEASUREMENT", payload));
+  }
+  return hashes;
+}
+
+/// Repeats the offered messages until the validation agent has them all; the analyser gets a few seconds more.
+void wait_for_validation_agent(runtime::Endpoint& endpoint, const std::vector<std::string>& hashes, double timeout_s) {
+  constexpr auto kGrace = std::chrono::seconds(5);
+  const runtime::Interrupts interrupts;
+  const auto deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
+  auto end = deadline;
+  bool agent_has_all = false;
+  Progress progress("inject: specimens", static_cast<std::int64_t>(hashes.size()));
+  while (endpoint.unacknowledged() > 0 && Clock::now() < end && !interrupts.any()) {
+    endpoint.pump(50);
+    const auto arrived = std::count_if(hashes.begin(), hashes.end(), [&](const std::string& hash) {
+      return endpoint.waiting_for(hash).count("validation_agent") == 0;
+    });
+    progress.set(arrived, static_cast<std::int64_t>(hashes.size()));
+    if (agent_has_all || arrived < static_cast<std::int64_t>(hashes.size())) continue;
+    agent_has_all = true;
+    end = std::min(deadline, Clock::now() + kGrace);
+  }
+}
+
+void print_delivery(const Delivery& delivery, bool json) {
+  if (!json) {
+    fmt::print("{} accepted, {} repeated, {} unanswered, {} rejected\n", delivery.accepted, delivery.repeated,
+               delivery.unanswered, delivery.rejected.size());
+    return;
+  }
+  nlohmann::ordered_json rejected = nlohmann::ordered_json::array();
+  for (const auto& row : delivery.rejected) {
+    rejected.push_back({{"line", row.line}, {"column", row.column}, {"reason", row.reason}});
+  }
+  print_json({{"accepted", delivery.accepted},
+              {"repeated", delivery.repeated},
+              {"unanswered", delivery.unanswered},
+              {"rejected", rejected}});
+}
+
+int inject(const Options& options) {
+  const RunAccess run = open_run(options.run);
+  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  for (const std::string& warning : set.warnings) warn(warning);
+  for (const auto& row : set.rejected) {
+    warn(fmt::format("{}: line {}, {}: {}", options.set, row.line, row.column, row.reason));
+  }
+  const std::set<std::string> known = hashes_known(run);
+  const auto endpoint = speak(run, "inject");
+  std::vector<std::string> hashes;
+  for (const measurement::SpecimenRecord& specimen : set.specimens) {
+    const auto hash = endpoint->offer(message_of(specimen, run.scenario.fidelity));
+    if (!hash) throw InputError::format("{}: specimen {}: {}", options.set, specimen.specimen, hash.error().message);
+    hashes.push_back(*hash);
+  }
+  wait_for_validation_agent(*endpoint, hashes, options.timeout_s);
+  Delivery delivery;
+  delivery.rejected = set.rejected;
+  for (const std::string& hash : hashes) {
+    const bool is_answered = endpoint->waiting_for(hash).count("validation_agent") == 0;
+    ++(!is_answered ? delivery.unanswered : known.count(hash) > 0 ? delivery.repeated : delivery.accepted);
+  }
+  print_delivery(delivery, options.json);
+  if (delivery.unanswered > 0) {
+    remark(
+        fmt::format("the validation agent did not answer within {} s: does the run play? (nacre status) Repeating the "
+                    "same set is safe.",
+                    options.timeout_s));
+  }
+  return delivery.unanswered > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_inject(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "inject", "Bring measurements into a running game", options, inject);
+  command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
+  add_run_option(command, options->run);
+  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,73 @@
+// nacre launch: plays a game. nacre record: its recorder.
+
+#include <string>
+
+#include "base/result.hpp"
+#include "command.hpp"
+#include "output.hpp"
+#include "runtime/interrupts.hpp"
+#include "runtime/launcher.hpp"
+#include "runtime/recorder.hpp"
+
+namespace nacre::cli {
+namespace {
+
+int play(const runtime::LaunchOptions& options) {
+  if (options.scenario.empty() == options.resume.empty()) {
+    throw InputError("nacre launch: expected either a SCENARIO.toml or --resume RUN");
+  }
+  if (!options.resume.empty() && options.seed) {
+    throw InputError("nacre launch: --seed belongs to a new run; a resumed one keeps its seed");
+  }
+  return runtime::launch(options);
+}
+
+struct RecordOptions {
+  std::string log;
+  int port = 0;
+  std::string hosts = "local";
+};
+
+/// The first line on standard output tells the launcher that nothing published from now on is missed.
+int record(const RecordOptions& options) {
+  const runtime::Interrupts interrupts;
+  runtime::RecorderOptions settings;
+  settings.log = options.log;
+  settings.url = runtime::bus_url(options.port, options.hosts == "lan");
+  settings.report = [](runtime::LogLevel, const std::string& text) { warn(text); };
+  runtime::Recorder recorder(settings);
+  fmt::print("recording into {}\n", options.log);
+  check_standard_output();
+  constexpr int kTurnMs = 100;
+  while (!interrupts.any()) {
+    if (const auto pumped = recorder.pump(kTurnMs); !pumped) throw InputError(pumped.error().message);
+  }
+  const runtime::RecorderCounters counters = recorder.counters();
+  fmt::print("recorded {} messages, {} bytes, {} lost\n", counters.messages, counters.bytes, counters.lost);
+  return 0;
+}
+
+}  // namespace
+
+void add_launch(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<runtime::LaunchOptions>();
+  CLI::App& command = add_command(app, action, "launch", "Play a game", options, play);
+  command.add_option("SCENARIO", options->scenario, "Scenario file (launch/README.md)");
+  command.add_option("--resume", options->resume, "Folder of a run to go on with");
+  command.add_option("--run", options->run_name, "Name of the run's folder; default: date-time-scenario");
+  command.add_option("--logs", options->logs, "Where runs are kept")->capture_default_str();
+  command.add_option("--port", options->port, "UDP port of the run instead of the scenario's; 0: any free one")
+      ->check(CLI::Range(0, 65535));
+  command.add_option("--seed", options->seed, "Seed instead of the scenario's");
+}
+
+void add_record(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RecordOptions>();
+  CLI::App& command =
+      add_command(app, action, "record", "Record everything on a bus (started by launch)", options, record);
+  command.add_option("--log", options->log, "LCM log, appended to")->required();
+  command.add_option("--port", options->port, "UDP port of the run")->required()->check(CLI::Range(1, 65535));
+  command.add_option("--hosts", options->hosts, "local or lan")->check(CLI::IsMember({"local", "lan"}));
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,78 @@
+#include "run_access.hpp"
+
+#include <unistd.h>
+
+#include "base/result.hpp"
+#include "output.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::cli {
+namespace {
+
+runtime::BusOptions bus_options(const RunAccess& run, const std::string& name) {
+  runtime::BusOptions options;
+  options.url = runtime::bus_url(run.manifest.port, run.manifest.lan);
+  options.node = name;
+  options.run_id = run.manifest.run_id;
+  options.faults = runtime::faults_from_environment();
+  options.report = [](runtime::LogLevel level, const std::string& text) {
+    if (level >= runtime::LogLevel::warning) warn(text);
+  };
+  return options;
+}
+
+}  // namespace
+
+void add_run_option(CLI::App& command, std::string& run) {
+  command.add_option("--run", run, "Folder of the run")->capture_default_str();
+}
+
+RunAccess open_run(const std::string& folder) {
+  RunAccess run;
+  run.manifest = runtime::read_manifest(folder);
+  std::error_code error;
+  run.folder = std::filesystem::canonical(folder, error);
+  if (error) throw InputError::format("{}: no such run: {}", folder, error.message());
+  run.scenario = game::read_scenario(run.folder / "scenario.toml");
+  return run;
+}
+
+std::unique_ptr<runtime::Bus> listen(const RunAccess& run, const std::vector<std::string>& channels) {
+  auto bus = runtime::Bus::open(bus_options(run, "listener"));
+  if (!bus) throw InputError(bus.error().message);
+  if (const auto subscribed = (*bus)->subscribe(channels); !subscribed) throw InputError(subscribed.error().message);
+  return std::move(*bus);
+}
+
+std::unique_ptr<runtime::Endpoint> speak(const RunAccess& run, const std::string& name) {
+  // The process' number keeps two people at work apart: sequence numbers count per node and epoch.
+  auto endpoint =
+      runtime::Endpoint::open(bus_options(run, fmt::format("{}_{}", name, ::getpid())), run.scenario.nodes());
+  if (!endpoint) throw InputError(endpoint.error().message);
+  return std::move(*endpoint);
+}
+
+int deliver(const RunAccess& run, const std::string& name, const runtime::Message& message, double timeout_s) {
+  const auto endpoint = speak(run, name);
+  const auto hash = endpoint->offer(message);
+  if (!hash) throw InputError(hash.error().message);
+  endpoint->deliver(timeout_s);
+  if (endpoint->waiting_for(*hash).count("validation_agent") == 0) return 0;
+  remark(fmt::format("the validation agent did not answer within {} s: does the run play? (nacre status)", timeout_s));
+  return 1;
+}
+
+std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel) {
+  const auto journal = run.folder / "nodes" / "validation_agent" / "journal.lcm";
+  std::vector<std::string> payloads;
+  if (!std::filesystem::exists(journal)) return payloads;
+  runtime::LogReader reader(journal);
+  while (const auto record = reader.next()) {
+    if (record->channel != channel) continue;
+    if (auto blanked = wire::blank_header(record->channel, record->data))
+      payloads.push_back(std::move(blanked->payload));
+  }
+  return payloads;
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,45 @@
+#pragma once
+// How subcommands reach a run: its folder, its bus, its validation agent's journal.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "game/scenario.hpp"
+#include "runtime/endpoint.hpp"
+#include "runtime/journal.hpp"
+#include "runtime/run_folder.hpp"
+
+namespace nacre::cli {
+
+/// A run as found on disk.
+struct RunAccess {
+  std::filesystem::path folder;
+  runtime::Manifest manifest;
+  game::Scenario scenario;
+};
+
+/// Adds `--run DIR`, default logs/latest.
+void add_run_option(CLI::App& command, std::string& run);
+
+/// Throws InputError when the folder is not a run's.
+RunAccess open_run(const std::string& folder);
+
+/// A bus that only listens, to these channels or to all. Throws InputError.
+std::unique_ptr<runtime::Bus> listen(const RunAccess& run, const std::vector<std::string>& channels);
+
+/// An end point that sends until acknowledged. Throws InputError.
+std::unique_ptr<runtime::Endpoint> speak(const RunAccess& run, const std::string& name);
+
+/// Sends one message and waits for the validation agent. Exit status: 0 it has the message, 1 it did not answer in
+/// time.
+int deliver(const RunAccess& run, const std::string& name, const runtime::Message& message, double timeout_s);
+
+/// What the validation agent has received on `channel` so far, oldest first, as payloads with blank header; empty
+/// before its first message and on machines that do not hold the run's folder.
+std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel);
+
+}  // namespace nacre::cli

@@ -1,0 +1,109 @@
+// nacre status: what the nodes of a run say of themselves.
+
+#include <unistd.h>
+
+#include <chrono>
+#include <map>
+#include <string>
+
+#include "base/result.hpp"
+#include "command.hpp"
+#include "nacre/node_status_t.hpp"
+#include "output.hpp"
+#include "run_access.hpp"
+#include "runtime/live_display.hpp"
+#include "runtime/terminal.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string run = "logs/latest";
+  double seconds = 1.5;
+  bool json = false;
+};
+
+using Statuses = std::map<std::string, node_status_t>;
+
+/// The newest STATUS of every node that speaks within `seconds`.
+Statuses collect(const RunAccess& run, double seconds) {
+  const auto bus = listen(run, {"STATUS"});
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  Statuses statuses;
+  while (std::chrono::steady_clock::now() < end) {
+    bus->receive(50, [&](const runtime::Received& received) {
+      auto status = wire::decode_safe<node_status_t>(received.message.payload);
+      if (status) statuses[received.header.node] = *status;
+    });
+  }
+  return statuses;
+}
+
+nlohmann::ordered_json to_json(const std::string& node, const node_status_t& s) {
+  return {{"node", node},
+          {"ready", bool(s.ready)},
+          {"finished", bool(s.finished)},
+          {"phase", s.phase},
+          {"round", s.round},
+          {"progress", s.progress},
+          {"eta_s", s.eta_s},
+          {"received", s.received},
+          {"published", s.published},
+          {"retries", s.retries},
+          {"duplicates", s.duplicates},
+          {"rejected", s.rejected},
+          {"lost", s.lost},
+          {"unacknowledged", s.unacknowledged},
+          {"computing", s.computing},
+          {"last_problem", s.last_problem}};
+}
+
+void print_table(const RunAccess& run, const Statuses& statuses) {
+  const int columns = runtime::terminal_columns(STDOUT_FILENO);
+  fmt::print("run {} on UDP port {}\n", run.manifest.run_id, run.manifest.port);
+  for (const auto& [node, s] : statuses) {
+    const runtime::NodeView view{.node = node,
+                                 .state = s.finished ? "finished"
+                                          : s.ready  ? "running"
+                                                     : "starting",
+                                 .phase = s.phase,
+                                 .round = s.round,
+                                 .progress = s.progress,
+                                 .eta_s = s.eta_s,
+                                 .restarts = 0,
+                                 .problem = s.last_problem};
+    fmt::print("{}\n", runtime::node_line(view, columns > 0 ? columns : 200));
+    fmt::print("{:18}received {}, published {}, sent again {}, repeated {}, rejected {}, lost {}, waiting for ACK {}\n",
+               "", s.received, s.published, s.retries, s.duplicates, s.rejected, s.lost, s.unacknowledged);
+  }
+}
+
+int show_status(const Options& options) {
+  const RunAccess run = open_run(options.run);
+  const Statuses statuses = collect(run, options.seconds);
+  if (options.json) {
+    nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
+    for (const auto& [node, status] : statuses) nodes.push_back(to_json(node, status));
+    print_json({{"run", run.manifest.run_id}, {"port", run.manifest.port}, {"nodes", nodes}});
+  } else {
+    print_table(run, statuses);
+  }
+  if (statuses.empty())
+    remark(fmt::format("no node of {} spoke within {} s: the run does not play", options.run, options.seconds));
+  return statuses.empty() ? 1 : 0;
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "status", "What the nodes of a run are doing", options, show_status);
+  add_run_option(command, options->run);
+  command.add_option("--seconds", options->seconds, "How long to listen")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli
