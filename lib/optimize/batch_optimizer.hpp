@@ -18,8 +18,8 @@ struct Evaluation {
 
 struct BatchOptimizerSettings {
   int dimension = 0;
-  int budget = 0;         ///< evaluations in all, the start included
-  int batch = 3;          ///< points asked for at once
+  int budget = 0;  ///< evaluations in all, the start included
+  int batch = 3;   ///< points asked for at once
   std::uint64_t seed = 1;
   std::vector<Point> starts;  ///< points to begin with, best guess first (may be empty)
 };
@@ -36,9 +36,12 @@ class BatchOptimizer {
   virtual std::optional<Evaluation> best() const = 0;
 };
 
-/// NLopt algorithms run in lockstep, each contributing its next point to the batch: local searches (BOBYQA, COBYLA, Nelder-Mead)
-/// from the starts and a global one. NLopt calls back instead of being asked; each ask() therefore runs the algorithm anew on the
-/// values recorded so far until it wants an unknown point.
+/// Local searches of NLopt (BOBYQA and Nelder-Mead in turn): first the starts, then a search from the best of them; one
+/// that ends or finds nothing new gives way to the next, from the best point so far with half the step. NLopt calls
+/// back instead of being asked, so each ask() runs the search anew on the values recorded so far until it wants an
+/// unknown point; the rest of the batch is what it would want next if that point were as good as its nearest neighbour.
+/// The whole budget is used and no point is asked for twice. Failed evaluations count, and are worse than all others to
+/// the search. Throws InputError for settings out of range.
 std::unique_ptr<BatchOptimizer> make_nlopt_optimizer(const BatchOptimizerSettings& settings);
 
 }  // namespace nacre::optimize

@@ -25,8 +25,9 @@ std::vector<double> crowding_distances(std::span<const Performance> points, std:
 /// The Pareto front, by increasing modulus; equal points once.
 std::vector<Performance> pareto_front(std::span<const Performance> points);
 
-/// Area dominated by the front with respect to (0, 0), in GPa MPa: staircase = exact hypervolume; polygon = area under the
-/// piecewise-linear front, closed by a horizontal line to the toughness axis and a vertical one to the modulus axis.
+/// Area dominated by the front with respect to (0, 0), in GPa MPa: staircase = exact hypervolume; polygon = area under
+/// the piecewise-linear front, closed by a horizontal line to the toughness axis and a vertical one to the modulus
+/// axis.
 double hypervolume_staircase_gpa_mpa(std::span<const Performance> points);
 double hypervolume_polygon_gpa_mpa(std::span<const Performance> points);
 
