@@ -10,7 +10,7 @@
 namespace nacre::fem {
 namespace {
 
-constexpr double kTolerance = 1e-11;
+constexpr double kTolerance = 1e-10;
 /// Where a soft layer carries stiff ones, the rounding of displacements alone leaves a residual above kTolerance: below
 /// this level the solution is also accepted when another correction no longer halves it.
 constexpr double kRoundingLevel = 1e-8;
