@@ -45,7 +45,8 @@ std::vector<std::vector<double>> sensitivities(const material::ModulusParameters
   return columns;
 }
 
-Refit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start, const LogModuli& predict) {
+Refit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start,
+                   const LogModuli& predict) {
   Refit refit{.parameters = start, .residual = difference(target_log_e, predict(start)), .free_parameters = kConstants};
   const auto rows = static_cast<Eigen::Index>(target_log_e.size());
   for (int iteration = 0; iteration < kIterations; ++iteration) {

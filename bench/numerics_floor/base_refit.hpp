@@ -17,9 +17,10 @@ struct Refit {
   int free_parameters = 0;       ///< that the designs determine
 };
 
-/// Gauss-Newton on log E over the six constants that a static tester feels (E in log, nu as it is, held inside [0.01, 0.499]), from
-/// `start`; steps that do not lower the sum of squares are halved.
-Refit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start, const LogModuli& predict);
+/// Gauss-Newton on log E over the six constants that a static tester feels (E in log, nu as it is, held inside [0.01,
+/// 0.499]), from `start`; steps that do not lower the sum of squares are halved.
+Refit refit_moduli(const std::vector<double>& target_log_e, const material::ModulusParameters& start,
+                   const LogModuli& predict);
 
 /// Derivatives of log E by the six constants at `parameters`, one column each (rows: designs).
 std::vector<std::vector<double>> sensitivities(const material::ModulusParameters& parameters, const LogModuli& predict,

@@ -1,5 +1,5 @@
-// What the virtual laboratory's numerics leave against the testers at the same truth, without scatter and without effects: the floor
-// of every error budget. Results: data/numerics_floor.toml, docs/studies/numerics-floor.md.
+// What the virtual laboratory's numerics leave against the testers at the same truth, without scatter and without
+// effects: the floor of every error budget. Results: data/numerics_floor.toml, docs/studies/numerics-floor.md.
 
 #include <chrono>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "base/files.hpp"
 #include "base/parallel.hpp"
@@ -40,11 +40,17 @@ using Values = std::vector<std::optional<double>>;
 template <class Ask>
 Values ask_all(const std::vector<pattern::Pattern>& patterns, int threads, const Ask& ask) {
   Values values(patterns.size());
-  parallel_for(static_cast<int>(patterns.size()), [&](int i) {
-    const Result<double> value = ask(patterns[static_cast<std::size_t>(i)]);
-    if (value) values[static_cast<std::size_t>(i)] = *value;
-    else std::fprintf(stderr, "%s: %s\n", patterns[static_cast<std::size_t>(i)].key().c_str(), value.error().message.c_str());
-  }, threads);
+  parallel_for(
+      static_cast<int>(patterns.size()),
+      [&](int i) {
+        const Result<double> value = ask(patterns[static_cast<std::size_t>(i)]);
+        if (value)
+          values[static_cast<std::size_t>(i)] = *value;
+        else
+          std::fprintf(stderr, "%s: %s\n", patterns[static_cast<std::size_t>(i)].key().c_str(),
+                       value.error().message.c_str());
+      },
+      threads);
   return values;
 }
 
@@ -68,17 +74,20 @@ std::vector<double> minus(const std::vector<double>& a, const std::vector<double
 Values laboratory_values(const Truth& truth, const std::vector<pattern::Pattern>& patterns, tester::TestKind test,
                          tester::Fidelity fidelity, int threads) {
   return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
-    const auto response = virtual_laboratory::respond(truth, {.design = pattern, .test = test, .conditions = {}, .fidelity = fidelity});
+    const auto response =
+        virtual_laboratory::respond(truth, {.design = pattern, .test = test, .conditions = {}, .fidelity = fidelity});
     if (!response) return tl::unexpected(response.error());
     return test == tester::TestKind::modulus ? response->modulus_pa : tester::area_under(response->curve);
   });
 }
 
-Values tester_moduli(const material::ModulusParameters& theta, const std::vector<pattern::Pattern>& patterns, int threads) {
+Values tester_moduli(const material::ModulusParameters& theta, const std::vector<pattern::Pattern>& patterns,
+                     int threads) {
   material::ParameterSet parameters = material::default_parameters();
   parameters.modulus = theta;
   return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
-    const auto result = tester::test_modulus({.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = tester::Fidelity::full});
+    const auto result = tester::test_modulus(
+        {.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = tester::Fidelity::full});
     if (!result) return tl::unexpected(result.error());
     return result->modulus_pa;
   });
@@ -89,15 +98,18 @@ Values tester_toughnesses(const material::ToughnessParameters& eta, const std::v
   material::ParameterSet parameters = material::default_parameters();
   parameters.toughness = eta;
   return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
-    const auto result = tester::test_toughness({.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = fidelity});
+    const auto result =
+        tester::test_toughness({.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = fidelity});
     if (!result) return tl::unexpected(result.error());
     return result->toughness_pa;
   });
 }
 
 /// The [modulus] table: full fidelity, at the truth, after a common factor, after a refit of the six constants.
-std::string study_moduli(const Truth& truth, const std::vector<pattern::Pattern>& patterns, int threads, std::string& table) {
-  const Values laboratory = laboratory_values(truth, patterns, tester::TestKind::modulus, tester::Fidelity::full, threads);
+std::string study_moduli(const Truth& truth, const std::vector<pattern::Pattern>& patterns, int threads,
+                         std::string& table) {
+  const Values laboratory =
+      laboratory_values(truth, patterns, tester::TestKind::modulus, tester::Fidelity::full, threads);
   const Values testers = tester_moduli(truth.modulus, patterns, threads);
   const auto [target, at_truth] = paired_logs(laboratory, testers);
   if (target.size() != patterns.size()) throw InputError("a modulus simulation failed, see above");
@@ -108,13 +120,14 @@ std::string study_moduli(const Truth& truth, const std::vector<pattern::Pattern>
     return logs;
   });
   for (std::size_t i = 0; i < patterns.size(); ++i) {
-    table += fmt::format("modulus,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", patterns[i].key(), patterns[i].rigid_fraction(), *laboratory[i],
-                         *testers[i], refit.residual[i]);
+    table += fmt::format("modulus,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", patterns[i].key(), patterns[i].rigid_fraction(),
+                         *laboratory[i], *testers[i], refit.residual[i]);
   }
-  return fmt::format("\n[modulus]\nfidelity = \"full\"\nlayouts = {}\nlog_mean_shift = {:.4f}\nlog_sd_rescaled = {:.5f}\n"
-                     "log_sd_refitted = {:.5f}  # {} constants refitted\n",
-                     patterns.size(), mean(raw), standard_deviation(raw),
-                     root_mean_square(refit.residual, refit.free_parameters), refit.free_parameters);
+  return fmt::format(
+      "\n[modulus]\nfidelity = \"full\"\nlayouts = {}\nlog_mean_shift = {:.4f}\nlog_sd_rescaled = {:.5f}\n"
+      "log_sd_refitted = {:.5f}  # {} constants refitted\n",
+      patterns.size(), mean(raw), standard_deviation(raw), root_mean_square(refit.residual, refit.free_parameters),
+      refit.free_parameters);
 }
 
 /// The [toughness] table: at the truth and after a common factor.
@@ -130,9 +143,10 @@ std::string study_toughness(const Truth& truth, const std::vector<pattern::Patte
     table += fmt::format("toughness,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", patterns[i].key(), patterns[i].rigid_fraction(),
                          *laboratory[i], *testers[i], std::log(*laboratory[i] / *testers[i]) - mean(raw));
   }
-  return fmt::format("\n[toughness]\nfidelity = \"{}\"\nlayouts = {}\nlog_mean_shift = {:.4f}\nlog_sd_rescaled = {:.5f}\n"
-                     "spearman = {:.3f}\n",
-                     options.fidelity, raw.size(), mean(raw), standard_deviation(raw), spearman(target, at_truth));
+  return fmt::format(
+      "\n[toughness]\nfidelity = \"{}\"\nlayouts = {}\nlog_mean_shift = {:.4f}\nlog_sd_rescaled = {:.5f}\n"
+      "spearman = {:.3f}\n",
+      options.fidelity, raw.size(), mean(raw), standard_deviation(raw), spearman(target, at_truth));
 }
 
 void run(const Options& options) {
@@ -142,13 +156,15 @@ void run(const Options& options) {
   RandomStream random(options.seed, "numerics floor");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(options.layouts, random);
   std::string table = "test,pattern,rigid_fraction,laboratory_pa,tester_pa,log_residual\n";
-  std::string text = fmt::format("# What remains between virtual laboratory and testers at the same truth, no scatter, no effects.\n"
-                                 "command = \"numerics_floor --layouts {} --toughness-layouts {} --fidelity {} --seed {}\"\nseed = {}\n",
-                                 options.layouts, options.toughness_layouts, options.fidelity, options.seed, options.seed);
+  std::string text = fmt::format(
+      "# What remains between virtual laboratory and testers at the same truth, no scatter, no effects.\n"
+      "command = \"numerics_floor --layouts {} --toughness-layouts {} --fidelity {} --seed {}\"\nseed = {}\n",
+      options.layouts, options.toughness_layouts, options.fidelity, options.seed, options.seed);
   text += study_moduli(truth, patterns, options.threads, table);
   if (options.toughness_layouts > 0) {
     const auto count = std::min<std::size_t>(patterns.size(), static_cast<std::size_t>(options.toughness_layouts));
-    text += study_toughness(truth, {patterns.begin(), patterns.begin() + static_cast<std::ptrdiff_t>(count)}, options, table);
+    text += study_toughness(truth, {patterns.begin(), patterns.begin() + static_cast<std::ptrdiff_t>(count)}, options,
+                            table);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{}\n# {:.0f} s\n", text, seconds);
@@ -162,8 +178,10 @@ int main(int argc, char** argv) {
   CLI::App app{"Numerics floor: the virtual laboratory against the testers at the same truth"};
   Options options;
   app.add_option("--layouts", options.layouts, "Random layouts, stratified 50-85 %")->check(CLI::Range(10, 1000));
-  app.add_option("--toughness-layouts", options.toughness_layouts, "How many of them are also torn; 0: none")->check(CLI::Range(0, 1000));
-  app.add_option("--fidelity", options.fidelity, "Of the toughness specimens")->check(CLI::IsMember({"tiny", "preview", "full"}));
+  app.add_option("--toughness-layouts", options.toughness_layouts, "How many of them are also torn; 0: none")
+      ->check(CLI::Range(0, 1000));
+  app.add_option("--fidelity", options.fidelity, "Of the toughness specimens")
+      ->check(CLI::IsMember({"tiny", "preview", "full"}));
   app.add_option("--seed", options.seed, "Of truth and layouts");
   app.add_option("--threads", options.threads, "0: all allowed cores")->check(CLI::Range(0, 1024));
   app.add_option("--out", options.output, "TOML file to write");

@@ -1,4 +1,5 @@
-// How a laboratory's truth is drawn. Every constant has a random stream of its own, so that adding one changes no other.
+// How a laboratory's truth is drawn. Every constant has a random stream of its own, so that adding one changes no
+// other.
 
 #include <array>
 #include <cmath>
@@ -11,23 +12,52 @@ namespace nacre::virtual_laboratory {
 namespace {
 
 constexpr std::array kEffectKinds = {
-    EffectKind{.name = "machine_compliance", .unit = "1/Pa", .meaning = "a spring in series: strain recorded per stress",
-               .minimum = 0.0, .maximum = 1e-8, .drawn_minimum = 5e-11, .drawn_maximum = 3e-10,
+    EffectKind{.name = "machine_compliance",
+               .unit = "1/Pa",
+               .meaning = "a spring in series: strain recorded per stress",
+               .minimum = 0.0,
+               .maximum = 1e-8,
+               .drawn_minimum = 5e-11,
+               .drawn_maximum = 3e-10,
                .value = &HiddenEffects::machine_compliance_per_pa},
-    EffectKind{.name = "droplet_mixing", .unit = "pixels", .meaning = "length over which droplets of both materials mix",
-               .minimum = 0.0, .maximum = 5.0, .drawn_minimum = 0.25, .drawn_maximum = 0.8,
+    EffectKind{.name = "droplet_mixing",
+               .unit = "pixels",
+               .meaning = "length over which droplets of both materials mix",
+               .minimum = 0.0,
+               .maximum = 5.0,
+               .drawn_minimum = 0.25,
+               .drawn_maximum = 0.8,
                .value = &HiddenEffects::droplet_mixing_pixels},
-    EffectKind{.name = "interface_anisotropy", .unit = "(x - y)/(x + y)",
-               .meaning = "stiffness and strength of interfaces between x- and y-neighbours differ", .minimum = -0.95,
-               .maximum = 0.95, .drawn_minimum = 0.15, .drawn_maximum = 0.5, .either_sign = true,
+    EffectKind{.name = "interface_anisotropy",
+               .unit = "(x - y)/(x + y)",
+               .meaning = "stiffness and strength of interfaces between x- and y-neighbours differ",
+               .minimum = -0.95,
+               .maximum = 0.95,
+               .drawn_minimum = 0.15,
+               .drawn_maximum = 0.5,
+               .either_sign = true,
                .value = &HiddenEffects::interface_anisotropy},
-    EffectKind{.name = "corner_debonding", .unit = "share", .meaning = "loss of stiffness and strength where four pixels meet",
-               .minimum = 0.0, .maximum = 0.99, .drawn_minimum = 0.3, .drawn_maximum = 0.9, .in_library = false,
+    EffectKind{.name = "corner_debonding",
+               .unit = "share",
+               .meaning = "loss of stiffness and strength where four pixels meet",
+               .minimum = 0.0,
+               .maximum = 0.99,
+               .drawn_minimum = 0.3,
+               .drawn_maximum = 0.9,
+               .in_library = false,
                .value = &HiddenEffects::corner_debonding},
-    EffectKind{.name = "load_cell_gain", .unit = "relative", .meaning = "a factor 1 + value on the recorded force",
-               .minimum = -0.5, .maximum = 1.0, .value = &HiddenEffects::load_cell_gain},
-    EffectKind{.name = "toe_slack", .unit = "strain", .meaning = "strain recorded before the specimen carries load",
-               .minimum = 0.0, .maximum = 0.05, .value = &HiddenEffects::toe_slack}};
+    EffectKind{.name = "load_cell_gain",
+               .unit = "relative",
+               .meaning = "a factor 1 + value on the recorded force",
+               .minimum = -0.5,
+               .maximum = 1.0,
+               .value = &HiddenEffects::load_cell_gain},
+    EffectKind{.name = "toe_slack",
+               .unit = "strain",
+               .meaning = "strain recorded before the specimen carries load",
+               .minimum = 0.0,
+               .maximum = 0.05,
+               .value = &HiddenEffects::toe_slack}};
 
 double log_uniform(RandomStream& stream, double low, double high) {
   return std::exp(stream.uniform(std::log(low), std::log(high)));

@@ -12,11 +12,11 @@
 namespace nacre::virtual_laboratory {
 namespace {
 
-constexpr double kDensity = 1150.0;        // kg/m^3, both phases
+constexpr double kDensity = 1150.0;  // kg/m^3, both phases
 constexpr double kTimeStepSafety = 0.7;
-constexpr double kWindowStrain = 5e-5;     // one recorded point
+constexpr double kWindowStrain = 5e-5;  // one recorded point
 constexpr std::size_t kSmoothingWindows = 10;
-constexpr double kSeparation = 0.2;        // of the peak stress
+constexpr double kSeparation = 0.2;           // of the peak stress
 constexpr double kEarliestSeparation = 2e-3;  // before it, ringing of the start may not end a test
 /// Largest damping ratio of the grid's fastest mode; beyond it the step would shrink for nothing.
 constexpr double kDampingRatioLimit = 1.0;
@@ -30,8 +30,8 @@ double fastest_wave(const Raster& raster) {
   return std::sqrt(stiffest / kDensity);
 }
 
-/// Central differences with a viscous stress are stable below 2/omega (sqrt(1 + xi^2) - xi), xi the damping ratio at the grid's
-/// highest frequency omega = 2 c / h.
+/// Central differences with a viscous stress are stable below 2/omega (sqrt(1 + xi^2) - xi), xi the damping ratio at
+/// the grid's highest frequency omega = 2 c / h.
 struct TimeStep {
   double dt_s = 0.0;
   double viscosity_pa_s = 0.0;
@@ -51,23 +51,30 @@ TimeStep time_step(double wave_m_per_s, double gamma_per_s) {
 class Specimen {
  public:
   Specimen(const Raster& raster, const TimeStep& step)
-      : columns_(raster.columns), rows_(raster.rows), stride_(static_cast<std::size_t>(raster.columns) + 32), step_(step) {
+      : columns_(raster.columns),
+        rows_(raster.rows),
+        stride_(static_cast<std::size_t>(raster.columns) + 32),
+        step_(step) {
     const std::size_t nodes = stride_ * static_cast<std::size_t>(rows_ + 1);
     for (std::vector<float>* field : {&wx_, &wy_, &vx_, &vy_, &mu_, &lambda_, &threshold_}) field->assign(nodes, 0.0f);
     for (std::vector<float>& row : force_) row.assign(stride_, 0.0f);
     inverse_mass_.assign(stride_, 1.0f);
-    inverse_mass_.front() = inverse_mass_[static_cast<std::size_t>(columns_)] = 2.0f;  // half a node's share at the edges
+    inverse_mass_.front() = inverse_mass_[static_cast<std::size_t>(columns_)] =
+        2.0f;  // half a node's share at the edges
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        const auto from = static_cast<std::size_t>(row * columns_ + column), to = at(row) + static_cast<std::size_t>(column);
+        const auto from = static_cast<std::size_t>(row * columns_ + column),
+                   to = at(row) + static_cast<std::size_t>(column);
         mu_[to] = static_cast<float>(raster.mu_pa[from]);
         lambda_[to] = static_cast<float>(raster.lambda_pa[from]);
-        threshold_[to] = static_cast<float>(std::min<double>(raster.threshold_j_per_m3[from], std::numeric_limits<float>::max()));
+        threshold_[to] =
+            static_cast<float>(std::min<double>(raster.threshold_j_per_m3[from], std::numeric_limits<float>::max()));
       }
     }
   }
 
-  /// One time step at grip strain `strain`. Returns the mean nominal stress of both grips, Pa. Error: blow-up, with the row.
+  /// One time step at grip strain `strain`. Returns the mean nominal stress of both grips, Pa. Error: blow-up, with the
+  /// row.
   Result<double> advance(double strain) {
     const ElementStep elements{.grip_strain = static_cast<float>(strain),
                                .half_inverse_edge = static_cast<float>(0.5 / kElementM),
@@ -105,20 +112,41 @@ class Specimen {
   ElementRow element_row(int row) {
     const std::size_t lower = at(row), upper = at(row + 1);
     return {.columns = columns_,
-            .wx_lower = &wx_[lower], .wy_lower = &wy_[lower], .wx_upper = &wx_[upper], .wy_upper = &wy_[upper],
-            .vx_lower = &vx_[lower], .vy_lower = &vy_[lower], .vx_upper = &vx_[upper], .vy_upper = &vy_[upper],
-            .mu = &mu_[lower], .lambda = &lambda_[lower], .threshold = &threshold_[lower],
-            .x_lower = force_[kXLower].data(), .x_upper = force_[kXUpper].data(), .x_axial = force_[kXAxial].data(),
-            .y_lower = force_[kYLower].data(), .y_upper = force_[kYUpper].data(), .y_axial = force_[kYAxial].data()};
+            .wx_lower = &wx_[lower],
+            .wy_lower = &wy_[lower],
+            .wx_upper = &wx_[upper],
+            .wy_upper = &wy_[upper],
+            .vx_lower = &vx_[lower],
+            .vy_lower = &vy_[lower],
+            .vx_upper = &vx_[upper],
+            .vy_upper = &vy_[upper],
+            .mu = &mu_[lower],
+            .lambda = &lambda_[lower],
+            .threshold = &threshold_[lower],
+            .x_lower = force_[kXLower].data(),
+            .x_upper = force_[kXUpper].data(),
+            .x_axial = force_[kXAxial].data(),
+            .y_lower = force_[kYLower].data(),
+            .y_upper = force_[kYUpper].data(),
+            .y_axial = force_[kYAxial].data()};
   }
 
   NodeRow node_row(int row) {
     const std::size_t n = at(row);
     return {.columns = columns_,
-            .x_lower = force_[kXLower].data(), .x_upper = force_[kXUpper].data(), .x_axial = force_[kXAxial].data(),
-            .y_lower = force_[kYLower].data(), .y_upper = force_[kYUpper].data(), .y_axial = force_[kYAxial].data(),
-            .carry_x = force_[kCarryX].data(), .carry_y = force_[kCarryY].data(),
-            .wx = &wx_[n], .wy = &wy_[n], .vx = &vx_[n], .vy = &vy_[n], .inverse_mass = inverse_mass_.data()};
+            .x_lower = force_[kXLower].data(),
+            .x_upper = force_[kXUpper].data(),
+            .x_axial = force_[kXAxial].data(),
+            .y_lower = force_[kYLower].data(),
+            .y_upper = force_[kYUpper].data(),
+            .y_axial = force_[kYAxial].data(),
+            .carry_x = force_[kCarryX].data(),
+            .carry_y = force_[kCarryY].data(),
+            .wx = &wx_[n],
+            .wy = &wy_[n],
+            .vx = &vx_[n],
+            .vy = &vy_[n],
+            .inverse_mass = inverse_mass_.data()};
   }
 
   int columns_, rows_;
@@ -169,7 +197,9 @@ Result<PulledSpecimen> pull_to_separation(const Raster& raster, const Pull& pull
     sum_pa = 0.0;
     const bool separated = recorder.separated();
     if (separated || recorder.curve.strain.back() >= pull.strain_limit) {
-      return PulledSpecimen{.curve = std::move(recorder.curve), .separated = separated, .steps = n,
+      return PulledSpecimen{.curve = std::move(recorder.curve),
+                            .separated = separated,
+                            .steps = n,
                             .element_count = specimen.element_count()};
     }
   }

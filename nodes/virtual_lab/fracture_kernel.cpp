@@ -8,7 +8,8 @@ namespace {
 /// ln(1 + d) = 2 artanh(z), z = d / (2 + d); absolute error below 1e-7 for J from 1/2 to 2.
 [[gnu::always_inline]] inline float logarithm(float z) {
   const float s = z * z;
-  return 2.0f * z * (1.0f + s * (1.0f / 3 + s * (1.0f / 5 + s * (1.0f / 7 + s * (1.0f / 9 + s * (1.0f / 11 + s * (1.0f / 13)))))));
+  return 2.0f * z *
+         (1.0f + s * (1.0f / 3 + s * (1.0f / 5 + s * (1.0f / 7 + s * (1.0f / 9 + s * (1.0f / 11 + s * (1.0f / 13)))))));
 }
 
 /// First Piola-Kirchhoff stress and energy density of the neo-Hookean law (Eq. 2.1 as corrected) at one point.
@@ -16,7 +17,8 @@ struct PointResponse {
   float p11, p12, p21, p22, energy, jacobian;
 };
 
-[[gnu::always_inline]] inline PointResponse respond(float h11, float h12, float h21, float h22, float mu, float lambda) {
+[[gnu::always_inline]] inline PointResponse respond(float h11, float h12, float h21, float h22, float mu,
+                                                    float lambda) {
   const float trace = h11 + h22;
   const float d = trace + (h11 * h22 - h12 * h21);
   const float j = 1.0f + d;
@@ -41,15 +43,23 @@ constexpr float kGauss = 0.57735027f;
 NACRE_VECTOR_CLONES
 int advance_elements(const ElementRow& row, const ElementStep& step) {
   const int columns = row.columns;
-  const float* wx0 = row.wx_lower; const float* wy0 = row.wy_lower;
-  const float* wx1 = row.wx_upper; const float* wy1 = row.wy_upper;
-  const float* vx0 = row.vx_lower; const float* vy0 = row.vy_lower;
-  const float* vx1 = row.vx_upper; const float* vy1 = row.vy_upper;
-  float* mu_row = row.mu; float* lambda_row = row.lambda;
+  const float* wx0 = row.wx_lower;
+  const float* wy0 = row.wy_lower;
+  const float* wx1 = row.wx_upper;
+  const float* wy1 = row.wy_upper;
+  const float* vx0 = row.vx_lower;
+  const float* vy0 = row.vy_lower;
+  const float* vx1 = row.vx_upper;
+  const float* vy1 = row.vy_upper;
+  float* mu_row = row.mu;
+  float* lambda_row = row.lambda;
   const float* threshold = row.threshold;
-  float* x_lower = row.x_lower + 1; float* x_upper = row.x_upper + 1;
-  float* x_axial = row.x_axial + 1; float* y_lower = row.y_lower + 1;
-  float* y_upper = row.y_upper + 1; float* y_axial = row.y_axial + 1;
+  float* x_lower = row.x_lower + 1;
+  float* x_upper = row.x_upper + 1;
+  float* x_axial = row.x_axial + 1;
+  float* y_lower = row.y_lower + 1;
+  float* y_upper = row.y_upper + 1;
+  float* y_axial = row.y_axial + 1;
   const float k = step.half_inverse_edge, e = step.grip_strain, viscosity = step.viscosity;
   int failures = 0, broken = 0;
 #pragma GCC ivdep
@@ -106,12 +116,18 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
 
 NACRE_VECTOR_CLONES
 void advance_nodes(const NodeRow& row, float scale_x, float scale_y, float dt, float* force_y) {
-  const float* xl = row.x_lower; const float* xu = row.x_upper;
-  const float* xa = row.x_axial; const float* yl = row.y_lower;
-  const float* yu = row.y_upper; const float* ya = row.y_axial;
-  float* carry_x = row.carry_x; float* carry_y = row.carry_y;
-  float* wx = row.wx; float* wy = row.wy;
-  float* vx = row.vx; float* vy = row.vy;
+  const float* xl = row.x_lower;
+  const float* xu = row.x_upper;
+  const float* xa = row.x_axial;
+  const float* yl = row.y_lower;
+  const float* yu = row.y_upper;
+  const float* ya = row.y_axial;
+  float* carry_x = row.carry_x;
+  float* carry_y = row.carry_y;
+  float* wx = row.wx;
+  float* wy = row.wy;
+  float* vx = row.vx;
+  float* vy = row.vy;
   const float* inverse_mass = row.inverse_mass;
   float* total_y = force_y;
   const int nodes = row.columns + 1;

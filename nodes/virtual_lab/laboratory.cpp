@@ -41,9 +41,10 @@ Result<Response> respond_toughness(const Truth& truth, const Question& question)
       raster, {.gamma_per_s = truth.toughness.gamma_per_s,
                .strain_limit = raster.all_soft ? thesis::kSoftStrainLimit.value : thesis::kStrainLimit.value});
   if (!pulled) return fail("fracture bench: {}", pulled.error().message);
-  return Response{.modulus_pa = 0.0,
-                  .curve = tester::resampled(pulled->curve, kCurvePoints),
-                  .remark = pulled->separated ? "" : fmt::format("not separated at strain {:.2f}", pulled->curve.strain.back())};
+  return Response{
+      .modulus_pa = 0.0,
+      .curve = tester::resampled(pulled->curve, kCurvePoints),
+      .remark = pulled->separated ? "" : fmt::format("not separated at strain {:.2f}", pulled->curve.strain.back())};
 }
 
 Result<Response> respond_tensile(const Truth& truth, const Question& question) {
@@ -68,7 +69,9 @@ struct Scatter {
 };
 
 Scatter scatter_of(const Truth& truth, const std::string& specimen) {
-  const auto stream = [&](const char* what) { return RandomStream(truth.seed, fmt::format("specimen/{}/{}", specimen, what)); };
+  const auto stream = [&](const char* what) {
+    return RandomStream(truth.seed, fmt::format("specimen/{}/{}", specimen, what));
+  };
   RandomStream modulus = stream("modulus"), stress = stream("stress"), strain = stream("strain");
   // T scatters as stress times strain: the stress carries what the strain leaves of the declared scatter of T.
   const double rest = truth.noise.toughness * truth.noise.toughness - truth.noise.strain * truth.noise.strain;
@@ -84,7 +87,8 @@ double shown_modulus(const HiddenEffects& effects, double modulus_pa) {
                                                   : gain / (1.0 / modulus_pa + effects.machine_compliance_per_pa);
 }
 
-/// A specimen's curve as the machine shows it: slack, then the load train's stretch added to the specimen's, the load cell's gain.
+/// A specimen's curve as the machine shows it: slack, then the load train's stretch added to the specimen's, the load
+/// cell's gain.
 tester::Curve shown_curve(const HiddenEffects& effects, const tester::Curve& curve) {
   tester::Curve shown;
   if (effects.toe_slack > 0.0) {
@@ -92,7 +96,8 @@ tester::Curve shown_curve(const HiddenEffects& effects, const tester::Curve& cur
     shown.stress_pa.push_back(0.0);
   }
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    shown.strain.push_back(curve.strain[i] + effects.toe_slack + effects.machine_compliance_per_pa * curve.stress_pa[i]);
+    shown.strain.push_back(curve.strain[i] + effects.toe_slack +
+                           effects.machine_compliance_per_pa * curve.stress_pa[i]);
     shown.stress_pa.push_back((1.0 + effects.load_cell_gain) * curve.stress_pa[i]);
   }
   return shown;
@@ -118,9 +123,12 @@ Result<Response> respond(const Truth& truth, const Question& question) {
   const double orientation = question.conditions.orientation_deg;
   if (orientation != 0.0 && orientation != 90.0) return fail("orientation {} degrees, expected 0 or 90", orientation);
   switch (question.test) {
-    case TestKind::modulus: return respond_modulus(truth, question);
-    case TestKind::toughness: return respond_toughness(truth, question);
-    case TestKind::tensile: return respond_tensile(truth, question);
+    case TestKind::modulus:
+      return respond_modulus(truth, question);
+    case TestKind::toughness:
+      return respond_toughness(truth, question);
+    case TestKind::tensile:
+      return respond_tensile(truth, question);
   }
   return fail("an unknown test");
 }

@@ -1,6 +1,7 @@
 #pragma once
-// The virtual laboratory as its customers see it: a design goes in, replicate specimens come out. What is simulated (the same for all
-// replicates) and what scatters or is added by the machine are two steps, so that one simulation serves every replicate.
+// The virtual laboratory as its customers see it: a design goes in, replicate specimens come out. What is simulated
+// (the same for all replicates) and what scatters or is added by the machine are two steps, so that one simulation
+// serves every replicate.
 
 #include <string>
 #include <vector>
@@ -26,8 +27,8 @@ struct Response {
   std::string remark;       ///< what a lab book would note, or empty
 };
 
-/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; a question that makes no sense (`tensile`
-/// of a layout, an orientation other than 0 and 90).
+/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; a question that makes no sense
+/// (`tensile` of a layout, an orientation other than 0 and 90).
 Result<Response> respond(const Truth& truth, const Question& question);
 
 /// One replicate: how it is called and where it was printed.
@@ -37,18 +38,20 @@ struct Replicate {
   int print_order = 0;
 };
 
-/// The record of one specimen: the response with this specimen's scatter, seen through the machine, its curve in at most 200 points. A
-/// failed simulation gives an invalid specimen with a note, never a number.
-measurement::SpecimenRecord record_specimen(const Truth& truth, const Question& question, const Result<Response>& response,
-                                            const Replicate& replicate);
+/// The record of one specimen: the response with this specimen's scatter, seen through the machine, its curve in at
+/// most 200 points. A failed simulation gives an invalid specimen with a note, never a number.
+measurement::SpecimenRecord record_specimen(const Truth& truth, const Question& question,
+                                            const Result<Response>& response, const Replicate& replicate);
 
-/// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), all replicates, replicate k of
-/// everything in batch k, in an order of printing drawn from the seed. Simulations run on all allowed cores.
+/// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), all replicates,
+/// replicate k of everything in batch k, in an order of printing drawn from the seed. Simulations run on all allowed
+/// cores.
 std::vector<measurement::SpecimenRecord> measure(const Truth& truth, const std::vector<pattern::Design>& designs,
                                                  const std::vector<tester::TestKind>& tests);
 
-/// `nacre measure`: measures `designs` as LAB.toml says, writes the measurement set `folder` and, sealed, `folder`.truth.toml
-/// beside it. Returns the records. Throws InputError for a bad laboratory file or a folder that cannot be written.
+/// `nacre measure`: measures `designs` as LAB.toml says, writes the measurement set `folder` and, sealed,
+/// `folder`.truth.toml beside it. Returns the records. Throws InputError for a bad laboratory file or a folder that
+/// cannot be written.
 std::vector<measurement::SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file,
                                                      const std::filesystem::path& folder,
                                                      const std::vector<pattern::Design>& designs,

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 #include <sys/stat.h>
+#include <toml++/toml.h>
 
 #include "base/files.hpp"
 #include "base/result.hpp"
@@ -17,7 +17,8 @@ namespace {
 constexpr std::string_view kDraw = "draw";
 constexpr std::size_t kMostEffects = 2;
 
-InputError fault_at(std::string_view source, const toml::node& node, std::string_view key, const std::string& expected) {
+InputError fault_at(std::string_view source, const toml::node& node, std::string_view key,
+                    const std::string& expected) {
   return InputError::format("{}: line {}, {}: expected {}", source, node.source().begin.line, key, expected);
 }
 
@@ -131,7 +132,8 @@ void read_effect(const toml::table& table, std::string_view source, std::uint64_
                    name == kDraw ? "no value beside the name \"draw\"" : "one of " + effect_names());
   }
   const bool drawn = !value || value->value_exact<std::string_view>() == kDraw;
-  effects.*kind->value = drawn ? draw_effect_value(seed, *kind) : section.number("value", kind->minimum, kind->maximum, 0.0);
+  effects.*kind->value =
+      drawn ? draw_effect_value(seed, *kind) : section.number("value", kind->minimum, kind->maximum, 0.0);
 }
 
 HiddenEffects read_effects(const toml::node* node, std::string_view source, std::uint64_t seed) {
@@ -210,8 +212,9 @@ std::string to_toml(const Truth& truth) {
 }
 
 void write_sealed(const std::filesystem::path& path, const Truth& truth) {
-  write_file_atomically(path, "# The hidden truth of a virtual laboratory. Sealed: only the laboratory and the scoring read it.\n" +
-                                  to_toml(truth));
+  write_file_atomically(
+      path, "# The hidden truth of a virtual laboratory. Sealed: only the laboratory and the scoring read it.\n" +
+                to_toml(truth));
   if (::chmod(path.c_str(), 0400) != 0) throw InputError::format("{}: cannot be sealed (mode 0400)", path.string());
 }
 

@@ -1,4 +1,5 @@
-// The virtual laboratory as a process. It seals its truth in RUN/laboratory.truth.toml for whoever scores the run afterwards.
+// The virtual laboratory as a process. It seals its truth in RUN/laboratory.truth.toml for whoever scores the run
+// afterwards.
 
 #include "runtime/node_shell.hpp"
 #include "virtual_lab/virtual_lab_core.hpp"

@@ -62,7 +62,8 @@ std::vector<SpecimenRecord> measure(const Truth& truth, const std::vector<patter
   std::vector<SpecimenRecord> records;
   for (std::size_t q = 0; q < questions.size(); ++q) {
     for (int k = 1; k <= truth.replicates; ++k) {
-      const std::string name = fmt::format("{}-{}-{}", questions[q].design.name(), tester::to_string(questions[q].test), k);
+      const std::string name =
+          fmt::format("{}-{}-{}", questions[q].design.name(), tester::to_string(questions[q].test), k);
       records.push_back(record_specimen(truth, questions[q], *responses[q],
                                         {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0}));
     }
@@ -71,7 +72,8 @@ std::vector<SpecimenRecord> measure(const Truth& truth, const std::vector<patter
   return records;
 }
 
-std::vector<SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file, const std::filesystem::path& folder,
+std::vector<SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file,
+                                        const std::filesystem::path& folder,
                                         const std::vector<pattern::Design>& designs,
                                         const std::vector<tester::TestKind>& tests) {
   const Truth truth = read_laboratory(laboratory_file);

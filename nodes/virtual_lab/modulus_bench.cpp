@@ -33,9 +33,10 @@ UnitStiffness unit_stiffness() {
       const auto shear = (gradient.row(1) + gradient.row(2)).eval();
       const auto dilatation = (gradient.row(0) + gradient.row(3)).eval();
       // sigma : epsilon = 2 mu (e_xx^2 + e_yy^2) + mu gamma^2 + lambda tr^2, a quarter of the area each point.
-      stiffness.per_mu += 0.25 * (2.0 * (gradient.row(0).transpose() * gradient.row(0) +
-                                         gradient.row(3).transpose() * gradient.row(3)) +
-                                  shear.transpose() * shear);
+      stiffness.per_mu +=
+          0.25 *
+          (2.0 * (gradient.row(0).transpose() * gradient.row(0) + gradient.row(3).transpose() * gradient.row(3)) +
+           shear.transpose() * shear);
       stiffness.per_lambda += 0.25 * dilatation.transpose() * dilatation;
     }
   }
@@ -63,7 +64,8 @@ struct Unknowns {
   /// The eight unknowns of an element (row, column), -1 where prescribed.
   std::array<int, 8> of_element(int row, int column) const {
     std::array<int, 8> result{};
-    const std::array<int, 4> nodes = {node(row, column), node(row, column + 1), node(row + 1, column), node(row + 1, column + 1)};
+    const std::array<int, 4> nodes = {node(row, column), node(row, column + 1), node(row + 1, column),
+                                      node(row + 1, column + 1)};
     for (std::size_t n = 0; n < 4; ++n) {
       for (std::size_t axis = 0; axis < 2; ++axis) {
         result[2 * n + axis] = number[static_cast<std::size_t>(2 * nodes[n]) + axis];

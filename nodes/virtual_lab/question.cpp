@@ -51,7 +51,8 @@ Result<Response> response_from_text(std::string_view text) try {
   response.curve.strain = fields.at("strain").get<std::vector<double>>();
   response.curve.stress_pa = fields.at("stress_pa").get<std::vector<double>>();
   response.remark = fields.at("remark").get<std::string>();
-  if (response.curve.strain.size() != response.curve.stress_pa.size()) return fail("response of the virtual laboratory: lengths differ");
+  if (response.curve.strain.size() != response.curve.stress_pa.size())
+    return fail("response of the virtual laboratory: lengths differ");
   return response;
 } catch (const json::exception& error) {
   return fail("response of the virtual laboratory: {}", error.what());

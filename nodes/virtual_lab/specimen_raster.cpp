@@ -12,7 +12,8 @@
 namespace nacre::virtual_laboratory {
 namespace {
 
-/// Lengths in pixels. Pixel k of a row of pixels is centred half a tester element from the specimen's edge plus k pixels.
+/// Lengths in pixels. Pixel k of a row of pixels is centred half a tester element from the specimen's edge plus k
+/// pixels.
 constexpr double kFirstCentre = 0.5 * kTesterElementM / kPixelM;
 constexpr double kInterfaceReach = 0.25;
 /// Elements of the laboratory along one side of a repeated unit.
@@ -57,8 +58,8 @@ double hat_integral(double t) {
   return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 1.0 - 0.5 * (1.0 - t) * (1.0 - t);
 }
 
-/// Share of the element at distance k = -reach .. reach in the mean over an element of the moving average of width `width`, both
-/// in elements.
+/// Share of the element at distance k = -reach .. reach in the mean over an element of the moving average of width
+/// `width`, both in elements.
 std::vector<double> window_shares(double width) {
   const int reach = static_cast<int>(std::ceil(0.5 * width));
   std::vector<double> shares;
@@ -135,10 +136,14 @@ double mixed_in_log(const std::array<double, 3>& values, double rigid_fraction) 
 double site_factor(Site site, const HiddenEffects& effects, double orientation_deg) {
   const double along_x = orientation_deg == 90.0 ? -effects.interface_anisotropy : effects.interface_anisotropy;
   switch (site) {
-    case Site::interface_x: return 1.0 + along_x;
-    case Site::interface_y: return 1.0 - along_x;
-    case Site::corner: return 1.0 - effects.corner_debonding;
-    default: return 1.0;
+    case Site::interface_x:
+      return 1.0 + along_x;
+    case Site::interface_y:
+      return 1.0 - along_x;
+    case Site::corner:
+      return 1.0 - effects.corner_debonding;
+    default:
+      return 1.0;
   }
 }
 
@@ -231,11 +236,13 @@ SpecimenSize specimen_size(tester::TestKind test, tester::Fidelity fidelity) {
   return size;
 }
 
-Raster modulus_raster(const Truth& truth, const pattern::Design& design, double orientation_deg, const SpecimenSize& size) {
+Raster modulus_raster(const Truth& truth, const pattern::Design& design, double orientation_deg,
+                      const SpecimenSize& size) {
   return rasterised(constants_of(truth.modulus), truth.effects, design, orientation_deg, size);
 }
 
-Raster fracture_raster(const Truth& truth, const pattern::Design& design, double orientation_deg, const SpecimenSize& size) {
+Raster fracture_raster(const Truth& truth, const pattern::Design& design, double orientation_deg,
+                       const SpecimenSize& size) {
   return rasterised(constants_of(truth.toughness), truth.effects, design, orientation_deg, size);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// What the virtual laboratory knows and nobody else may: the constants of its materials, its hidden effects and its scatter.
-// Only the laboratory itself, `nacre measure` and the program that scores blind trials include headers of this folder.
+// What the virtual laboratory knows and nobody else may: the constants of its materials, its hidden effects and its
+// scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include headers of this
+// folder.
 
 #include <cstdint>
 #include <filesystem>
@@ -39,10 +40,10 @@ struct EffectKind {
   std::string_view name;
   std::string_view unit;
   std::string_view meaning;
-  double minimum = 0.0, maximum = 0.0;            ///< allowed in a file
-  double drawn_minimum = 0.0, drawn_maximum = 0.0;///< magnitudes drawn, log-uniform; 0, 0: never drawn unasked
-  bool either_sign = false;                       ///< the drawn value takes a sign by the toss of a coin
-  bool in_library = true;                         ///< false: the diagnosis has no name for it
+  double minimum = 0.0, maximum = 0.0;              ///< allowed in a file
+  double drawn_minimum = 0.0, drawn_maximum = 0.0;  ///< magnitudes drawn, log-uniform; 0, 0: never drawn unasked
+  bool either_sign = false;                         ///< the drawn value takes a sign by the toss of a coin
+  bool in_library = true;                           ///< false: the diagnosis has no name for it
   double HiddenEffects::*value = nullptr;
 };
 std::span<const EffectKind> effect_kinds();
@@ -71,7 +72,8 @@ double draw_effect_value(std::uint64_t seed, const EffectKind& kind);
 /// The truth of a laboratory that has no file: everything drawn from the seed.
 Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity);
 
-/// Reads LAB.toml. Tables that it lacks are drawn from its seed. Throws InputError naming file, line, key and what was expected.
+/// Reads LAB.toml. Tables that it lacks are drawn from its seed. Throws InputError naming file, line, key and what was
+/// expected.
 Truth read_laboratory(const std::filesystem::path& path);
 /// The same from text; `source` names the place in errors.
 Truth parse_laboratory(std::string_view toml, std::string_view source);

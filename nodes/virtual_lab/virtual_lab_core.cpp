@@ -48,7 +48,8 @@ void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
   const auto [known, is_new] = orders_.try_emplace(order->order_id, *order);
   if (!is_new) {
     if (known->second != *order) {
-      outputs.log.push_back({LogLevel::warning, fmt::format("TEST_ORDER {} came again with another content", order->order_id)});
+      outputs.log.push_back(
+          {LogLevel::warning, fmt::format("TEST_ORDER {} came again with another content", order->order_id)});
     }
     return;
   }
@@ -60,7 +61,8 @@ void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
   }
   const std::string spec = to_spec(question);
   const std::string id = "measure/" + content_hash(spec);
-  const auto [simulation, first] = simulations_.try_emplace(id, Simulation{.question = question, .response = {}, .waiting = {}});
+  const auto [simulation, first] =
+      simulations_.try_emplace(id, Simulation{.question = question, .response = {}, .waiting = {}});
   if (simulation->second.response) {
     report(*order, question, *simulation->second.response, outputs);
     return;
@@ -68,8 +70,9 @@ void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
   simulation->second.waiting.push_back(order->order_id);
   if (!first) return;
   outputs.computes.push_back({.id = id, .kind = kWorkKind, .spec = spec});
-  outputs.log.push_back({LogLevel::info, fmt::format("{}: {} of {}, {} specimens", order->order_id, tester::to_string(order->test),
-                                                     order->design.name(), order->replicates)});
+  outputs.log.push_back(
+      {LogLevel::info, fmt::format("{}: {} of {}, {} specimens", order->order_id, tester::to_string(order->test),
+                                   order->design.name(), order->replicates)});
 }
 
 void VirtualLabCore::settle(const runtime::WorkDone& work, Outputs& outputs) {
@@ -90,12 +93,13 @@ void VirtualLabCore::settle(const runtime::WorkDone& work, Outputs& outputs) {
 void VirtualLabCore::report(const wire::TestOrder& order, const Question& question, const Result<Response>& response,
                             Outputs& outputs) const {
   if (!response) {
-    outputs.log.push_back({LogLevel::warning, fmt::format("{}: no valid specimen: {}", order.order_id, response.error().message)});
+    outputs.log.push_back(
+        {LogLevel::warning, fmt::format("{}: no valid specimen: {}", order.order_id, response.error().message)});
   }
   for (int k = 1; k <= order.replicates; ++k) {
     const std::string specimen = fmt::format("{}/{}", order.order_id, k);
-    const Replicate replicate{.specimen = specimen, .batch = order.batch,
-                              .print_order = print_position(truth_.seed, order.batch, specimen)};
+    const Replicate replicate{
+        .specimen = specimen, .batch = order.batch, .print_order = print_position(truth_.seed, order.batch, specimen)};
     const wire::Measurement measurement{.round = order.round,
                                         .order_id = order.order_id,
                                         .fidelity = order.fidelity,

@@ -14,9 +14,10 @@
 
 namespace nacre::virtual_laboratory {
 
-/// TEST_ORDER in; one Compute (kind "measure") per design, test, conditions and fidelity that nobody has ordered yet; MEASUREMENT
-/// out, one per specimen, when the simulation is done. What a specimen shows depends on truth and order alone, never on the order of
-/// arrival. A repeated order changes nothing; another order under the same id is refused with a warning.
+/// TEST_ORDER in; one Compute (kind "measure") per design, test, conditions and fidelity that nobody has ordered yet;
+/// MEASUREMENT out, one per specimen, when the simulation is done. What a specimen shows depends on truth and order
+/// alone, never on the order of arrival. A repeated order changes nothing; another order under the same id is refused
+/// with a warning.
 class VirtualLabCore : public runtime::NodeCore {
  public:
   explicit VirtualLabCore(Truth truth) : truth_(std::move(truth)) {}
@@ -37,14 +38,14 @@ class VirtualLabCore : public runtime::NodeCore {
               runtime::Outputs& outputs) const;
 
   Truth truth_;
-  std::map<std::string, wire::TestOrder> orders_;       // by order_id
-  std::map<std::string, Simulation> simulations_;       // by id of their Compute
+  std::map<std::string, wire::TestOrder> orders_;  // by order_id
+  std::map<std::string, Simulation> simulations_;  // by id of their Compute
   int latest_round_ = 0;
   int settled_ = 0;  // simulations
 };
 
-/// The truth of the scenario's laboratory: from its file, else drawn from the scenario's seed; at the scenario's fidelity.
-/// Throws InputError.
+/// The truth of the scenario's laboratory: from its file, else drawn from the scenario's seed; at the scenario's
+/// fidelity. Throws InputError.
 Truth truth_of(const game::Scenario& scenario);
 
 /// The core and the long work of the scenario's laboratory.

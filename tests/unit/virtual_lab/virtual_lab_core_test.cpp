@@ -1,0 +1,139 @@
+#include "virtual_lab/virtual_lab_core.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/result.hpp"
+
+namespace nacre::virtual_laboratory {
+namespace {
+
+using runtime::Message;
+using runtime::Outputs;
+using runtime::WorkDone;
+using testing::HasSubstr;
+
+Truth truth() { return draw_truth(31, tester::Fidelity::tiny); }
+
+wire::TestOrder order(const std::string& id, const char* design, tester::TestKind test = tester::TestKind::modulus) {
+  wire::TestOrder order;
+  order.round = 1;
+  order.order_id = id;
+  order.design = pattern::design_from_name(design).value();
+  order.test = test;
+  order.fidelity = tester::Fidelity::tiny;
+  order.replicates = 3;
+  order.batch = "round-1";
+  order.reason = "random";
+  return order;
+}
+
+Message message(const wire::TestOrder& order) { return {.channel = "TEST_ORDER", .payload = wire::write(order)}; }
+
+/// Steps through the messages, does the long work in the given order of arrival, and returns every MEASUREMENT sent.
+std::vector<std::string> play(const std::vector<Message>& messages, bool work_backwards) {
+  VirtualLabCore core(truth());
+  const auto work = work_functions(truth());
+  std::vector<runtime::Compute> computes;
+  std::vector<std::string> sent;
+  const auto take = [&](Outputs outputs) {
+    for (auto& compute : outputs.computes) computes.push_back(compute);
+    for (auto& measurement : outputs.messages) sent.push_back(measurement.payload);
+  };
+  for (const Message& each : messages) take(core.step(each));
+  if (work_backwards) std::ranges::reverse(computes);
+  for (const auto& compute : std::vector(computes))
+    take(core.step(WorkDone{.id = compute.id, .result = work.at(compute.kind)(compute.spec)}));
+  std::ranges::sort(sent);
+  return sent;
+}
+
+std::vector<Message> three_orders() {
+  return {message(order("r1/a/modulus", "577fffe9fffdef")), message(order("r1/mix/modulus", "mix:0.65")),
+          message(order("r2/a/modulus", "577fffe9fffdef"))};
+}
+
+TEST(VirtualLabCore, EverySpecimenOfAnOrderIsReportedWithItsOrderAndBatch) {
+  const auto sent = play({message(order("r1/a/modulus", "577fffe9fffdef"))}, false);
+  ASSERT_EQ(sent.size(), 3u);
+  std::set<std::string> names;
+  for (const std::string& payload : sent) {
+    const auto measurement = wire::read<wire::Measurement>(payload);
+    ASSERT_TRUE(measurement) << measurement.error().message;
+    EXPECT_EQ(measurement->order_id, "r1/a/modulus");
+    EXPECT_EQ(measurement->round, 1);
+    EXPECT_EQ(measurement->record.batch, "round-1");
+    EXPECT_GE(measurement->record.print_order, 1);
+    EXPECT_TRUE(measurement->record.valid && measurement->record.modulus_pa);
+    names.insert(measurement->record.specimen);
+  }
+  EXPECT_EQ(names.size(), 3u);
+}
+
+TEST(VirtualLabCore, SpecimensDoNotDependOnTheOrderInWhichAnythingArrives) {
+  auto orders = three_orders();
+  const auto expected = play(orders, false);
+  EXPECT_EQ(expected.size(), 9u);
+  std::ranges::reverse(orders);
+  EXPECT_EQ(play(orders, false), expected);
+  EXPECT_EQ(play(orders, true), expected);
+}
+
+TEST(VirtualLabCore, ARepeatedOrderChangesNothingAndAnotherUnderTheSameIdIsRefused) {
+  auto orders = three_orders();
+  const auto expected = play(orders, false);
+  orders.push_back(orders.front());
+  EXPECT_EQ(play(orders, false), expected);
+  VirtualLabCore core(truth());
+  core.step(orders.front());
+  wire::TestOrder other = order("r1/a/modulus", "577fffe9fffdef");
+  other.replicates = 5;
+  const Outputs outputs = core.step(message(other));
+  EXPECT_TRUE(outputs.messages.empty() && outputs.computes.empty());
+  EXPECT_EQ(outputs.log.size(), 1u);
+}
+
+TEST(VirtualLabCore, EqualQuestionsAreSimulatedOnce) {
+  VirtualLabCore core(truth());
+  int computes = 0;
+  for (const Message& each : three_orders()) computes += static_cast<int>(core.step(each).computes.size());
+  EXPECT_EQ(computes, 2);
+}
+
+TEST(VirtualLabCore, AnUnknownLoadingProgrammeGivesInvalidSpecimensAtOnce) {
+  VirtualLabCore core(truth());
+  wire::TestOrder cyclic = order("r1/a/toughness", "rigid", tester::TestKind::tensile);
+  cyclic.loading = "load to 0.01, unload";
+  const Outputs outputs = core.step(message(cyclic));
+  EXPECT_TRUE(outputs.computes.empty());
+  ASSERT_EQ(outputs.messages.size(), 3u);
+  const auto measurement = wire::read<wire::Measurement>(outputs.messages.front().payload);
+  ASSERT_TRUE(measurement) << measurement.error().message;
+  EXPECT_FALSE(measurement->record.valid);
+  EXPECT_THAT(measurement->record.note, HasSubstr("only pulls monotonically"));
+}
+
+TEST(VirtualLabCore, HostileInputIsRefusedWithAWarningAndChangesNothing) {
+  VirtualLabCore core(truth());
+  for (const runtime::Input& input : {runtime::Input(Message{.channel = "TEST_ORDER", .payload = "garbage"}),
+                                      runtime::Input(WorkDone{.id = "measure/unknown", .result = "{}"})}) {
+    const Outputs outputs = core.step(input);
+    EXPECT_TRUE(outputs.messages.empty() && outputs.computes.empty());
+    EXPECT_EQ(outputs.log.size(), 1u);
+  }
+  EXPECT_EQ(core.status().phase, "waiting for orders");
+}
+
+TEST(VirtualLabCore, AnUnreadableResultOfWorkGivesInvalidSpecimens) {
+  VirtualLabCore core(truth());
+  const Outputs asked = core.step(three_orders().front());
+  const Outputs outputs = core.step(WorkDone{.id = asked.computes.front().id, .result = "not JSON"});
+  ASSERT_EQ(outputs.messages.size(), 3u);
+  EXPECT_FALSE(wire::read<wire::Measurement>(outputs.messages.front().payload)->record.valid);
+}
+
+}  // namespace
+}  // namespace nacre::virtual_laboratory
