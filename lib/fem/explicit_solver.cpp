@@ -88,9 +88,10 @@ ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& s
   state_.element_stride = padded(grid.columns);
   const std::size_t nodes = static_cast<std::size_t>(grid.rows + 1) * state_.stride + kRowPadding;
   const std::size_t elements = static_cast<std::size_t>(grid.rows) * state_.element_stride;
-  constexpr std::size_t kRowCount = 18;
+  constexpr std::size_t kRowCount = 20;
+  const std::size_t fields = settings.keep_ledger ? 6 : 4;
   const std::size_t row = static_cast<std::size_t>(state_.stride) + kRowPadding;
-  storage_ = std::make_unique<Storage>(4 * nodes + 3 * elements + kRowCount * row, grid.element_count());
+  storage_ = std::make_unique<Storage>(fields * nodes + 3 * elements + kRowCount * row, grid.element_count());
   for (Real** field : {&state_.qx, &state_.qy, &state_.vx, &state_.vy})
     *field = storage_->take(nodes - kRowPadding, kRowPadding);
   for (Real** field : {&state_.mu, &state_.lambda, &state_.threshold}) *field = storage_->take(elements);
@@ -99,6 +100,12 @@ ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& s
                        &r.right_y, &r.below_x, &r.below_y, &r.excess, &r.sum_x[0], &r.sum_x[1], &r.sum_x[2],
                        &r.sum_y[0], &r.sum_y[1], &r.sum_y[2], &r.weight})
     *field = storage_->take(row - kRowPadding, kRowPadding);
+  if (settings.keep_ledger) {
+    state_.ledger = {.last_vx = storage_->take(nodes - kRowPadding, kRowPadding),
+                     .last_vy = storage_->take(nodes - kRowPadding, kRowPadding),
+                     .before_x = storage_->take(row - kRowPadding, kRowPadding),
+                     .before_y = storage_->take(row - kRowPadding, kRowPadding)};
+  }
   const double alpha = settings.gamma_per_s * settings.time_step_s;
   std::fill_n(r.weight + 1, grid.columns - 1, static_cast<Real>(alpha));
   state_.damping = settings.damping;
@@ -167,17 +174,22 @@ Result<StepReport> ExplicitSolver<Real>::step() {
   if (settings_.keep_ledger) {
     const double width = grid_.columns * h, height = grid_.rows * h;
     ledger_.work += report.top_stress_pa * width * settings_.strain_rate_per_s * height * dt;
-    ledger_.damped += 0.5 * settings_.density_kg_per_m3 * std::pow(h, 4) / (dt * dt) * state_.damped_energy;
+    ledger_.damped += 0.5 * settings_.density_kg_per_m3 * std::pow(h, 4) / (dt * dt) * state_.damping_work;
   }
   ++steps_;
   for (int i = 0; i < state_.failed_count; ++i)
     if (!(smallest_volume_ratio(state_.failed[i]) > 0.0)) return blow_up(state_.failed[i]);
   erase_failed();
-  if (steps_ % kCheckInterval == 0) {
-    const int inverted = kernel_->first_inverted(state_);
-    if (inverted >= 0) return blow_up(inverted);
-  }
+  if (steps_ % kCheckInterval == 0)
+    if (const Result<void> sound = check(); !sound) return tl::unexpected(sound.error());
   return report;
+}
+
+template <class Real>
+Result<void> ExplicitSolver<Real>::check() const {
+  const int inverted = kernel_->first_inverted(state_);
+  if (inverted >= 0) return blow_up(inverted);
+  return {};
 }
 
 template <class Real>
@@ -185,8 +197,8 @@ void ExplicitSolver<Real>::erase_failed() {
   for (int i = 0; i < state_.failed_count; ++i) {
     const int element = state_.failed[i];
     const int at = element / grid_.columns * state_.element_stride + element % grid_.columns;
-    if (settings_.keep_ledger)
-      ledger_.fractured += element_energy(element, false) * grid_.element_size_m * grid_.element_size_m;
+    // Its last forces acted over the step centred on where it was found: half of the step that followed belongs to it.
+    if (settings_.keep_ledger) ledger_.fractured += element_energy(element, 0.5);
     state_.mu[at] = state_.lambda[at] = Real{0};
     state_.threshold[at] = std::numeric_limits<Real>::infinity();
     grid_.phase[element] = Phase::empty;
@@ -246,16 +258,23 @@ void ExplicitSolver<Real>::set_node(int node, const Eigen::Vector2d& displacemen
   state_.vy[at] = static_cast<Real>(v.y() - state_.grip_step * row / grid_.rows);
 }
 
-/// Calls visit(H) with the displacement gradient at the four Gauss points of an element.
-template <class Real, class Visit>
-void visit_gradients(const ExplicitState<Real>& s, double strain, int element, const Visit& visit) {
+/// Calls visit(H) with the displacement gradient at the four Gauss points of an element, `steps_ago` (0 to 1) of the
+/// last step.
+template <class Real>
+template <class Visit>
+void ExplicitSolver<Real>::visit_gradients(int element, double steps_ago, const Visit& visit) const {
+  const ExplicitState<Real>& s = state_;
   const std::size_t at = static_cast<std::size_t>(element / s.columns) * s.stride + element % s.columns;
-  Eigen::Matrix<double, 2, 4> corners;
   const std::size_t offsets[4] = {at, at + 1, at + s.stride, at + s.stride + 1};
-  for (int corner = 0; corner < 4; ++corner) corners.col(corner) << s.qx[offsets[corner]], s.qy[offsets[corner]];
+  Eigen::Matrix<double, 2, 4> corners;
+  for (int corner = 0; corner < 4; ++corner) {
+    const std::size_t node = offsets[corner];
+    corners.col(corner) << s.qx[node] - steps_ago * s.vx[node], s.qy[node] - steps_ago * s.vy[node];
+  }
+  const double strain_then = strain() - steps_ago * settings_.strain_rate_per_s * settings_.time_step_s;
   for (int point = 0; point < 4; ++point) {
     Eigen::Matrix2d h = corners * shape_gradients(point);
-    h(1, 1) += strain;
+    h(1, 1) += strain_then;
     visit(h);
   }
 }
@@ -263,7 +282,7 @@ void visit_gradients(const ExplicitState<Real>& s, double strain, int element, c
 template <class Real>
 double ExplicitSolver<Real>::smallest_volume_ratio(int element) const {
   double smallest = std::numeric_limits<double>::infinity();
-  visit_gradients(state_, strain(), element, [&](const Eigen::Matrix2d& h) {
+  visit_gradients(element, 0.0, [&](const Eigen::Matrix2d& h) {
     const double ratio = 1.0 + material::volume_change(h);
     if (!(ratio >= smallest)) smallest = ratio;
   });
@@ -271,21 +290,23 @@ double ExplicitSolver<Real>::smallest_volume_ratio(int element) const {
 }
 
 template <class Real>
-double ExplicitSolver<Real>::element_energy(int element, bool largest) const {
+double ExplicitSolver<Real>::energy_density_j_per_m3(int element) const {
   if (is_empty(element)) return 0.0;
   const material::Lame lame = lame_of(grid_, element);
-  double sum = 0.0, most = 0.0;
-  visit_gradients(state_, strain(), element, [&](const Eigen::Matrix2d& h) {
-    const double energy = material::energy_density(h, lame);
-    sum += energy;
-    most = std::max(most, energy);
-  });
-  return largest ? most : 0.25 * sum;
+  double largest = 0.0;
+  visit_gradients(element, 0.0,
+                  [&](const Eigen::Matrix2d& h) { largest = std::max(largest, material::energy_density(h, lame)); });
+  return largest;
 }
 
 template <class Real>
-double ExplicitSolver<Real>::energy_density_j_per_m3(int element) const {
-  return element_energy(element, true);
+double ExplicitSolver<Real>::element_energy(int element, double steps_ago) const {
+  if (is_empty(element)) return 0.0;
+  const material::Lame lame = lame_of(grid_, element);
+  double mean = 0.0;
+  visit_gradients(element, steps_ago,
+                  [&](const Eigen::Matrix2d& h) { mean += 0.25 * material::energy_density(h, lame); });
+  return mean * grid_.element_size_m * grid_.element_size_m;
 }
 
 template <class Real>
@@ -299,8 +320,8 @@ double ExplicitSolver<Real>::kinetic_energy() const {
 template <class Real>
 double ExplicitSolver<Real>::stored_energy() const {
   double sum = 0.0;
-  for (int element = 0; element < grid_.element_count(); ++element) sum += element_energy(element, false);
-  return sum * grid_.element_size_m * grid_.element_size_m;
+  for (int element = 0; element < grid_.element_count(); ++element) sum += element_energy(element, 0.0);
+  return sum;
 }
 
 template <class Real>

@@ -82,6 +82,8 @@ class ExplicitSolver {
   /// Advances by one time step. Allocates nothing. Error: blow-up (J <= 0 or not a number in an element), with step and
   /// element; found at once when the element passes its threshold, else within 64 steps.
   Result<StepReport> step();
+  /// Looks for blow-up now, as step() does every 64 steps.
+  Result<void> check() const;
 
   std::int64_t steps() const { return steps_; }
   /// Nominal strain of the grips now.
@@ -108,7 +110,9 @@ class ExplicitSolver {
   tl::unexpected<Error> blow_up(int element) const;
   double kinetic_energy() const;
   double stored_energy() const;
-  double element_energy(int element, bool largest) const;
+  template <class Visit>
+  void visit_gradients(int element, double steps_ago, const Visit& visit) const;
+  double element_energy(int element, double steps_ago) const;
   double smallest_volume_ratio(int element) const;
   std::size_t node_offset(int node) const;
 

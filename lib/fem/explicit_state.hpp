@@ -39,6 +39,13 @@ struct ExplicitRows {
   Real* weight;                       ///< alpha of Eq. 2.4 for interior columns, 0 elsewhere
 };
 
+/// What only the ledger of energies needs: velocities of the last step, and of one row before damping.
+template <class Real>
+struct ExplicitLedgerRows {
+  Real *last_vx, *last_vy;
+  Real *before_x, *before_y;
+};
+
 template <class Real>
 struct ExplicitState {
   int columns, rows;
@@ -47,13 +54,15 @@ struct ExplicitState {
   Real *qx, *qy, *vx, *vy;
   Real *mu, *lambda, *threshold;
   ExplicitRows<Real> row;
+  ExplicitLedgerRows<Real> ledger;  ///< null without a ledger
   Damping damping;
   Real decay;        ///< exp(-gamma dt) of Eq. 2.5
   Real strain;       ///< nominal strain of the grips at this step
   double grip_step;  ///< displacement of the upper grip per step, elements; only for the ledger
   // Results of the step.
   double top_force, bottom_force;  ///< vertical reactions, in rho h^3 / dt^2 per unit thickness, tension positive
-  double damped_energy;  ///< sum over nodes of (v^2 before - v^2 after damping), laboratory frame; ledger only
+  double damping_work;   ///< sum over nodes of 2 x energy taken by damping, laboratory frame, elements^2/step^2; ledger
+                         ///< only
   std::int32_t* failed;  ///< elements whose energy density passed the threshold in this step
   int failed_count;
 };
@@ -63,7 +72,7 @@ template <class Real>
 struct ExplicitKernel {
   /// Forces, failure, velocities, damping, displacements: one step.
   void (*advance)(ExplicitState<Real>&);
-  /// The same with damped_energy accumulated.
+  /// The same with damping_work accumulated.
   void (*advance_with_ledger)(ExplicitState<Real>&);
   /// First element that is not empty and has J <= 0 or not a number at a quadrature point; -1 when there is none.
   int (*first_inverted)(const ExplicitState<Real>&);

@@ -3,6 +3,7 @@
 #include "material/neo_hookean.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
+#include "tester/modulus_explicit.hpp"
 #include "tester/tester.hpp"
 #include "tester/usable.hpp"
 #include "thesis/constants.hpp"
@@ -28,7 +29,10 @@ Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics&
   const SpecimenUnits units = modulus_units(simulation.fidelity);
   const fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions,
                                   AssemblyTarget::modulus, units.x, units.y, numerics.refinement);
-  if (numerics.explicit_modulus) return fail("modulus tester: explicit integration is not linked in");
+  if (numerics.explicit_modulus)
+    return explicit_modulus(grid, simulation.parameters.modulus.gamma_per_s).transform([](double e) {
+      return ModulusResult{e};
+    });
   const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
   if (!solution) return fail("modulus tester: {}", solution.error().message);
   return ModulusResult{solution->top_stress_pa / thesis::kModulusStrain};

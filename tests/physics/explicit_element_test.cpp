@@ -1,0 +1,162 @@
+// The explicit solver's elements against closed forms: no force where there is none, the neo-Hookean law to finite
+// strain, failure where the closed-form energy density reaches the threshold.
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "fem/explicit_solver.hpp"
+#include "material/neo_hookean.hpp"
+
+namespace nacre {
+namespace {
+
+constexpr double kYoung = 1e8, kPoisson = 0.35, kDensity = 1150.0, kElementSize = 260e-6;
+
+fem::Grid homogeneous_grid(int columns, int rows, double threshold = std::numeric_limits<double>::infinity()) {
+  const auto count = static_cast<std::size_t>(columns * rows);
+  return {.columns = columns,
+          .rows = rows,
+          .element_size_m = kElementSize,
+          .phase = std::vector<fem::Phase>(count, fem::Phase::rigid),
+          .young_pa = std::vector<double>(count, kYoung),
+          .poisson = std::vector<double>(count, kPoisson),
+          .threshold_j_per_m3 = std::vector<double>(count, threshold)};
+}
+
+double stable_step(const fem::Grid& grid) {
+  return 0.8 * grid.element_size_m / fem::fastest_wave_m_per_s(grid, kDensity);
+}
+
+/// Accelerations, m/s^2, of all nodes of a homogeneous grid under the displacement u = gradient X, over the
+/// acceleration E / (rho h) that a strain of order one would cause at a boundary; nodes are visited as (row, column,
+/// value).
+template <class Real, class Visit>
+void visit_accelerations(const Eigen::Matrix2d& gradient, const Visit& visit) {
+  const fem::Grid grid = homogeneous_grid(21, 13);
+  const double dt = stable_step(grid);
+  auto solver =
+      fem::ExplicitSolver<Real>::create(grid, {.density_kg_per_m3 = kDensity, .time_step_s = dt, .simd = {}}).value();
+  const auto node_of = [&](int row, int column) { return row * (grid.columns + 1) + column; };
+  for (int row = 0; row <= grid.rows; ++row)
+    for (int column = 0; column <= grid.columns; ++column)
+      solver.set_node(node_of(row, column), gradient * kElementSize * Eigen::Vector2d(column, row),
+                      Eigen::Vector2d::Zero());
+  ASSERT_TRUE(solver.step());
+  for (int row = 0; row <= grid.rows; ++row)
+    for (int column = 0; column <= grid.columns; ++column)
+      visit(row, column,
+            (solver.velocity_m_per_s(node_of(row, column)) / dt).norm() / (kYoung / (kDensity * kElementSize)));
+}
+
+Eigen::Matrix2d finite_gradient() {
+  Eigen::Matrix2d gradient;
+  gradient << -0.05, 0.12, 0.07, 0.25;
+  return gradient;
+}
+
+/// Rotation by 30 degrees, minus the unit matrix.
+Eigen::Matrix2d rotation_gradient() {
+  const double angle = std::numbers::pi / 6.0;
+  Eigen::Matrix2d gradient;
+  gradient << std::cos(angle) - 1.0, -std::sin(angle), std::sin(angle), std::cos(angle) - 1.0;
+  return gradient;
+}
+
+// Patch test: a uniform finite gradient leaves every inner node in equilibrium, to rounding of the displacements (some
+// 20 elements, each 1e-16 or 6e-8 of that).
+TEST(ExplicitElement, UniformGradientLeavesInnerNodesInEquilibrium) {
+  double largest_double = 0.0, largest_single = 0.0, at_boundary = 0.0;
+  const auto inner = [](int row, int column) { return row > 0 && row < 13 && column > 0 && column < 21; };
+  visit_accelerations<double>(finite_gradient(), [&](int row, int column, double value) {
+    double& largest = inner(row, column) ? largest_double : at_boundary;
+    largest = std::max(largest, value);
+  });
+  visit_accelerations<float>(finite_gradient(), [&](int row, int column, double value) {
+    if (inner(row, column)) largest_single = std::max(largest_single, value);
+  });
+  EXPECT_LT(largest_double, 1e-13);
+  EXPECT_LT(largest_single, 3e-5);
+  EXPECT_GT(at_boundary, 0.01) << "the gradient should load the boundary";
+}
+
+TEST(ExplicitElement, RigidRotationCausesNoForce) {
+  double largest_double = 0.0, largest_single = 0.0;
+  visit_accelerations<double>(rotation_gradient(),
+                              [&](int, int, double value) { largest_double = std::max(largest_double, value); });
+  visit_accelerations<float>(rotation_gradient(),
+                             [&](int, int, double value) { largest_single = std::max(largest_single, value); });
+  EXPECT_LT(largest_double, 1e-13);
+  EXPECT_LT(largest_single, 3e-5);
+}
+
+TEST(ExplicitElement, TranslationCausesNoForce) {
+  const fem::Grid grid = homogeneous_grid(9, 7);
+  auto solver = fem::ExplicitSolver<float>::create(
+                    grid, {.density_kg_per_m3 = kDensity, .time_step_s = stable_step(grid), .simd = {}})
+                    .value();
+  const Eigen::Vector2d shift(0.37e-3, 0.0);
+  for (int node = 0; node < 80; ++node) solver.set_node(node, shift, Eigen::Vector2d::Zero());
+  ASSERT_TRUE(solver.step());
+  for (int node = 0; node < 80; ++node) EXPECT_EQ(solver.velocity_m_per_s(node).norm(), 0.0) << node;
+}
+
+/// Pulls an unnotched homogeneous strip slowly (0.5 /s against a first resonance of some 1e4 /s), heavily damped.
+template <class Visit>
+void pull_strip(double threshold, double strain_limit, const Visit& visit) {
+  const fem::Grid grid = homogeneous_grid(8, 12, threshold);
+  const double dt = stable_step(grid);
+  auto solver = fem::ExplicitSolver<float>::create(grid, {.density_kg_per_m3 = kDensity,
+                                                          .time_step_s = dt,
+                                                          .strain_rate_per_s = 5.0,
+                                                          .gamma_per_s = 0.5 / dt,
+                                                          .simd = {}})
+                    .value();
+  while (solver.strain() < strain_limit) {
+    const Result<fem::StepReport> report = solver.step();
+    ASSERT_TRUE(report) << report.error().message;
+    if (!visit(*report)) return;
+  }
+}
+
+// Quasi-static to within the lateral inertia at 5 /s: 0.2 % of the stress, from strain 1 % to 40 %.
+TEST(ExplicitElement, HomogeneousStripFollowsTheClosedFormToFiniteStrain) {
+  const material::Lame lame = material::lame_from_engineering(kYoung, kPoisson);
+  double worst = 0.0;
+  int compared = 0;
+  pull_strip(std::numeric_limits<double>::infinity(), 0.4, [&](const fem::StepReport& report) {
+    if (report.strain < 0.01) return true;
+    const double expected = material::uniaxial_stress(report.strain, lame).nominal_stress_pa;
+    worst = std::max(worst, std::abs(report.stress_pa() / expected - 1.0));
+    ++compared;
+    return true;
+  });
+  EXPECT_GT(compared, 1000);
+  EXPECT_LT(worst, 2e-3);
+}
+
+/// Closed-form energy density of the homogeneous strip at a nominal strain, J/m^3.
+double uniaxial_energy(double strain, const material::Lame& lame) {
+  Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
+  h(0, 0) = material::uniaxial_stress(strain, lame).lateral_stretch - 1.0;
+  h(1, 1) = strain;
+  return material::energy_density(h, lame);
+}
+
+// The threshold is that of strain 0.2; failure must come within 0.3 % of that strain (lateral inertia again).
+TEST(ExplicitElement, HomogeneousStripBreaksWhereTheEnergyDensityReachesTheThreshold) {
+  const material::Lame lame = material::lame_from_engineering(kYoung, kPoisson);
+  for (const double failure_strain : {0.05, 0.2}) {
+    double first_failure = 0.0;
+    pull_strip(uniaxial_energy(failure_strain, lame), 0.3, [&](const fem::StepReport& report) {
+      first_failure = report.strain;
+      return report.failed == 0;
+    });
+    EXPECT_NEAR(first_failure, failure_strain, 3e-3 * failure_strain);
+  }
+}
+
+}  // namespace
+}  // namespace nacre
