@@ -86,15 +86,15 @@ material::ModulusParameters draw_modulus_parameters(std::uint64_t seed) {
 
 material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed) {
   // Inside Table A.2, around values for which notched microstructures absorb what Table A.4 reports.
-  return {.e_tb_pa = drawn(seed, "eta/e_tb_pa", 8e6, 30e6),
-          .e_vw_pa = drawn(seed, "eta/e_vw_pa", 400e6, 900e6),
-          .e_if_pa = drawn(seed, "eta/e_if_pa", 80e6, 250e6),
+  return {.e_tb_pa = drawn(seed, "eta/e_tb_pa", 15e6, 60e6),
+          .e_vw_pa = drawn(seed, "eta/e_vw_pa", 600e6, 980e6),
+          .e_if_pa = drawn(seed, "eta/e_if_pa", 150e6, 450e6),
           .nu_tb = drawn(seed, "eta/nu_tb", 0.42, 0.48),
           .nu_vw = drawn(seed, "eta/nu_vw", 0.25, 0.35),
           .nu_if = drawn(seed, "eta/nu_if", 0.32, 0.38),
-          .w_tb_j_per_m3 = drawn(seed, "eta/w_tb_j_per_m3", 0.2e6, 0.7e6),
-          .w_vw_j_per_m3 = drawn(seed, "eta/w_vw_j_per_m3", 1e6, 4e6),
-          .w_if_j_per_m3 = drawn(seed, "eta/w_if_j_per_m3", 1.5e6, 6e6),
+          .w_tb_j_per_m3 = drawn(seed, "eta/w_tb_j_per_m3", 0.35e6, 0.95e6),
+          .w_vw_j_per_m3 = drawn(seed, "eta/w_vw_j_per_m3", 2e6, 7e6),
+          .w_if_j_per_m3 = drawn(seed, "eta/w_if_j_per_m3", 3e6, 10e6),
           .gamma_per_s = drawn(seed, "eta/gamma_per_s", 2e5, 1e6)};
 }
 
