@@ -1,0 +1,129 @@
+#include "diagnosis/bootstrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Whitened projector off the anchor's coordinates: data rows, then the prior's rows.
+class Projector {
+ public:
+  Projector(const Fit& fit, const Eigen::VectorXd& variances) : fit_(fit), weight_(variances.cwiseSqrt().cwiseInverse()) {
+    const Eigen::Index n = fit.jacobian.rows();
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + kBaseCount, fit.jacobian.cols());
+    a.topRows(n) = weight_.asDiagonal() * fit.jacobian;
+    for (int i = 0; i < kBaseCount; ++i) a(n + i, i) = 1.0 / kPriorSd;
+    q_ = Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
+  }
+  /// Residual of data against the anchor, refitted.
+  Eigen::VectorXd residual(const Eigen::VectorXd& y) const {
+    Eigen::VectorXd b = extended(y - fit_.predicted);
+    for (int i = 0; i < kBaseCount; ++i) b[y.size() + i] = (0.5 - fit_.u[i]) / kPriorSd;
+    return off(b);
+  }
+  Eigen::VectorXd whitened(const Eigen::VectorXd& change) const { return extended(change); }
+  Eigen::VectorXd projected(const Eigen::VectorXd& change) const { return off(extended(change)); }
+
+ private:
+  Eigen::VectorXd extended(const Eigen::VectorXd& v) const {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(v.size() + kBaseCount);
+    b.head(v.size()) = weight_.cwiseProduct(v);
+    return b;
+  }
+  Eigen::VectorXd off(const Eigen::VectorXd& b) const { return b - q_ * (q_.transpose() * b); }
+  const Fit& fit_;
+  Eigen::VectorXd weight_;
+  Eigen::MatrixXd q_;
+};
+
+/// Chi-square variate with `dof` degrees of freedom.
+double chi_square(int dof, RandomStream& random) {
+  double sum = 0.0;
+  for (int i = 0; i < dof; ++i) sum += std::pow(random.normal(), 2);
+  return sum;
+}
+
+}  // namespace
+
+double DrawStatistics::largest_drop() const { return drops.empty() ? 0.0 : *std::max_element(drops.begin(), drops.end()); }
+
+double DrawStatistics::largest_contrast() const {
+  return contrasts.empty() ? 0.0 : *std::max_element(contrasts.begin(), contrasts.end());
+}
+
+NoisyData draw_data(const Eigen::VectorXd& truth, const Observations& observations, RandomStream& random) {
+  const Eigen::VectorXd deviations = observations.variances().cwiseSqrt();
+  NoisyData data{truth, {}};
+  for (Eigen::Index i = 0; i < truth.size(); ++i) data.log_moduli[i] += deviations[i] * random.normal();
+  const int dof = observations.replicate_dof;
+  const double variance = observations.replicate_sd * observations.replicate_sd;
+  data.variances = observations.variances(dof > 0 ? variance * chi_square(dof, random) / dof : variance);
+  return data;
+}
+
+DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
+  const Projector projector(anchor.fit, data.variances);
+  const Eigen::VectorXd residual = projector.residual(data.log_moduli);
+  DrawStatistics statistics;
+  statistics.chi2 = residual.squaredNorm();
+  for (const Signature& signature : anchor.signatures) {
+    double best = 0.0;
+    for (const Eigen::VectorXd& change : signature.changes) {
+      const Eigen::VectorXd g = projector.projected(change);
+      const double length = g.squaredNorm(), along = g.dot(residual);
+      if (length < 1e-12 || (signature.one_sided && along < 0.0)) continue;
+      best = std::max(best, along * along / length);
+    }
+    statistics.drops.push_back(best);
+  }
+  for (const ContrastDirection& direction : anchor.directions) {
+    // The direction is given in log E; whitened and projected it is the contrast that noise scatters with unit variance.
+    const Eigen::VectorXd g = projector.projected(direction.values);
+    const double length = g.norm();
+    // What the anchor imitates almost entirely says nothing about it.
+    const bool visible = length > 0.1 * projector.whitened(direction.values).norm();
+    statistics.contrasts.push_back(visible ? std::abs(g.dot(residual)) / length : 0.0);
+  }
+  return statistics;
+}
+
+std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count, std::uint64_t seed) {
+  std::vector<DrawStatistics> draws(static_cast<std::size_t>(count));
+  parallel_for(count, [&](int i) {
+    RandomStream random(seed, "anchor/" + std::to_string(i));
+    draws[static_cast<std::size_t>(i)] = anchor_statistics(anchor, draw_data(anchor.fit.predicted, observations, random));
+  });
+  return draws;
+}
+
+RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations, int count,
+                                std::uint64_t seed) {
+  RivalStatistics statistics{std::vector<double>(static_cast<std::size_t>(count)), std::vector<double>(static_cast<std::size_t>(count))};
+  parallel_for(count, [&](int i) {
+    RandomStream random(seed, "rival/" + std::to_string(truth) + "/" + std::to_string(i));
+    const NoisyData data = draw_data(rivals[truth].predicted, observations, random);
+    const double own = linear_refit(rivals[truth], data.log_moduli, data.variances);
+    double best_other = own;
+    for (std::size_t k = 0; k < rivals.size(); ++k) {
+      if (k != truth) best_other = std::min(best_other, linear_refit(rivals[k], data.log_moduli, data.variances));
+    }
+    statistics.chi2[static_cast<std::size_t>(i)] = own;
+    statistics.lead_of_best_other[static_cast<std::size_t>(i)] = own - best_other;
+  });
+  return statistics;
+}
+
+double exceedance(const std::vector<double>& draws, double observed) {
+  const auto larger = std::count_if(draws.begin(), draws.end(), [&](double draw) { return draw >= observed; });
+  return (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(draws.size()));
+}
+
+SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Eigen::VectorXd& variances) {
+  const Projector projector(anchor, variances);
+  return {projector.whitened(change).norm(), projector.projected(change).norm()};
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,73 @@
+#pragma once
+// Parametric bootstrap of the whole decision: data are drawn from a fitted model with the noise of the actual design (replicate
+// scatter re-estimated in every draw, numerics floor), and everything is refitted on linearised models.
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "base/random.hpp"
+#include "diagnosis/contrasts.hpp"
+#include "diagnosis/fit.hpp"
+
+namespace nacre::diagnosis {
+
+/// What adding one effect to an anchor model would change in log E, at several sizes of the effect.
+struct Signature {
+  std::string effect;
+  std::vector<Eigen::VectorXd> changes;  ///< one vector over the groups for each size
+  bool one_sided = false;                ///< the parameter cannot be negative
+};
+
+/// Statistics of one data set against an anchor model.
+struct DrawStatistics {
+  double chi2 = 0.0;                ///< of the anchor, refitted
+  std::vector<double> drops;        ///< by how much each signature lowers it
+  std::vector<double> contrasts;    ///< projected residual along each direction, in standard deviations
+  double largest_drop() const;
+  double largest_contrast() const;
+};
+
+/// An anchor model with the effects that may be added to it and the directions its residuals are looked at along.
+struct Anchor {
+  Fit fit;
+  std::vector<Signature> signatures;
+  std::vector<ContrastDirection> directions;
+};
+
+/// Data with their noise model: means of log E and the variances that these data themselves suggest.
+struct NoisyData {
+  Eigen::VectorXd log_moduli;
+  Eigen::VectorXd variances;
+};
+
+/// Draws data as if `truth` were exact.
+NoisyData draw_data(const Eigen::VectorXd& truth, const Observations& observations, RandomStream& random);
+
+/// Statistics of data against the anchor, by linear refits.
+DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data);
+
+/// `count` draws of the statistics when the anchor is true; the same for every number of cores.
+std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count, std::uint64_t seed);
+
+/// Statistics of rival models when `rivals[truth]` is true: chi2 of that rival, and by how much the best other one beats it.
+struct RivalStatistics {
+  std::vector<double> chi2;
+  std::vector<double> lead_of_best_other;
+};
+RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations, int count,
+                                std::uint64_t seed);
+
+/// (1 + number of draws at least as large) / (1 + draws).
+double exceedance(const std::vector<double>& draws, double observed);
+
+/// Norm of a signature after whitening, and after projection off what the anchor's coordinates can imitate.
+struct SignatureSize {
+  double whitened = 0.0;
+  double projected = 0.0;
+  /// Share that the anchor imitates: 1 - projected^2 / whitened^2.
+  double absorption() const { return whitened > 0.0 ? 1.0 - projected * projected / (whitened * whitened) : 1.0; }
+};
+SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Eigen::VectorXd& variances);
+
+}  // namespace nacre::diagnosis

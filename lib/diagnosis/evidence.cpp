@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/verdict.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is needed.
+constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
+
+std::vector<std::string> modulus_effects() {
+  std::vector<std::string> names;
+  for (const material::Effect& effect : material::effect_library()) {
+    if (effect.acts_on_modulus) names.emplace_back(effect.name);
+  }
+  return names;
+}
+
+/// The model with `added` after the effects of `fit`, at the same coordinates and with the added parameters at zero.
+Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
+  u.head(fit.u.size()) = fit.u;
+  return u;
+}
+
+/// Start for a joint fit: the size of the effect whose signature lowers the misfit most.
+Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
+  const CoordinateMap map(std::vector<std::string>{evidence.effects[effect]});
+  const Eigen::VectorXd y = evidence.observations.log_moduli(), variances = evidence.observations.variances();
+  Eigen::VectorXd best = widened_start(evidence.base.fit, map);
+  double least = evidence.base.fit.chi2;
+  std::size_t index = 0;
+  const Signature& signature = evidence.base.signatures[effect];
+  for (const double sign : {1.0, -1.0}) {
+    if (sign < 0.0 && signature.one_sided) continue;
+    for (const double size : kSizes) {
+      Fit shifted = evidence.base.fit;
+      shifted.predicted += signature.changes[index++];
+      Eigen::VectorXd step;
+      const double chi2 = linear_refit(shifted, y, variances, &step);
+      if (chi2 >= least) continue;
+      least = chi2;
+      best = widened_start(evidence.base.fit, map);
+      best.head(kBaseCount) += step.head(kBaseCount);
+      best[kBaseCount] = sign * size;
+    }
+  }
+  // A start at exactly zero may be a stationary point of an effect that begins quadratically.
+  if (best[kBaseCount] == 0.0) best[kBaseCount] = kSizes[0];
+  return best;
+}
+
+}  // namespace
+
+std::vector<Signature> signatures_on(const ModulusModel& model, const Fit& anchor, const std::vector<std::string>& effects) {
+  std::vector<Signature> signatures;
+  for (const std::string& effect : effects) {
+    std::vector<std::string> names = anchor.effects;
+    names.push_back(effect);
+    const CoordinateMap map(names);
+    const int own = static_cast<int>(anchor.u.size());
+    Signature signature{effect, {}, map.lower(own) >= 0.0};
+    std::vector<material::ParameterSet> sets;
+    for (const double sign : {1.0, -1.0}) {
+      if (sign < 0.0 && signature.one_sided) continue;
+      for (const double size : kSizes) {
+        Eigen::VectorXd u = widened_start(anchor, map);
+        u[own] = sign * size;
+        sets.push_back(map.parameters(u));
+      }
+    }
+    const Eigen::MatrixXd predicted = model.predict(sets);
+    for (Eigen::Index i = 0; i < predicted.cols(); ++i) signature.changes.emplace_back(predicted.col(i) - anchor.predicted);
+    signatures.push_back(std::move(signature));
+  }
+  return signatures;
+}
+
+Evidence gather_evidence(const ModulusModel& model, const Observations& observations, const DiagnosisSettings& settings) {
+  const auto report = [&](double share, std::string_view phase) {
+    if (settings.progress) settings.progress(share, phase);
+  };
+  Evidence evidence{model, observations, settings, {}, modulus_effects(), {}, {}, {}};
+  report(0.0, "fitting the base model");
+  const CoordinateMap map(std::span<const std::string>{});
+  evidence.base.fit = fit_model(model, observations, {}, map.coordinates(settings.start.modulus));
+  report(0.2, "signatures of the effects");
+  evidence.base.signatures = signatures_on(model, evidence.base.fit, evidence.effects);
+  evidence.base.directions = contrast_directions(observations, evidence.base.fit.predicted);
+  for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
+    report(0.35 + 0.35 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()), "fitting base and " + evidence.effects[k]);
+    evidence.singles.push_back(fit_model(model, observations, {evidence.effects[k]}, best_start(evidence, k)));
+  }
+  report(0.7, "bootstrap of the base model");
+  evidence.base_statistics = anchor_statistics(evidence.base, {observations.log_moduli(), observations.variances()});
+  evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
+  return evidence;
+}
+
+}  // namespace nacre::diagnosis

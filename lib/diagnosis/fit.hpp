@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "diagnosis/model.hpp"
+
+namespace nacre::diagnosis {
+
+/// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a wide
+/// Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
+struct Fit {
+  std::vector<std::string> effects;  ///< extensions fitted with the base; empty: the base model
+  Eigen::VectorXd u;                 ///< coordinates of the optimum (CoordinateMap)
+  material::ParameterSet parameters;
+  Eigen::VectorXd predicted;         ///< log E per group
+  Eigen::MatrixXd jacobian;          ///< groups x coordinates
+  double chi2 = 0.0;                 ///< weighted sum of squares, prior included
+  bool extension_on_bound = false;   ///< an extension parameter ended on a bound of its range (zero does not count)
+  /// Covariance of the coordinates for group variances `variances`.
+  Eigen::MatrixXd covariance(const Eigen::VectorXd& variances) const;
+};
+
+/// Standard deviation of the prior, in widths of the widened range.
+inline constexpr double kPriorSd = 0.5;
+
+/// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1) x groups
+/// modulus tests an iteration.
+Fit fit_model(const ModulusModel& model, const Observations& observations, const std::vector<std::string>& effects,
+              const Eigen::VectorXd& start);
+
+/// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
+/// |y - predicted - J delta|^2 / variances + prior. `delta` returns the minimiser when wanted.
+double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Eigen::VectorXd& variances, Eigen::VectorXd* delta = nullptr);
+
+}  // namespace nacre::diagnosis

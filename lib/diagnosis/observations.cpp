@@ -1,0 +1,76 @@
+#include "diagnosis/observations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
+constexpr double kAssumedReplicateSd = 0.02;
+
+using GroupKey = std::tuple<std::string, double, double, double>;
+
+GroupKey key_of(const measurement::SpecimenRecord& specimen) {
+  const tester::TestConditions& c = specimen.conditions;
+  return {specimen.design.name(), c.orientation_deg, c.strain_rate_per_s, c.thickness_mm};
+}
+
+/// Means one group; `squares` and `dof` collect the scatter within groups.
+Observation mean_of(const std::vector<const measurement::SpecimenRecord*>& replicates, double& squares, int& dof) {
+  Observation group;
+  group.design = replicates.front()->design;
+  group.conditions = replicates.front()->conditions;
+  group.batch = replicates.front()->batch;
+  group.replicates = static_cast<int>(replicates.size());
+  for (const auto* specimen : replicates) {
+    group.log_modulus += std::log(*specimen->modulus_pa) / group.replicates;
+    group.print_order += static_cast<double>(specimen->print_order) / group.replicates;
+    if (specimen->batch != group.batch) group.batch.clear();
+  }
+  for (const auto* specimen : replicates) squares += std::pow(std::log(*specimen->modulus_pa) - group.log_modulus, 2);
+  dof += group.replicates - 1;
+  return group;
+}
+
+}  // namespace
+
+Eigen::VectorXd Observations::log_moduli() const {
+  Eigen::VectorXd y(size());
+  for (int i = 0; i < size(); ++i) y[i] = groups[static_cast<std::size_t>(i)].log_modulus;
+  return y;
+}
+
+Eigen::VectorXd Observations::variances(double replicate_variance) const {
+  Eigen::VectorXd v(size());
+  for (int i = 0; i < size(); ++i) {
+    const Observation& group = groups[static_cast<std::size_t>(i)];
+    // Homogeneous coupons are computed in closed form: no discretisation, no floor.
+    const double floor = group.design.layout() ? numerics_sd * numerics_sd : 0.0;
+    v[i] = replicate_variance / group.replicates + floor;
+  }
+  return v;
+}
+
+Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd) {
+  // Replicates in the order of their names: the same bits whatever the order of arrival.
+  std::map<GroupKey, std::map<std::string, const measurement::SpecimenRecord*>> by_group;
+  for (const measurement::SpecimenRecord& specimen : specimens) {
+    if (!specimen.valid || !specimen.modulus_pa || specimen.test != tester::TestKind::modulus) continue;
+    by_group[key_of(specimen)].emplace(specimen.specimen, &specimen);
+  }
+  Observations observations;
+  observations.numerics_sd = numerics_sd;
+  double squares = 0.0;
+  for (const auto& [key, named] : by_group) {
+    std::vector<const measurement::SpecimenRecord*> replicates;
+    for (const auto& [name, specimen] : named) replicates.push_back(specimen);
+    observations.groups.push_back(mean_of(replicates, squares, observations.replicate_dof));
+  }
+  observations.replicate_sd = observations.replicate_dof > 0 ? std::sqrt(squares / observations.replicate_dof) : kAssumedReplicateSd;
+  return observations;
+}
+
+}  // namespace nacre::diagnosis

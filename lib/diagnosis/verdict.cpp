@@ -1,0 +1,145 @@
+#include "diagnosis/verdict.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nacre::diagnosis {
+namespace {
+
+/// A rival leaves the set only when data from it would so seldom look like ours.
+constexpr double kExclusionLevel = 0.005;
+
+template <class Value>
+std::vector<double> over_draws(const std::vector<DrawStatistics>& draws, Value value) {
+  std::vector<double> values;
+  for (const DrawStatistics& draw : draws) values.push_back(value(draw));
+  return values;
+}
+
+/// Contrasts of the base model's residuals with family-wise chances, strongest first.
+std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
+  const std::vector<double> largest = over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_contrast(); });
+  std::vector<Contrast> contrasts;
+  for (std::size_t i = 0; i < evidence.base.directions.size(); ++i) {
+    const double statistic = evidence.base_statistics.contrasts[i];
+    contrasts.push_back({evidence.base.directions[i].name, statistic, exceedance(largest, statistic)});
+  }
+  std::stable_sort(contrasts.begin(), contrasts.end(), [](const Contrast& a, const Contrast& b) { return a.statistic > b.statistic; });
+  return contrasts;
+}
+
+/// Chance of a misfit as large as this model leaves when it is true: the smaller of the omnibus and the contrast test, doubled
+/// because there are two of them.
+double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
+  const Anchor anchor{fit, {}, contrast_directions(evidence.observations, fit.predicted)};
+  const std::vector<DrawStatistics> draws = bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
+  const double omnibus = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.chi2; }), fit.chi2);
+  const DrawStatistics own = anchor_statistics(anchor, {evidence.observations.log_moduli(), evidence.observations.variances()});
+  const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }), own.largest_contrast());
+  return std::min(1.0, 2.0 * std::min(omnibus, contrast));
+}
+
+bool usable(const Fit& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
+
+/// Models that the data cannot tell from the best one: each fits by itself, and data drawn from it would let another model win by
+/// as much as was seen often enough.
+std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals, const std::vector<double>& p_fit) {
+  const double least = std::min_element(rivals.begin(), rivals.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; })->chi2;
+  std::vector<Fit> kept;
+  for (std::size_t k = 0; k < rivals.size(); ++k) {
+    if (!usable(rivals[k], p_fit[k], kExclusionLevel)) continue;
+    if (rivals[k].chi2 > least) {
+      const RivalStatistics draws = bootstrap_rival(rivals, k, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
+      if (exceedance(draws.lead_of_best_other, rivals[k].chi2 - least) < kExclusionLevel) continue;
+    }
+    kept.push_back(rivals[k]);
+  }
+  std::stable_sort(kept.begin(), kept.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  return kept;
+}
+
+/// Pairs that contain the best single effect, where the second effect earns its place on top of the first.
+std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) {
+  std::vector<std::string> others;
+  for (const std::string& effect : evidence.effects) {
+    if (effect != single.effects.front()) others.push_back(effect);
+  }
+  const Anchor anchor{single, signatures_on(evidence.model, single, others), {}};
+  const std::vector<double> largest = over_draws(bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 3),
+                                                 [](const DrawStatistics& d) { return d.largest_drop(); });
+  std::vector<Fit> pairs;
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const CoordinateMap map(std::vector<std::string>{single.effects.front(), others[k]});
+    Eigen::VectorXd start = Eigen::VectorXd::Zero(map.size());
+    start.head(single.u.size()) = single.u;
+    start[single.u.size()] = 0.1;
+    Fit pair = fit_model(evidence.model, evidence.observations, map.effects(), start);
+    if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::string reason) {
+  decision.verdict = Verdict::unexplained;
+  decision.reason = std::move(reason);
+  if (!tried.empty()) {
+    decision.partial = *std::min_element(tried.begin(), tried.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  }
+  return decision;
+}
+
+/// Names one, or keeps several: `possible` is not empty.
+Decision settled(Decision decision, std::vector<Fit> possible, std::string reason) {
+  decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
+  decision.possible = std::move(possible);
+  decision.reason = std::move(reason);
+  return decision;
+}
+
+}  // namespace
+
+Decision decide(const Evidence& evidence) {
+  const auto report = [&](double share, std::string_view phase) {
+    if (evidence.settings.progress) evidence.settings.progress(share, phase);
+  };
+  Decision decision;
+  decision.contrasts = judged_contrasts(evidence);
+  const std::vector<double> largest_drops = over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_drop(); });
+  const double omnibus = exceedance(over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.chi2; }), evidence.base.fit.chi2);
+  const double contrast = decision.contrasts.empty() ? 1.0 : decision.contrasts.front().p_family_wise;
+  decision.p_misfit = std::min(1.0, 2.0 * std::min(omnibus, contrast));
+  for (const Fit& single : evidence.singles) {
+    decision.p_family_wise.push_back(exceedance(largest_drops, evidence.base.fit.chi2 - single.chi2));
+    decision.p_fit.push_back(1.0);
+  }
+  const double best_p = decision.p_family_wise.empty() ? 1.0 : *std::min_element(decision.p_family_wise.begin(), decision.p_family_wise.end());
+  if (best_p > evidence.settings.name_level) {
+    if (decision.p_misfit >= evidence.settings.unexplained_level) {
+      decision.reason = "no effect improves the fit beyond chance and the residuals look like noise";
+      return decision;
+    }
+    return unexplained(std::move(decision), evidence.singles, "the residuals are larger than noise, but no effect of the library explains them");
+  }
+  report(0.8, "testing what each effect leaves");
+  for (std::size_t k = 0; k < evidence.singles.size(); ++k) decision.p_fit[k] = chance_of_misfit(evidence, evidence.singles[k]);
+  const std::size_t best = static_cast<std::size_t>(
+      std::min_element(evidence.singles.begin(), evidence.singles.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; }) - evidence.singles.begin());
+  if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
+    report(0.85, "comparing rival effects");
+    return settled(std::move(decision), confidence_set(evidence, evidence.singles, decision.p_fit), "one effect fitted jointly with the base explains the data");
+  }
+  report(0.9, "fitting pairs of effects");
+  std::vector<Fit> pairs = significant_pairs(evidence, evidence.singles[best]);
+  std::vector<double> pair_p;
+  for (const Fit& pair : pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
+  const bool some_pair_fits = std::any_of(pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.unexplained_level; });
+  std::vector<Fit> possible = some_pair_fits ? confidence_set(evidence, pairs, pair_p) : std::vector<Fit>{};
+  if (possible.empty()) {
+    std::vector<Fit> tried = evidence.singles;
+    tried.insert(tried.end(), pairs.begin(), pairs.end());
+    return unexplained(std::move(decision), tried, "even the best effects of the library leave a misfit larger than noise");
+  }
+  return settled(std::move(decision), std::move(possible), "no single effect suffices; two together explain the data");
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/bootstrap.hpp"
+#include "diagnosis/diagnosis.hpp"
+
+namespace nacre::diagnosis {
+
+/// Everything the decision rests on: the base model, every effect (and pair, when needed) fitted jointly with it.
+struct Evidence {
+  const ModulusModel& model;
+  const Observations& observations;
+  const DiagnosisSettings& settings;
+  Anchor base;
+  std::vector<std::string> effects;  ///< candidates, in the order of the library
+  std::vector<Fit> singles;          ///< one per effect
+  DrawStatistics base_statistics;
+  std::vector<DrawStatistics> base_draws;
+};
+
+/// What was decided: models that stay possible, the best first; empty with `base_sufficient` and `unexplained`.
+struct Decision {
+  Verdict verdict = Verdict::base_sufficient;
+  std::vector<Fit> possible;
+  std::optional<Fit> partial;           ///< best model of an unexplained misfit
+  std::vector<double> p_fit;            ///< per effect: chance of a misfit as large when base + effect is true; 1 when not tested
+  std::vector<double> p_family_wise;    ///< per effect
+  double p_misfit = 1.0;
+  std::vector<Contrast> contrasts;      ///< of the base model's residuals, strongest first
+  std::string reason;                   ///< the step that decided, in words
+};
+
+/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure.
+Evidence gather_evidence(const ModulusModel& model, const Observations& observations, const DiagnosisSettings& settings);
+
+/// Signatures of every effect on top of a fitted model, at several sizes each.
+std::vector<Signature> signatures_on(const ModulusModel& model, const Fit& anchor, const std::vector<std::string>& effects);
+
+/// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits.
+Decision decide(const Evidence& evidence);
+
+}  // namespace nacre::diagnosis

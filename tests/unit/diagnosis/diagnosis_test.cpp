@@ -1,0 +1,71 @@
+// The diagnosis on data of the tester's own numerics. (tests/blind does the same against the virtual laboratory.)
+
+#include "diagnosis/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/result.hpp"
+#include "synthetic_set.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+Diagnosis diagnose_truth(const material::ParameterSet& truth, std::uint64_t seed = 1) {
+  SyntheticSet set;
+  set.seed = seed;
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.seed = seed;
+  return diagnose_modulus(synthetic_specimens(set, truth), settings);
+}
+
+Diagnosis diagnose_effect(const std::string& name, double value) {
+  material::ParameterSet truth = synthetic_truth();
+  truth.extensions[name] = {value};
+  return diagnose_truth(truth);
+}
+
+void expect_named(const Diagnosis& diagnosis, const std::string& name, double value, double tolerance) {
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  ASSERT_EQ(diagnosis.effects.size(), 1u) << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects[0].name, name);
+  EXPECT_NEAR(diagnosis.effects[0].parameter, value, tolerance);
+  ASSERT_TRUE(diagnosis.gain);
+  EXPECT_LT(diagnosis.gain->held_out_error_after, diagnosis.gain->held_out_error_before);
+}
+
+TEST(Diagnosis, DataOfTheBaseModelAreBaseSufficient) {
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const Diagnosis diagnosis = diagnose_truth(synthetic_truth(), seed);
+    EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
+    EXPECT_TRUE(diagnosis.effects.empty());
+    EXPECT_FALSE(diagnosis.gain);
+  }
+}
+
+TEST(Diagnosis, InterfaceAnisotropyIsNamed) { expect_named(diagnose_effect("interface_anisotropy", 0.25), "interface_anisotropy", 0.25, 0.08); }
+
+TEST(Diagnosis, DropletMixingIsNamed) { expect_named(diagnose_effect("droplet_mixing", 1.0), "droplet_mixing", 1.0, 0.3); }
+
+TEST(Diagnosis, MachineComplianceIsNamed) { expect_named(diagnose_effect("machine_compliance", 2e-10), "machine_compliance", 2e-10, 0.6e-10); }
+
+TEST(Diagnosis, TheJsonHasTheFieldsOfTheFormat) {
+  const auto document = nlohmann::json::parse(to_json(diagnose_effect("interface_anisotropy", 0.25)));
+  for (const char* field : {"verdict", "effects", "candidates", "contrasts", "gain", "next_experiments"}) EXPECT_TRUE(document.contains(field)) << field;
+  EXPECT_EQ(document["candidates"].size(), 3u);
+  for (const char* field : {"name", "status", "statistic", "p_family_wise", "absorption"}) EXPECT_TRUE(document["candidates"][0].contains(field)) << field;
+}
+
+TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {
+  SyntheticSet set;
+  set.patterns = 3;
+  set.twins = 0;
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  EXPECT_THROW(diagnose_modulus(synthetic_specimens(set, synthetic_truth()), settings), InputError);
+}
+
+}  // namespace
+}  // namespace nacre::diagnosis
