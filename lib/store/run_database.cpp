@@ -1,0 +1,176 @@
+#include "store/run_database.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <vector>
+
+#include "base/result.hpp"
+#include "store/run_schema.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::store {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError::format("{} cannot be used: {}. It is made from the analyser's journal: move it away and start the run again with --resume", path.string(), reason);
+}
+
+/// Binds values in order and runs the statement.
+template <class... Values>
+void run(SQLite::Database& database, const char* sql, const Values&... values) {
+  SQLite::Statement statement(database, sql);
+  int index = 0;
+  const auto bind = [&](const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    ++index;
+    if constexpr (std::is_same_v<Value, std::optional<double>>) {
+      value ? statement.bind(index, *value) : statement.bind(index);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      statement.bind(index, value ? 1 : 0);
+    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+      statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()), static_cast<int>(value.size() * sizeof(double)));
+    } else if constexpr (std::is_same_v<Value, std::string_view>) {
+      statement.bind(index, std::string(value));
+    } else {
+      statement.bind(index, value);
+    }
+  };
+  (bind(values), ...);
+  statement.exec();
+}
+
+std::vector<double> packed(const tester::Curve& curve) {
+  std::vector<double> pairs;
+  for (std::size_t i = 0; i < curve.size(); ++i) pairs.insert(pairs.end(), {curve.strain[i], curve.stress_pa[i]});
+  return pairs;
+}
+
+void keep(SQLite::Database& db, const wire::RoundSummary& r) {
+  run(db, "INSERT OR REPLACE INTO round VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)", r.round, tester::to_string(r.fidelity), r.calibration_count,
+      r.measured_hypervolume_staircase, r.measured_hypervolume_polygon, r.gamut_hypervolume_staircase, r.gamut_hypervolume_polygon, r.gap, r.signed_gap,
+      r.hypervolume_error, r.equilibrium, r.last, r.decided_by);
+  const auto errors = [&](std::string_view moment, const sysid::PredictionErrors& e) {
+    run(db, "INSERT OR REPLACE INTO prediction_error VALUES (?,?,?,?,?,?,?,?,?)", r.round, moment, e.modulus_count, e.modulus_mean, e.modulus_max,
+        e.toughness_count, e.toughness_mean, e.toughness_max, e.toughness_spearman);
+  };
+  errors("before", r.before);
+  errors("after", r.after);
+  errors("held_out", r.held_out);
+}
+
+void keep(SQLite::Database& db, const wire::AdoptedModel& m) {
+  const auto parameter = [&](const std::string& name, double value) { run(db, "INSERT OR REPLACE INTO parameter VALUES (?,?,?)", m.round, name, value); };
+  const auto theta = to_vector(m.parameters.modulus);
+  for (std::size_t i = 0; i < theta.size(); ++i) parameter("modulus." + std::string(material::modulus_parameter_names()[i]), theta[i]);
+  const auto eta = to_vector(m.parameters.toughness);
+  for (std::size_t i = 0; i < eta.size(); ++i) parameter("toughness." + std::string(material::toughness_parameter_names()[i]), eta[i]);
+  for (const auto& [name, values] : m.parameters.extensions) {
+    for (std::size_t i = 0; i < values.size(); ++i) parameter(fmt::format("extension.{}{}", name, values.size() > 1 ? fmt::format(".{}", i) : ""), values[i]);
+  }
+  for (std::size_t i = 0; i < m.benchmark.size(); ++i) {
+    run(db, "INSERT OR REPLACE INTO benchmark VALUES (?,?,?,?)", m.round, static_cast<int>(i), m.benchmark[i].modulus_pa, m.benchmark[i].toughness_pa);
+  }
+}
+
+void keep(SQLite::Database& db, const wire::GamutChunk& g) {
+  for (const explore::Evaluated& sample : g.samples) {
+    run(db, "INSERT OR REPLACE INTO gamut VALUES (?,?,?,?)", g.round, sample.pattern.key(), sample.performance.modulus_pa, sample.performance.toughness_pa);
+  }
+}
+
+void keep(SQLite::Database& db, const wire::Proposal& p) {
+  for (std::size_t i = 0; i < p.designs.size(); ++i) {
+    const wire::ProposedDesign& d = p.designs[i];
+    run(db, "INSERT OR REPLACE INTO proposal VALUES (?,?,?,?,?,?,?)", p.round, d.design.name(), static_cast<int>(i), d.modulus_pa, d.toughness_pa, d.bin, d.reason);
+  }
+}
+
+void keep(SQLite::Database& db, const wire::Measurement& m) {
+  const measurement::SpecimenRecord& r = m.record;
+  // The first report of a specimen stands: a different one with the same name is refused by the validation agent, too.
+  run(db, "INSERT OR IGNORE INTO measurement VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", r.specimen, m.round, m.order_id, r.design.name(), tester::to_string(r.test),
+      r.conditions.orientation_deg, r.conditions.strain_rate_per_s, r.conditions.thickness_mm, r.batch, r.print_order, r.modulus_pa, r.toughness_pa, r.valid, r.note,
+      packed(r.curve));
+}
+
+void keep(SQLite::Database& db, const review_t& r) {
+  run(db, "INSERT OR REPLACE INTO review VALUES (?,?,?,?,?)", r.specimen, r.revision, r.valid != 0, r.by, r.why);
+}
+
+void keep(SQLite::Database& db, const diagnosis_t& d) {
+  const auto when_gained = [&](double value) { return d.has_gain ? std::optional<double>(value) : std::nullopt; };
+  run(db, "INSERT OR REPLACE INTO diagnosis VALUES (?,?,?,?,?,?)", d.round, d.verdict, d.summary, when_gained(d.held_out_error_before),
+      when_gained(d.held_out_error_after), when_gained(d.relative_reduction));
+  for (const effect_t& e : d.effects) {
+    run(db, "INSERT OR REPLACE INTO diagnosis_effect VALUES (?,?,?,?,?,?)", d.round, e.name, e.parameter, e.interval_low, e.interval_high, e.unit);
+  }
+  for (const candidate_t& c : d.candidates) {
+    run(db, "INSERT OR REPLACE INTO diagnosis_candidate VALUES (?,?,?,?,?,?)", d.round, c.name, c.status, c.statistic, c.p_family_wise, c.absorption);
+  }
+}
+
+/// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured designs.
+void keep(SQLite::Database& db, const wire::SimulateResult& s) {
+  int round = 0;
+  if (std::sscanf(s.request_id.c_str(), "analyser/r%d/measured", &round) != 1) return;
+  for (const wire::SimulatedDesign& d : s.results) {
+    run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", round, d.design.name(), d.modulus_pa, d.toughness_pa, d.failure, packed(d.curve));
+  }
+}
+
+template <class Domain>
+void keep_domain(SQLite::Database& db, const std::string& payload) {
+  if (const auto value = wire::read<Domain>(payload)) keep(db, *value);
+}
+
+template <class Message>
+void keep_message(SQLite::Database& db, const std::string& payload) {
+  const auto message = wire::decode_safe<Message>(payload);
+  if (message && wire::validate(*message)) keep(db, *message);
+}
+
+void keep_payload(SQLite::Database& db, const std::string& channel, const std::string& payload) {
+  if (channel == "ROUND") keep_domain<wire::RoundSummary>(db, payload);
+  if (channel == "PARAMETERS") keep_domain<wire::AdoptedModel>(db, payload);
+  if (channel == "GAMUT") keep_domain<wire::GamutChunk>(db, payload);
+  if (channel == "PROPOSAL") keep_domain<wire::Proposal>(db, payload);
+  if (channel == "MEASUREMENT") keep_domain<wire::Measurement>(db, payload);
+  if (channel == "SIMULATED") keep_domain<wire::SimulateResult>(db, payload);
+  if (channel == "REVIEW") keep_message<review_t>(db, payload);
+  if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);
+}
+
+}  // namespace
+
+RunDatabase::RunDatabase(const std::filesystem::path& path) : path_(path) {
+  try {
+    database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 30'000);
+    database_->exec("PRAGMA journal_mode = WAL");
+    const int version = database_->execAndGet("PRAGMA user_version").getInt();
+    if (version == 0) {
+      SQLite::Transaction transaction(*database_);
+      database_->exec(kRunSchema);
+      database_->exec("PRAGMA user_version = " + std::to_string(kRunSchemaVersion));
+      transaction.commit();
+    } else if (version != kRunSchemaVersion) {
+      refuse(path_, fmt::format("it has schema version {}, this program writes {}", version, kRunSchemaVersion));
+    }
+  } catch (const SQLite::Exception& error) {
+    refuse(path_, error.what());
+  }
+}
+
+RunDatabase::~RunDatabase() = default;
+
+void RunDatabase::project(const std::string& channel, const std::string& payload) {
+  const std::lock_guard lock(mutex_);
+  try {
+    SQLite::Transaction transaction(*database_);
+    keep_payload(*database_, channel, payload);
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
+    refuse(path_, error.what());
+  }
+}
+
+}  // namespace nacre::store

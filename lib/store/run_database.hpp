@@ -1,0 +1,32 @@
+#pragma once
+// logs/RUN/run.db: the messages of a run as tables, for reports and for any SQLite tool. A projection: it can always be made anew
+// from the analyser's journal. Written by the analyser alone.
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace SQLite {
+class Database;
+}
+
+namespace nacre::store {
+
+class RunDatabase {
+ public:
+  /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it.
+  explicit RunDatabase(const std::filesystem::path& path);
+  ~RunDatabase();
+
+  /// Takes one message of the run (payload without header). The same message twice changes nothing; channels that are not kept, and
+  /// payloads that do not decode, are ignored. Throws InputError when the file cannot be written.
+  void project(const std::string& channel, const std::string& payload);
+
+ private:
+  std::filesystem::path path_;
+  std::mutex mutex_;
+  std::unique_ptr<SQLite::Database> database_;
+};
+
+}  // namespace nacre::store

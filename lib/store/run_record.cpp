@@ -1,0 +1,152 @@
+#include "store/run_record.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <cstring>
+
+#include "base/result.hpp"
+
+namespace nacre::store {
+namespace {
+
+std::optional<double> optional_double(const SQLite::Column& column) {
+  return column.isNull() ? std::nullopt : std::optional<double>(column.getDouble());
+}
+
+tester::Curve unpacked(const SQLite::Column& column) {
+  std::vector<double> pairs(static_cast<std::size_t>(column.getBytes()) / sizeof(double));
+  if (!pairs.empty()) std::memcpy(pairs.data(), column.getBlob(), pairs.size() * sizeof(double));
+  tester::Curve curve;
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+    curve.strain.push_back(pairs[i]);
+    curve.stress_pa.push_back(pairs[i + 1]);
+  }
+  return curve;
+}
+
+/// Calls `use` for every row of a query.
+template <class Use>
+void each_row(SQLite::Database& db, const char* sql, const Use& use) {
+  SQLite::Statement query(db, sql);
+  while (query.executeStep()) use(query);
+}
+
+sysid::PredictionErrors errors_of(SQLite::Statement& q) {
+  return {q.getColumn(2).getInt(),    q.getColumn(3).getDouble(), q.getColumn(4).getDouble(), q.getColumn(5).getInt(),
+          q.getColumn(6).getDouble(), q.getColumn(7).getDouble(), q.getColumn(8).getDouble()};
+}
+
+void read_summaries(SQLite::Database& db, RunRecord& run) {
+  each_row(db, "SELECT * FROM round", [&](SQLite::Statement& q) {
+    wire::RoundSummary r;
+    r.round = q.getColumn(0).getInt();
+    r.fidelity = tester::fidelity_from_string(q.getColumn(1).getString()).value_or(tester::Fidelity::tiny);
+    r.calibration_count = q.getColumn(2).getInt();
+    r.measured_hypervolume_staircase = q.getColumn(3).getDouble();
+    r.measured_hypervolume_polygon = q.getColumn(4).getDouble();
+    r.gamut_hypervolume_staircase = q.getColumn(5).getDouble();
+    r.gamut_hypervolume_polygon = q.getColumn(6).getDouble();
+    r.gap = q.getColumn(7).getDouble();
+    r.signed_gap = q.getColumn(8).getDouble();
+    r.hypervolume_error = q.getColumn(9).getDouble();
+    r.equilibrium = q.getColumn(10).getInt() != 0;
+    r.last = q.getColumn(11).getInt() != 0;
+    r.decided_by = q.getColumn(12).getString();
+    run.rounds[r.round].summary = r;
+  });
+  each_row(db, "SELECT * FROM prediction_error", [&](SQLite::Statement& q) {
+    const auto found = run.rounds.find(q.getColumn(0).getInt());
+    if (found == run.rounds.end() || !found->second.summary) return;
+    const std::string moment = q.getColumn(1).getString();
+    wire::RoundSummary& r = *found->second.summary;
+    (moment == "before" ? r.before : moment == "after" ? r.after : r.held_out) = errors_of(q);
+  });
+}
+
+void read_model(SQLite::Database& db, RunRecord& run) {
+  each_row(db, "SELECT round, name, value FROM parameter",
+           [&](SQLite::Statement& q) { run.rounds[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble(); });
+  each_row(db, "SELECT round, modulus_pa, toughness_pa FROM benchmark ORDER BY round, position", [&](SQLite::Statement& q) {
+    run.rounds[q.getColumn(0).getInt()].benchmark.push_back({q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
+  });
+  each_row(db, "SELECT round, modulus_pa, toughness_pa FROM gamut ORDER BY round, pattern", [&](SQLite::Statement& q) {
+    run.rounds[q.getColumn(0).getInt()].gamut.push_back({q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
+  });
+  each_row(db, "SELECT round, design, reason, modulus_pa, toughness_pa FROM proposal ORDER BY round, position", [&](SQLite::Statement& q) {
+    run.rounds[q.getColumn(0).getInt()].proposals.push_back(
+        {q.getColumn(1).getString(), q.getColumn(2).getString(), {q.getColumn(3).getDouble(), q.getColumn(4).getDouble()}});
+  });
+  each_row(db, "SELECT round, design, modulus_pa, toughness_pa, failure, curve FROM simulated", [&](SQLite::Statement& q) {
+    run.rounds[q.getColumn(0).getInt()].simulated[q.getColumn(1).getString()] = {
+        {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}, q.getColumn(4).getString(), unpacked(q.getColumn(5))};
+  });
+}
+
+void read_diagnoses(SQLite::Database& db, RunRecord& run) {
+  each_row(db, "SELECT round, verdict, summary, held_out_error_before, held_out_error_after FROM diagnosis", [&](SQLite::Statement& q) {
+    RecordedDiagnosis diagnosis;
+    diagnosis.verdict = q.getColumn(1).getString();
+    diagnosis.summary = q.getColumn(2).getString();
+    diagnosis.held_out_error_before = optional_double(q.getColumn(3));
+    diagnosis.held_out_error_after = optional_double(q.getColumn(4));
+    run.rounds[q.getColumn(0).getInt()].diagnosis = diagnosis;
+  });
+  each_row(db, "SELECT round, name, unit, parameter, interval_low, interval_high FROM diagnosis_effect", [&](SQLite::Statement& q) {
+    if (auto& diagnosis = run.rounds[q.getColumn(0).getInt()].diagnosis) {
+      diagnosis->effects.push_back({q.getColumn(1).getString(), q.getColumn(2).getString(), q.getColumn(3).getDouble(), q.getColumn(4).getDouble(), q.getColumn(5).getDouble()});
+    }
+  });
+  each_row(db, "SELECT round, name, status, statistic, p_family_wise, absorption FROM diagnosis_candidate", [&](SQLite::Statement& q) {
+    if (auto& diagnosis = run.rounds[q.getColumn(0).getInt()].diagnosis) {
+      diagnosis->candidates.push_back({q.getColumn(1).getString(), q.getColumn(2).getString(), q.getColumn(3).getDouble(), q.getColumn(4).getDouble(), q.getColumn(5).getDouble()});
+    }
+  });
+}
+
+/// Validity is the measurement's own unless a review says otherwise; the highest revision wins, "not valid" wins a tie.
+constexpr const char* kSpecimens = R"sql(
+  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch, m.print_order, m.modulus_pa, m.toughness_pa,
+         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
+         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
+  FROM measurement m ORDER BY m.specimen
+)sql";
+
+void read_specimens(SQLite::Database& db, RunRecord& run) {
+  each_row(db, kSpecimens, [&](SQLite::Statement& q) {
+    const auto design = pattern::design_from_name(q.getColumn(2).getString());
+    const auto test = tester::test_kind_from_string(q.getColumn(3).getString());
+    if (!design || !test) return;
+    MeasuredSpecimen m;
+    m.round = q.getColumn(0).getInt();
+    m.record.specimen = q.getColumn(1).getString();
+    m.record.design = *design;
+    m.record.test = *test;
+    m.record.conditions = {q.getColumn(4).getDouble(), q.getColumn(5).getDouble(), q.getColumn(6).getDouble()};
+    m.record.batch = q.getColumn(7).getString();
+    m.record.print_order = q.getColumn(8).getInt();
+    m.record.modulus_pa = optional_double(q.getColumn(9));
+    m.record.toughness_pa = optional_double(q.getColumn(10));
+    m.record.valid = q.getColumn(11).getInt() != 0;
+    m.record.note = q.getColumn(12).getString();
+    m.record.curve = unpacked(q.getColumn(13));
+    run.specimens.push_back(std::move(m));
+  });
+}
+
+}  // namespace
+
+RunRecord read_run_record(const std::filesystem::path& path) {
+  try {
+    SQLite::Database db(path.string(), SQLite::OPEN_READONLY, 10'000);
+    RunRecord run;
+    read_summaries(db, run);
+    read_model(db, run);
+    read_diagnoses(db, run);
+    read_specimens(db, run);
+    return run;
+  } catch (const SQLite::Exception& error) {
+    throw InputError::format("{}: cannot be read: {}", path.string(), error.what());
+  }
+}
+
+}  // namespace nacre::store

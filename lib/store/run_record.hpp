@@ -1,0 +1,69 @@
+#pragma once
+// A run read back from its run.db, for reports. Everyone but the analyser opens the file read-only.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explore/search.hpp"
+#include "measurement/measurement.hpp"
+#include "optimize/pareto.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::store {
+
+struct RecordedEffect {
+  std::string name, unit;
+  double parameter = 0.0, interval_low = 0.0, interval_high = 0.0;
+};
+
+struct RecordedCandidate {
+  std::string name, status;
+  double statistic = 0.0, p_family_wise = 1.0, absorption = 0.0;
+};
+
+struct RecordedDiagnosis {
+  std::string verdict, summary;
+  std::vector<RecordedEffect> effects;
+  std::vector<RecordedCandidate> candidates;
+  std::optional<double> held_out_error_before, held_out_error_after;
+};
+
+struct RecordedProposal {
+  std::string design, reason;
+  optimize::Performance predicted;
+};
+
+struct RecordedSimulation {
+  optimize::Performance performance;
+  std::string failure;
+  tester::Curve curve;
+};
+
+/// One round; parts that have not been heard of yet are empty.
+struct RoundRecord {
+  std::optional<wire::RoundSummary> summary;
+  std::map<std::string, double> parameters;
+  std::vector<optimize::Performance> benchmark;
+  std::vector<optimize::Performance> gamut;
+  std::vector<RecordedProposal> proposals;
+  std::optional<RecordedDiagnosis> diagnosis;
+  std::map<std::string, RecordedSimulation> simulated;  ///< by design
+};
+
+struct MeasuredSpecimen {
+  int round = -1;
+  measurement::SpecimenRecord record;  ///< validity as reviewed
+};
+
+struct RunRecord {
+  std::map<int, RoundRecord> rounds;
+  std::vector<MeasuredSpecimen> specimens;  ///< by name
+};
+
+/// Throws InputError naming the file when it cannot be read.
+RunRecord read_run_record(const std::filesystem::path& path);
+
+}  // namespace nacre::store
