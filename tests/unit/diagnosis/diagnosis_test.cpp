@@ -18,6 +18,7 @@ Diagnosis diagnose_truth(const material::ParameterSet& truth, std::uint64_t seed
   DiagnosisSettings settings;
   settings.start = material::default_parameters();
   settings.seed = seed;
+  settings.fidelity = tester::Fidelity::tiny;
   return diagnose_modulus(synthetic_specimens(set, truth), settings);
 }
 

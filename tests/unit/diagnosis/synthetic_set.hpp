@@ -13,8 +13,8 @@
 namespace nacre::diagnosis {
 
 struct SyntheticSet {
-  int patterns = 14;
-  int twins = 6;  ///< of the first patterns, printed turned
+  int patterns = 12;
+  int twins = 5;  ///< of the first patterns, printed turned
   int replicates = 3;
   double noise = 0.015;
   std::uint64_t seed = 1;
@@ -27,7 +27,7 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
   RandomStream drawn(set.seed, "test/patterns");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(set.patterns, drawn);
   const auto test = [&](const pattern::Design& design, double orientation_deg) {
-    tester::Simulation simulation{design, truth, {}, tester::Fidelity::full};
+    tester::Simulation simulation{design, truth, {}, tester::Fidelity::tiny};
     simulation.conditions.orientation_deg = orientation_deg;
     const double modulus = measurement::observe_modulus(tester::test_modulus(simulation).value().modulus_pa, truth.extensions);
     for (int i = 0; i < set.replicates; ++i) {
