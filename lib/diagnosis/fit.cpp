@@ -8,7 +8,9 @@ namespace {
 
 /// Finite-difference step in coordinates: well above the solver's error, well below the curvature of log E.
 constexpr double kStep = 0.01;
-constexpr int kIterations = 15;
+constexpr int kIterations = 12;
+/// A drop of chi2 that no threshold would notice.
+constexpr double kConverged = 0.02;
 
 double prior_chi2(const Eigen::VectorXd& u) { return ((u.head(kBaseCount).array() - 0.5) / kPriorSd).square().sum(); }
 
@@ -55,6 +57,22 @@ Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
   return u;
 }
 
+/// Levenberg-Marquardt step; coordinates that stand on a bound and would leave it are held.
+Eigen::VectorXd damped_step(const WhitenedSystem& system, const CoordinateMap& map, const Eigen::VectorXd& u, double damping) {
+  Eigen::MatrixXd normal = system.a.transpose() * system.a;
+  Eigen::VectorXd gradient = system.a.transpose() * system.b;
+  normal.diagonal() *= 1.0 + damping;
+  for (int i = 0; i < map.size(); ++i) {
+    const bool held = (u[i] <= map.lower(i) && gradient[i] < 0.0) || (u[i] >= map.upper(i) && gradient[i] > 0.0);
+    if (!held) continue;
+    normal.row(i).setZero();
+    normal.col(i).setZero();
+    normal(i, i) = 1.0;
+    gradient[i] = 0.0;
+  }
+  return normal.ldlt().solve(gradient);
+}
+
 /// An extension that ended on a bound other than zero says that the library's range does not hold the truth.
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
   for (int i = kBaseCount; i < map.size(); ++i) {
@@ -85,13 +103,9 @@ Fit fit_model(const ModulusModel& model, const Observations& observations, const
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
     const WhitenedSystem system = whiten(fit.jacobian, y - fit.predicted, variances, fit.u);
-    const Eigen::MatrixXd normal = system.a.transpose() * system.a;
-    const Eigen::VectorXd gradient = system.a.transpose() * system.b;
     double gained = 0.0;
     for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
-      Eigen::MatrixXd damped = normal;
-      damped.diagonal() *= 1.0 + damping;
-      const Eigen::VectorXd candidate = clamped(map, fit.u + damped.ldlt().solve(gradient));
+      const Eigen::VectorXd candidate = clamped(map, fit.u + damped_step(system, map, fit.u, damping));
       const Eigen::VectorXd predicted = model.predict(map.parameters(candidate));
       const double chi2 = weighted_chi2(y - predicted, variances) + prior_chi2(candidate);
       gained = fit.chi2 - chi2;
@@ -99,12 +113,12 @@ Fit fit_model(const ModulusModel& model, const Observations& observations, const
         fit.u = candidate;
         fit.predicted = predicted;
         fit.chi2 = chi2;
-        damping = std::max(1e-6, damping / 5.0);
+        damping = std::max(1e-6, damping / 10.0);
       } else {
-        damping *= 8.0;
+        damping *= 10.0;
       }
     }
-    if (gained < 1e-2) break;
+    if (gained < kConverged) break;
   }
   fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
   fit.parameters = map.parameters(fit.u);

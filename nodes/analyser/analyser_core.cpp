@@ -1,0 +1,158 @@
+#include "analyser/analyser_core.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "analyser/works.hpp"
+#include "base/hash.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "game/model.hpp"
+
+namespace nacre::analyser {
+namespace {
+
+bool is_kept(const std::string& channel) {
+  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT", "PROPOSAL", "MEASUREMENT", "REVIEW", "ROUND", "SIMULATED"};
+  return kKept.contains(channel);
+}
+
+}  // namespace
+
+AnalyserCore::AnalyserCore(const game::Scenario& scenario, double numerics_sd_log_modulus)
+    : scenario_(scenario), numerics_sd_log_modulus_(numerics_sd_log_modulus) {}
+
+runtime::Outputs AnalyserCore::step(const runtime::Input& input) {
+  outputs_ = {};
+  if (const auto* message = std::get_if<runtime::Message>(&input)) accept_message(*message);
+  if (const auto* work = std::get_if<runtime::WorkDone>(&input)) accept_work(*work);
+  return std::move(outputs_);
+}
+
+void AnalyserCore::accept_message(const runtime::Message& message) {
+  if (is_kept(message.channel)) store(message.channel, message.payload);
+  if (message.channel == "PARAMETERS") {
+    if (auto model = wire::read<wire::AdoptedModel>(message.payload)) models_[model->round] = *std::move(model);
+  } else if (message.channel == "MEASUREMENT") {
+    const auto measured = wire::read<wire::Measurement>(message.payload);
+    if (measured) measurements_.emplace(measured->record.specimen, message.payload);
+    diagnose_when_complete();
+  } else if (message.channel == "REVIEW") {
+    const auto review = wire::decode_safe<review_t>(message.payload);
+    if (!review || !wire::validate(*review)) return;
+    const auto known = reviews_.find(review->specimen);
+    if (known == reviews_.end() || review->revision > known->second.revision) reviews_[review->specimen] = *review;
+  } else if (message.channel == "DIAGNOSE") {
+    if (auto request = wire::read<wire::DiagnoseRequest>(message.payload)) {
+      waiting_diagnosis_ = *std::move(request);
+      phase_ = fmt::format("diagnosing round {}", waiting_diagnosis_->round);
+      diagnose_when_complete();
+    }
+  } else if (message.channel == "SIMULATED") {
+    accept_answer(message);
+  } else if (message.channel == "ROUND") {
+    if (const auto round = wire::read<wire::RoundSummary>(message.payload)) close_round(*round);
+  }
+}
+
+void AnalyserCore::store(const std::string& channel, const std::string& payload) {
+  const std::string id = "store/" + content_hash(channel + payload);
+  storing_.insert(id);
+  outputs_.computes.push_back({.id = id, .kind = "store", .spec = store_spec(channel, payload)});
+}
+
+void AnalyserCore::diagnose_when_complete() {
+  if (!waiting_diagnosis_) return;
+  std::vector<std::string> payloads;
+  for (const std::string& specimen : waiting_diagnosis_->specimens) {
+    const auto found = measurements_.find(specimen);
+    if (found == measurements_.end()) return;  // still on its way
+    payloads.push_back(found->second);
+  }
+  std::vector<review_t> reviews;
+  for (const auto& [specimen, review] : reviews_) reviews.push_back(review);
+  outputs_.computes.push_back({.id = fmt::format("diagnose/r{}", waiting_diagnosis_->round),
+                               .kind = "diagnose",
+                               .spec = diagnosis_spec({.request = *waiting_diagnosis_,
+                                                       .measurements = payloads,
+                                                       .reviews = reviews,
+                                                       .bootstraps = scenario_.diagnosis.bootstraps,
+                                                       .seed = scenario_.seed,
+                                                       .numerics_sd_log_modulus = numerics_sd_log_modulus_})});
+  waiting_diagnosis_.reset();
+}
+
+void AnalyserCore::close_round(const wire::RoundSummary& round) {
+  round_ = std::max(round_, round.round);
+  last_ = last_ || round.last;
+  report_due_ = round.round;
+  phase_ = fmt::format("reporting round {}", round.round);
+  // What the model of the round says about everything measured: the farm mostly knows it already.
+  std::set<std::string> names;
+  std::vector<pattern::Design> designs;
+  for (const auto& [specimen, payload] : measurements_) {
+    const auto measured = wire::read<wire::Measurement>(payload);
+    if (!measured || !measured->record.design.layout() || measured->record.conditions.orientation_deg != 0.0) continue;
+    if (names.insert(measured->record.design.name()).second) designs.push_back(measured->record.design);
+  }
+  const auto model = models_.find(round.round);
+  if (model != models_.end()) {
+    for (std::size_t first = 0; first < designs.size(); first += wire::kMaximumDesigns) {
+      wire::SimulateRequest request;
+      request.request_id = fmt::format("analyser/r{}/measured/{}", round.round, first);
+      request.modulus = request.toughness = true;
+      request.fidelity = scenario_.fidelity;
+      request.parameters = game::material_side(model->second.parameters);
+      request.curve_points = kCurvePoints;
+      request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
+                             designs.begin() + static_cast<std::ptrdiff_t>(std::min(designs.size(), first + wire::kMaximumDesigns)));
+      open_answers_[request.request_id] = -1;
+      outputs_.messages.push_back({"SIMULATE", wire::write(request)});
+    }
+  }
+  report_when_ready();
+}
+
+void AnalyserCore::accept_answer(const runtime::Message& message) {
+  const auto part = wire::read<wire::SimulateResult>(message.payload);
+  if (!part) return;
+  const auto open = open_answers_.find(part->request_id);
+  if (open == open_answers_.end()) return;
+  if (open->second < 0) open->second = part->chunks;
+  if (--open->second == 0) open_answers_.erase(open);
+}
+
+void AnalyserCore::report_when_ready() {
+  if (!report_due_ || reporting_ || !storing_.empty() || !open_answers_.empty()) return;
+  outputs_.computes.push_back({.id = fmt::format("report/r{}", *report_due_), .kind = "report", .spec = std::to_string(*report_due_)});
+  reporting_ = true;
+  report_due_.reset();
+}
+
+void AnalyserCore::accept_work(const runtime::WorkDone& work) {
+  if (work.id.starts_with("store/")) {
+    storing_.erase(work.id);
+  } else if (work.id.starts_with("diagnose/")) {
+    const auto diagnosis = wire::decode_safe<diagnosis_t>(work.result);
+    if (diagnosis) {
+      outputs_.log.push_back({runtime::LogLevel::info, fmt::format("round {}: {}", diagnosis->round, diagnosis->summary)});
+      outputs_.messages.push_back({"DIAGNOSIS", work.result});
+      store("DIAGNOSIS", work.result);
+    }
+    phase_ = "following the game";
+  } else if (work.id.starts_with("report/")) {
+    reporting_ = false;
+    outputs_.log.push_back({runtime::LogLevel::info, work.result});
+    phase_ = last_ ? "the report is complete" : "following the game";
+    finished_ = last_ && !report_due_;
+  }
+  report_when_ready();
+}
+
+runtime::Status AnalyserCore::status() const { return {.phase = phase_, .round = round_, .progress = -1.0, .finished = finished_}; }
+
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
+  return std::make_unique<AnalyserCore>(scenario, diagnosis::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity));
+}
+
+}  // namespace nacre::analyser

@@ -1,0 +1,58 @@
+#pragma once
+// The analyser's decisions: what is kept of a run, when a diagnosis can start, when a report is due.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "game/scenario.hpp"
+#include "runtime/node_core.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::analyser {
+
+/// Points of the simulated curves shown beside measured ones.
+inline constexpr int kCurvePoints = 64;
+
+/// Keeps every message of the game in run.db (Compute kind "store"), answers DIAGNOSE with DIAGNOSIS (kind "diagnose") once all
+/// measurements meant have arrived, asks the farm at the end of each round what the round's model says about the measured
+/// designs, and then has the report written (kind "report"). See works.hpp.
+class AnalyserCore : public runtime::NodeCore {
+ public:
+  AnalyserCore(const game::Scenario& scenario, double numerics_sd_log_modulus);
+  runtime::Outputs step(const runtime::Input& input) override;
+  runtime::Status status() const override;
+
+ private:
+  void accept_message(const runtime::Message& message);
+  void accept_work(const runtime::WorkDone& work);
+  void accept_answer(const runtime::Message& message);
+  void store(const std::string& channel, const std::string& payload);
+  void diagnose_when_complete();
+  void close_round(const wire::RoundSummary& round);
+  void report_when_ready();
+
+  game::Scenario scenario_;
+  double numerics_sd_log_modulus_;
+  runtime::Outputs outputs_;  // of the present step
+
+  std::map<std::string, std::string> measurements_;  // specimen -> payload of its MEASUREMENT
+  std::map<std::string, review_t> reviews_;          // specimen -> the review that counts
+  std::map<int, wire::AdoptedModel> models_;
+  std::optional<wire::DiagnoseRequest> waiting_diagnosis_;
+  std::set<std::string> storing_;                    // ids of "store" work in progress
+  std::map<std::string, int> open_answers_;          // request id -> chunks still missing, -1 before the first
+  std::optional<int> report_due_;                    // round
+  bool reporting_ = false;
+  int round_ = 0;
+  bool last_ = false;
+  bool finished_ = false;
+  std::string phase_ = "following the game";
+};
+
+/// Reads data/numerics_floor.toml. Throws InputError when it cannot be used.
+std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
+
+}  // namespace nacre::analyser

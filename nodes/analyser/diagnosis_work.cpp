@@ -1,0 +1,114 @@
+// Specimens and calibrated parameters in, the payload of a DIAGNOSIS out.
+
+#include <stdexcept>
+
+#include "analyser/works.hpp"
+#include "base/result.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "runtime/journal.hpp"
+
+namespace nacre::analyser {
+namespace {
+
+constexpr std::size_t kFixedFields = 5;
+
+/// A spec that this program wrote itself must read back.
+template <class T>
+T expected(Result<T> result) {
+  if (!result) throw std::logic_error("the spec of a diagnosis: " + result.error().message);
+  return *std::move(result);
+}
+
+DiagnosisTask task_from(const std::string& spec) {
+  const std::vector<std::string> fields = expected(runtime::unpack(spec));
+  DiagnosisTask task;
+  task.request = expected(wire::read<wire::DiagnoseRequest>(fields.at(0)));
+  task.bootstraps = std::stoi(fields.at(1));
+  task.seed = std::stoull(fields.at(2));
+  task.numerics_sd_log_modulus = std::stod(fields.at(3));
+  const std::size_t review_count = std::stoul(fields.at(4));
+  for (std::size_t i = kFixedFields; i < fields.size(); ++i) {
+    if (i < kFixedFields + review_count) {
+      task.reviews.push_back(expected(wire::decode_safe<review_t>(fields[i])));
+    } else {
+      task.measurements.push_back(fields[i]);
+    }
+  }
+  return task;
+}
+
+/// Specimens with their validity as reviewed.
+std::vector<measurement::SpecimenRecord> specimens_of(const DiagnosisTask& task) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const std::string& payload : task.measurements) {
+    specimens.push_back(expected(wire::read<wire::Measurement>(payload)).record);
+    for (const review_t& review : task.reviews) {
+      if (review.specimen == specimens.back().specimen) specimens.back().valid = review.valid != 0;
+    }
+  }
+  return specimens;
+}
+
+diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
+  diagnosis_t message{};
+  message.round = round;
+  message.verdict = std::string(to_string(d.verdict));
+  message.summary = d.summary;
+  for (const diagnosis::NamedEffect& e : d.effects) {
+    message.effects.push_back({e.name, e.family, e.parameter, e.interval_low, e.interval_high, e.unit});
+  }
+  for (const diagnosis::Candidate& c : d.candidates) {
+    message.candidates.push_back({c.name, c.status, c.statistic, c.p_family_wise, c.absorption});
+  }
+  if (d.gain) {
+    message.has_gain = true;
+    message.held_out_error_before = d.gain->held_out_error_before;
+    message.held_out_error_after = d.gain->held_out_error_after;
+    message.relative_reduction = d.gain->relative_reduction;
+    message.reduction_low = d.gain->interval_low;
+    message.reduction_high = d.gain->interval_high;
+  }
+  for (const diagnosis::NextExperiment& e : d.next_experiments) {
+    message.next_experiments.push_back({e.design.name(), wire::to_wire(e.test), wire::to_wire(e.conditions), e.replicates, e.reason});
+  }
+  message.n_effects = static_cast<std::int32_t>(message.effects.size());
+  message.n_candidates = static_cast<std::int32_t>(message.candidates.size());
+  message.n_next_experiments = static_cast<std::int32_t>(message.next_experiments.size());
+  return message;
+}
+
+/// Too few specimens to diagnose: nothing is claimed.
+diagnosis_t undecided(int round, const std::string& why) {
+  diagnosis_t message{};
+  message.round = round;
+  message.verdict = "ambiguous";
+  message.summary = "These data cannot tell yet: " + why + ".";
+  return message;
+}
+
+}  // namespace
+
+std::string diagnosis_spec(const DiagnosisTask& task) {
+  std::vector<std::string> fields = {wire::write(task.request), std::to_string(task.bootstraps), std::to_string(task.seed),
+                                     fmt::format("{}", task.numerics_sd_log_modulus), std::to_string(task.reviews.size())};
+  for (const review_t& review : task.reviews) fields.push_back(wire::encode(review));
+  fields.insert(fields.end(), task.measurements.begin(), task.measurements.end());
+  return runtime::pack(fields);
+}
+
+std::string diagnose_work(const std::string& spec) {
+  const DiagnosisTask task = task_from(spec);
+  diagnosis::DiagnosisSettings settings;
+  settings.start = task.request.parameters;
+  settings.fidelity = task.request.fidelity;
+  settings.bootstraps = task.bootstraps;
+  settings.seed = task.seed;
+  settings.numerics_sd_log_modulus = task.numerics_sd_log_modulus;
+  try {
+    return wire::encode(message_of(diagnosis::diagnose_modulus(specimens_of(task), settings), task.request.round));
+  } catch (const InputError& error) {
+    return wire::encode(undecided(task.request.round, error.what()));
+  }
+}
+
+}  // namespace nacre::analyser

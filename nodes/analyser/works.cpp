@@ -1,0 +1,37 @@
+#include "analyser/works.hpp"
+
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "analyser/report.hpp"
+#include "base/files.hpp"
+#include "runtime/journal.hpp"
+#include "store/run_database.hpp"
+#include "store/run_record.hpp"
+
+namespace nacre::analyser {
+
+std::string store_spec(const std::string& channel, const std::string& payload) { return runtime::pack({channel, payload}); }
+
+std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir) {
+  const auto database = std::make_shared<store::RunDatabase>(run_dir / "run.db");
+  return {
+      {"store",
+       [database](const std::string& spec) -> std::string {
+         const auto fields = runtime::unpack(spec);
+         if (!fields || fields->size() != 2) throw std::logic_error("the spec of a store does not read back");
+         database->project((*fields)[0], (*fields)[1]);
+         return "kept";
+       }},
+      {"diagnose", diagnose_work},
+      {"report",
+       [run_dir](const std::string& round) -> std::string {
+         write_file_atomically(run_dir / "report.html", render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
+         return fmt::format("round {}: report.html written", round);
+       }},
+  };
+}
+
+}  // namespace nacre::analyser

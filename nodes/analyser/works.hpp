@@ -1,0 +1,33 @@
+#pragma once
+// The analyser's long work: keeping messages, diagnosing, writing the report.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/node_core.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::analyser {
+
+/// Spec of "store": one message of the run, to be kept in run.db.
+std::string store_spec(const std::string& channel, const std::string& payload);
+
+/// What a diagnosis needs to know.
+struct DiagnosisTask {
+  wire::DiagnoseRequest request;
+  std::vector<std::string> measurements;  ///< payloads of the MEASUREMENTs meant, in the order of the request
+  std::vector<review_t> reviews;
+  int bootstraps = 2000;
+  std::uint64_t seed = 1;
+  double numerics_sd_log_modulus = 0.0;
+};
+/// Spec of "diagnose"; its result is the payload of the DIAGNOSIS.
+std::string diagnosis_spec(const DiagnosisTask& task);
+std::string diagnose_work(const std::string& spec);
+
+/// All work functions: "store" keeps a message in RUN_DIR/run.db, "report" writes RUN_DIR/report.html from it, "diagnose" is pure.
+std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir);
+
+}  // namespace nacre::analyser
