@@ -194,6 +194,7 @@ struct Calibration::State {
     std::vector<Prediction> before(measured.size());
     std::vector<Prediction>& after = result.predictions;
     if (modulus.fit != nullptr) {
+      for (const Trial& trial : modulus.fit->trials()) result.modulus_objectives.push_back(trial.objective);
       result.parameters.modulus = modulus_at(modulus.fit->best().point);
       result.modulus_objective_before = modulus.fit->first().objective;
       result.modulus_objective_after = modulus.fit->best().objective;
@@ -203,6 +204,7 @@ struct Calibration::State {
       }
     }
     if (toughness.fit != nullptr) {
+      for (const Trial& trial : toughness.fit->trials()) result.toughness_objectives.push_back(trial.objective);
       result.parameters.toughness = toughness_at(toughness.fit->best().point);
       result.toughness_objective_before = toughness.fit->first().objective;
       result.toughness_objective_after = toughness.fit->best().objective;

@@ -90,6 +90,8 @@ struct Calibrated {
   /// All of theta and eta, in the order of their vectors. Intervals hold near the optimum (a linear model of the
   /// residuals, in which misfit counts as noise). None from BaseCalibration.
   std::vector<ParameterEstimate> estimates;
+  /// Objective of every parameter set evaluated, in order: how the search converged. None from BaseCalibration.
+  std::vector<double> modulus_objectives, toughness_objectives;
   int simulations = 0;
 };
 

@@ -60,6 +60,7 @@ class EmulatorFit final : public Fit {
   }
   const Trial& first() const override { return trials_.front(); }
   const Trial& best() const override { return trials_[best_]; }
+  const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<double> deviations() const override {
     return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/false);
   }
@@ -143,7 +144,8 @@ class EmulatorFit final : public Fit {
     search.set_min_objective(&EmulatorFit::asked_by_nlopt, &question);
     std::vector<double> move(start.begin(), start.end());
     try {
-      search.optimize(move);
+      double smallest = 0.0;
+      search.optimize(move, smallest);
     } catch (const nlopt::roundoff_limited&) {  // the point reached is the best that doubles can tell
     }
     Move result{};

@@ -37,6 +37,8 @@ class Fit {
   /// The start, and the best trial so far (penalty included in the comparison); only after the first tell().
   virtual const Trial& first() const = 0;
   virtual const Trial& best() const = 0;
+  /// Everything evaluated, in order.
+  virtual const std::vector<Trial>& trials() const = 0;
   /// Standard deviation of every coordinate of best().point as far as the data tell it (spread.hpp); kUnknownDeviation
   /// where they do not, or were not asked.
   virtual std::vector<double> deviations() const = 0;

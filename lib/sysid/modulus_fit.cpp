@@ -43,6 +43,7 @@ class ModulusFit final : public Fit {
   }
   const Trial& first() const override { return trials_.front(); }
   const Trial& best() const override { return trials_[best_]; }
+  const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<double> deviations() const override {
     if (jacobian_.size() == 0) return std::vector<double>(settings_.start.size(), kUnknownDeviation);
     return parameter_deviations(jacobian_, residuals(trials_[best_]),

@@ -50,6 +50,7 @@ class NloptFit final : public Fit {
   }
   const Trial& first() const override { return trials_.front(); }
   const Trial& best() const override { return trials_[best_]; }
+  const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<double> deviations() const override {
     return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/true);
   }
