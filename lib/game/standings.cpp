@@ -75,6 +75,9 @@ double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& value
     hypervolumes.push_back(optimize::hypervolume_staircase_gpa_mpa(drawn));
   }
   if (hypervolumes.size() < 2) return 0.0;
+  // About the first draw: without scatter the error is exactly 0, not rounding.
+  const double first = hypervolumes.front();
+  for (double& hypervolume : hypervolumes) hypervolume -= first;
   const double centre = mean(hypervolumes);
   double squares = 0.0;
   for (double hypervolume : hypervolumes) squares += (hypervolume - centre) * (hypervolume - centre);

@@ -1,0 +1,228 @@
+#include "stand_ins.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/hash.hpp"
+#include "base/random.hpp"
+#include "material/extensions.hpp"
+#include "proposal_agent/proposal_core.hpp"
+#include "proposal_agent/selection_work.hpp"
+#include "simulator_farm/farm_core.hpp"
+#include "validation_agent/validation_core.hpp"
+
+namespace nacre::game_test {
+namespace {
+
+struct Shares {
+  double soft = 0.0, rigid = 0.0, interface = 0.0;
+};
+
+Shares shares_of(const pattern::Design& design) {
+  if (const auto* mixture = design.mixture()) {
+    const double r = mixture->rigid_fraction;
+    return {std::max(0.0, 1.0 - 2.0 * r), std::max(0.0, 2.0 * r - 1.0), 1.0 - std::abs(2.0 * r - 1.0)};
+  }
+  const pattern::Layout& layout = *design.layout();
+  int unlike = 0;
+  for (int row = 0; row < pattern::kSide; ++row) {
+    for (int column = 0; column < pattern::kSide; ++column) {
+      const bool here = layout.rigid(row, column);
+      unlike += here != layout.rigid((row + 1) % pattern::kSide, column);
+      unlike += here != layout.rigid(row, (column + 1) % pattern::kSide);
+    }
+  }
+  const double interface = unlike / 800.0;
+  return {(1.0 - layout.rigid_fraction()) * (1.0 - interface), layout.rigid_fraction() * (1.0 - interface), interface};
+}
+
+double geometric_mean(const Shares& shares, double soft, double rigid, double interface) {
+  return std::exp(shares.soft * std::log(soft) + shares.rigid * std::log(rigid) +
+                  shares.interface * std::log(interface));
+}
+
+tester::Curve triangle(double toughness_pa, double peak_stress_pa, int points) {
+  const double strain = 2.0 * toughness_pa / peak_stress_pa;
+  tester::Curve curve;
+  for (int point = 0; point < points; ++point) {
+    const double share = static_cast<double>(point) / (points - 1);
+    curve.strain.push_back(share * strain);
+    curve.stress_pa.push_back(share * peak_stress_pa);
+  }
+  return curve;
+}
+
+// A core made of a function of messages on one channel.
+class Responder : public runtime::NodeCore {
+ public:
+  Responder(std::string channel, std::function<std::vector<runtime::Message>(const std::string&)> respond)
+      : channel_(std::move(channel)), respond_(std::move(respond)) {}
+  runtime::Outputs step(const runtime::Input& input) override {
+    runtime::Outputs outputs;
+    const auto* message = std::get_if<runtime::Message>(&input);
+    if (message != nullptr && message->channel == channel_) outputs.messages = respond_(message->payload);
+    return outputs;
+  }
+  runtime::Status status() const override { return {}; }
+
+ private:
+  std::string channel_;
+  std::function<std::vector<runtime::Message>(const std::string&)> respond_;
+};
+
+tester::Simulation truth_of(const wire::TestOrder& order, const LaboratorySettings& settings) {
+  tester::Simulation simulation{order.design, material::default_parameters(), order.conditions, order.fidelity};
+  for (double* modulus_pa : {&simulation.parameters.modulus.e_tb_pa, &simulation.parameters.modulus.e_vw_pa,
+                             &simulation.parameters.modulus.e_if_pa}) {
+    *modulus_pa *= settings.modulus_factor;
+  }
+  auto& eta = simulation.parameters.toughness;
+  for (double* threshold : {&eta.w_tb_j_per_m3, &eta.w_vw_j_per_m3, &eta.w_if_j_per_m3})
+    *threshold *= settings.toughness_factor;
+  return simulation;
+}
+
+wire::SimulatedDesign true_answer(const wire::TestOrder& order, const LaboratorySettings& settings) {
+  const tester::Simulation truth = truth_of(order, settings);
+  const bool modulus = order.test == tester::TestKind::modulus;
+  if (!settings.real_testers) return closed_form(truth, modulus, !modulus, 32);
+  wire::SimulatedDesign answer;
+  answer.design = order.design;
+  if (modulus) {
+    answer.modulus_pa = tester::test_modulus(truth).value().modulus_pa;
+  } else {
+    const auto result = tester::test_toughness(truth).value();
+    answer.toughness_pa = result.toughness_pa;
+    answer.curve = tester::resampled(result.curve, 32);
+  }
+  return answer;
+}
+
+}  // namespace
+
+wire::SimulatedDesign closed_form(const tester::Simulation& simulation, bool modulus, bool toughness,
+                                  int curve_points) {
+  const Shares shares = shares_of(simulation.design);
+  const material::ModulusParameters& theta = simulation.parameters.modulus;
+  const material::ToughnessParameters& eta = simulation.parameters.toughness;
+  const double turned = simulation.conditions.orientation_deg == 90.0 ? -1.0 : 1.0;
+  const double anisotropy = material::extension_value(simulation.parameters.extensions, "interface_anisotropy");
+  wire::SimulatedDesign answer;
+  answer.design = simulation.design;
+  if (modulus) {
+    answer.modulus_pa = geometric_mean(shares, theta.e_tb_pa, theta.e_vw_pa, theta.e_if_pa) *
+                        (1.0 + turned * anisotropy * shares.interface);
+  }
+  if (toughness) {
+    answer.toughness_pa =
+        geometric_mean(shares, eta.w_tb_j_per_m3, eta.w_vw_j_per_m3, eta.w_if_j_per_m3) * (1.0 + shares.interface);
+    const double young_pa = geometric_mean(shares, eta.e_tb_pa, eta.e_vw_pa, eta.e_if_pa);
+    answer.peak_stress_pa = std::sqrt(young_pa * answer.toughness_pa);
+    answer.failure_strain = 2.0 * answer.toughness_pa / answer.peak_stress_pa;
+    if (curve_points > 1) answer.curve = triangle(answer.toughness_pa, answer.peak_stress_pa, curve_points);
+  }
+  return answer;
+}
+
+std::map<std::string, runtime::WorkFunction> closed_form_work(std::set<std::string> failing) {
+  return {{"simulate", [failing = std::move(failing)](const std::string& spec) {
+             const auto question = wire::read<wire::SimulateRequest>(spec).value();
+             const pattern::Design& design = question.designs.front();
+             wire::SimulatedDesign answer =
+                 closed_form({design, question.parameters, question.conditions, question.fidelity}, question.modulus,
+                             question.toughness, question.curve_points);
+             if (failing.contains(design.name())) {
+               answer = {};
+               answer.design = design;
+               answer.failure = "made to fail";
+             }
+             return wire::write(wire::SimulateResult{
+                 .request_id = question.request_id, .chunk = 0, .chunks = 1, .first = 0, .results = {answer}});
+           }}};
+}
+
+std::vector<wire::Measurement> measure(const wire::TestOrder& order, const LaboratorySettings& settings) {
+  const wire::SimulatedDesign truth = true_answer(order, settings);
+  std::vector<wire::Measurement> measurements;
+  for (int replicate = 1; replicate <= order.replicates; ++replicate) {
+    wire::Measurement measured;
+    measured.round = order.round;
+    measured.order_id = order.order_id;
+    measured.fidelity = order.fidelity;
+    measurement::SpecimenRecord& record = measured.record;
+    record.specimen = order.order_id + "#" + std::to_string(replicate);
+    record.design = order.design;
+    record.test = order.test;
+    record.conditions = order.conditions;
+    record.batch = order.batch;
+    RandomStream noise(content_hash64(record.specimen), "noise");
+    if (order.test == tester::TestKind::modulus) {
+      record.modulus_pa = truth.modulus_pa * (1.0 + settings.modulus_noise * noise.normal());
+    } else {
+      const double factor = std::max(0.1, 1.0 + settings.toughness_noise * noise.normal());
+      record.toughness_pa = truth.toughness_pa * factor;
+      record.curve = truth.curve;
+      for (double& stress_pa : record.curve.stress_pa) stress_pa *= factor;
+    }
+    if (settings.spoil) settings.spoil(measured);
+    measurements.push_back(std::move(measured));
+  }
+  return measurements;
+}
+
+std::unique_ptr<runtime::NodeCore> make_laboratory(const LaboratorySettings& settings) {
+  return std::make_unique<Responder>("TEST_ORDER", [settings](const std::string& payload) {
+    std::vector<runtime::Message> messages;
+    for (const wire::Measurement& measured : measure(wire::read<wire::TestOrder>(payload).value(), settings)) {
+      messages.push_back({"MEASUREMENT", wire::write(measured)});
+    }
+    return messages;
+  });
+}
+
+std::unique_ptr<runtime::NodeCore> make_analyser(std::function<diagnosis_t(int)> diagnosis) {
+  return std::make_unique<Responder>("DIAGNOSE", [diagnosis = std::move(diagnosis)](const std::string& payload) {
+    const int round = wire::read<wire::DiagnoseRequest>(payload).value().round;
+    diagnosis_t answer{};
+    if (diagnosis) {
+      answer = diagnosis(round);
+    } else {
+      answer.verdict = "base_sufficient";
+    }
+    answer.round = round;
+    return std::vector<runtime::Message>{{"DIAGNOSIS", wire::encode(answer)}};
+  });
+}
+
+game::Scenario small_scenario() {
+  game::Scenario scenario;
+  scenario.name = "in process";
+  scenario.seed = 3;
+  scenario.rounds = 2;
+  scenario.fidelity = tester::Fidelity::tiny;
+  scenario.stop_at_equilibrium = false;
+  scenario.base_materials_file = std::string(NACRE_SOURCE_DIR) + "/data/thesis/base_materials.csv";
+  scenario.proposal.samples = 60;
+  scenario.proposal.seeds = 2;
+  scenario.proposal.population = 10;
+  scenario.proposal.designs = 3;
+  scenario.validation.random_patterns = 4;
+  scenario.validation.replicates = 3;
+  scenario.validation.calibration_evaluations = 8;
+  scenario.validation.modulus_evaluations = 20;
+  scenario.validation.mixtures = {0.5, 0.75};
+  scenario.diagnosis.discrimination_orders = 2;
+  return scenario;
+}
+
+void add_players(InProcessGame& game, const game::Scenario& scenario, const LaboratorySettings& laboratory,
+                 std::function<diagnosis_t(int)> diagnosis, std::set<std::string> failing) {
+  game.add("simulator_farm", simulator_farm::make_core(scenario), closed_form_work(std::move(failing)));
+  game.add("proposal_agent", proposal_agent::make_core(scenario), proposal_agent::work_functions());
+  game.add("validation_agent", validation_agent::make_core(scenario));
+  if (scenario.laboratory.virtual_lab) game.add("virtual_lab", make_laboratory(laboratory));
+  game.add("analyser", make_analyser(std::move(diagnosis)));
+}
+
+}  // namespace nacre::game_test

@@ -1,0 +1,113 @@
+#include "game/standings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace nacre::game {
+namespace {
+
+using measurement::SpecimenRecord;
+using testing::ElementsAre;
+
+SpecimenRecord modulus(const std::string& name, const pattern::Design& design, double modulus_pa) {
+  SpecimenRecord record;
+  record.specimen = name;
+  record.design = design;
+  record.modulus_pa = modulus_pa;
+  return record;
+}
+SpecimenRecord toughness(const std::string& name, const pattern::Design& design, double toughness_pa) {
+  SpecimenRecord record;
+  record.specimen = name;
+  record.design = design;
+  record.test = tester::TestKind::toughness;
+  record.toughness_pa = toughness_pa;
+  return record;
+}
+
+TEST(Standings, OnlyUprightValidPatternsCompete) {
+  pattern::Layout coupon;
+  coupon.set(0, 3, true);
+  SpecimenRecord turned = modulus("turned", pattern::Pattern(7), 9e9);
+  turned.conditions.orientation_deg = 90.0;
+  SpecimenRecord invalid = modulus("invalid", pattern::Pattern(7), 9e9);
+  invalid.valid = false;
+  const std::vector<SpecimenRecord> specimens = {modulus("a", pattern::Pattern(7), 1e9),
+                                                 toughness("b", pattern::Pattern(7), 2e5),
+                                                 modulus("c", pattern::Pattern(7), 3e9),
+                                                 modulus("d", coupon, 9e9),
+                                                 toughness("e", coupon, 9e5),
+                                                 modulus("f", pattern::Mixture{0.7}, 9e9),
+                                                 turned,
+                                                 invalid,
+                                                 modulus("lonely", pattern::Pattern(9), 9e9)};
+  EXPECT_THAT(measured_performances(measured_values(specimens)), ElementsAre(optimize::Performance{2e9, 2e5}));
+}
+
+TEST(Standings, HypervolumeErrorOfOneDesignIsThatOfAProductOfMeans) {
+  // One design: hv = E T / 1e15, so relative variances of the two means add.
+  std::map<pattern::Pattern, MeasuredValues> values;
+  values[pattern::Pattern(7)] = {{0.9e9, 1.0e9, 1.1e9}, {2.0e5, 2.0e5, 2.0e5}};
+  const double standard_error_of_mean = 0.1 / std::sqrt(3.0);
+  EXPECT_NEAR(hypervolume_error(values, 1, 20000), 0.2 * standard_error_of_mean, 0.03 * 0.2 * standard_error_of_mean);
+}
+
+TEST(Standings, HypervolumeErrorIsZeroWithoutScatterAndTheSameForTheSameSeed) {
+  std::map<pattern::Pattern, MeasuredValues> values;
+  values[pattern::Pattern(7)] = {{1e9}, {2e5}};
+  EXPECT_EQ(hypervolume_error(values, 1), 0.0);
+  EXPECT_EQ(hypervolume_error({}, 1), 0.0);
+  values[pattern::Pattern(7)].modulus_pa = {1e9, 2e9};
+  EXPECT_EQ(hypervolume_error(values, 1), hypervolume_error(values, 1));
+  EXPECT_NE(hypervolume_error(values, 1), hypervolume_error(values, 2));
+}
+
+TEST(Standings, BenchmarkRunsThroughTheMixturesByRigidFraction) {
+  std::vector<SpecimenRecord> specimens = {
+      modulus("a", pattern::Mixture{1.0}, 2.6e9), toughness("b", pattern::Mixture{1.0}, 7e4),
+      modulus("c", pattern::Mixture{0.5}, 0.5e9), toughness("d", pattern::Mixture{0.5}, 8e5),
+      modulus("e", pattern::Mixture{0.7},
+              1.0e9),  // its toughness is still to come
+      modulus("f", pattern::Pattern(7), 1.0e9),   toughness("g", pattern::Pattern(7), 1e5)};
+  EXPECT_THAT(benchmark_line(specimens),
+              ElementsAre(optimize::Performance{0.5e9, 8e5}, optimize::Performance{2.6e9, 7e4}));
+}
+
+TEST(Standings, CalibrationSetHoldsLayoutsNotMixturesNorTwins) {
+  SpecimenRecord turned = modulus("turned", pattern::Pattern(7), 9e9);
+  turned.conditions.orientation_deg = 90.0;
+  pattern::Layout coupon;
+  coupon.set(0, 3, true);
+  const auto set = calibration_set({modulus("a", pattern::Pattern(7), 1e9), modulus("b", pattern::Mixture{0.7}, 1e9),
+                                    turned, modulus("c", coupon, 2e9)});
+  ASSERT_EQ(set.size(), 2u);
+  for (const auto& each : set) EXPECT_EQ(each.modulus_count, 1);
+}
+
+TEST(Standings, CalliperReadingsDoNotTearReplicatesApart) {
+  std::vector<SpecimenRecord> specimens = {modulus("a", pattern::Pattern(7), 1e9),
+                                           modulus("b", pattern::Pattern(7), 2e9)};
+  specimens[0].conditions.thickness_mm = 3.17;
+  specimens[1].conditions.thickness_mm = 3.24;
+  const auto set = calibration_set(specimens);
+  ASSERT_EQ(set.size(), 1u);
+  EXPECT_EQ(set.front().modulus_count, 2);
+}
+
+TEST(Standings, HeldOutErrorsCompareWhatWasPredictedWithWhatWasMeasured) {
+  const pattern::Design predicted_design = pattern::Pattern(7);
+  const auto set = calibration_set({modulus("a", predicted_design, 1e9), modulus("b", pattern::Pattern(9), 1e9)});
+  std::map<std::string, sysid::Prediction> predictions;
+  predictions[predicted_design.name()].modulus_pa = 1.2e9;
+  predictions["never measured"].modulus_pa = 5e9;
+  const auto errors = held_out_errors(set, predictions);
+  EXPECT_EQ(errors.modulus_count, 1);
+  EXPECT_NEAR(errors.modulus_mean, 0.2, 1e-12);
+  EXPECT_EQ(errors.toughness_count, 0);
+}
+
+}  // namespace
+}  // namespace nacre::game
