@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::uint64_t kCornerPixel = 1;  // free pixel 0 is pixel (0, 0)
 
-/// Free pixels whose centre (r + 1/2, c + 1/2) lies within kCornerRadiusPixels of the vertex (0, 0).
+/// Free pixels whose centre (r + 1/2, c + 1/2) lies within the corner radius of the vertex (0, 0).
 std::uint64_t corner_region() {
   std::uint64_t region = 0;
   for (int r = 0; r < kQuarter; ++r) {
     for (int c = r; c < kQuarter; ++c) {
       const double y = r + 0.5, x = c + 0.5;
-      if (x * x + y * y <= kCornerRadiusPixels * kCornerRadiusPixels)
+      if (x * x + y * y <= thesis::kCornerRadius * thesis::kCornerRadius)
         region |= std::uint64_t{1} << Pattern::free_index(r, c);
     }
   }
@@ -51,7 +51,7 @@ std::optional<std::string> violation(const Pattern& pattern) {
   return fmt::format(
       "with {:.0f} % rigid pixels every pixel within {:.0f} pixels of a corner must be rigid, {} at each corner are "
       "soft",
-      percent, kCornerRadiusPixels, pixels);
+      percent, thesis::kCornerRadius.value, pixels);
 }
 
 }  // namespace nacre::pattern

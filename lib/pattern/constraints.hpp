@@ -7,18 +7,18 @@
 #include <string>
 
 #include "pattern/layout.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::pattern {
 
 /// Rigid pixels of 400 that a proposal may have: 50 % to 85 %, both included.
-inline constexpr int kMinimumRigidCount = kPixels * 50 / 100;
-inline constexpr int kMaximumRigidCount = kPixels * 85 / 100;
+inline constexpr int kMinimumRigidCount = static_cast<int>(kPixels * thesis::kMinimumRigidFraction + 0.5);
+inline constexpr int kMaximumRigidCount = static_cast<int>(kPixels * thesis::kMaximumRigidFraction + 0.5);
 /// From this many rigid pixels on (80 %, itself included) the corner rule covers the corner region, below it the corner
 /// pixel alone. The thesis says "below 80 % ... otherwise (above 80 %)": exactly 80 % is not below, so it falls under
 /// "otherwise".
-inline constexpr int kCornerRegionRigidCount = kPixels * 80 / 100;
-/// Radius of the corner region about the corner vertex, in pixels, for pixel centres.
-inline constexpr double kCornerRadiusPixels = 4.0;
+inline constexpr int kCornerRegionRigidCount = static_cast<int>(kPixels * thesis::kStiffRigidFraction + 0.5);
+static_assert(kMinimumRigidCount == 200 && kCornerRegionRigidCount == 320 && kMaximumRigidCount == 340);
 
 /// Free pixels (bits of Pattern) that must be rigid in a pattern with this many rigid pixels.
 std::uint64_t required_rigid_bits(int rigid_count);

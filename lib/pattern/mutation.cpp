@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "pattern/constraints.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::pattern {
 namespace {
@@ -59,10 +60,10 @@ Pattern with_square(Pattern pattern, RandomStream& random) {
 }  // namespace
 
 Pattern mutation_attempt(const Pattern& parent, MutationKind kind, RandomStream& random) {
-  static_assert(kFlipProbability + kLineProbability + kSquareProbability == 1.0);
+  static_assert(thesis::kPixelMutation + thesis::kLineMutation + thesis::kSquareMutation == 1.0);
   const double way = kind == MutationKind::single_pixel ? 0.0 : random.uniform();
-  if (way < kFlipProbability) return with_flipped_pixel(parent, random);
-  if (way < kFlipProbability + kLineProbability) return with_line(parent, random);
+  if (way < thesis::kPixelMutation) return with_flipped_pixel(parent, random);
+  if (way < thesis::kPixelMutation + thesis::kLineMutation) return with_line(parent, random);
   return with_square(parent, random);
 }
 

@@ -15,11 +15,6 @@ enum class MutationKind {
   single_pixel  ///< flip a pixel
 };
 
-/// Probabilities of the three ways (2.3.3): p1 flips a pixel, p2 rewrites a line, p3 rewrites a square.
-inline constexpr double kFlipProbability = 0.86;
-inline constexpr double kLineProbability = 0.11;
-inline constexpr double kSquareProbability = 0.03;
-
 /// One attempt, mirrored over the whole pattern, constraints not looked at. The result may equal the parent (a line
 /// rewritten by what it was). Pixels, line ends and a square's corner are uniform over the 20 x 20 pixels, the size of
 /// a square uniform from 1 to the largest that fits.

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "thesis/constants.hpp"
+
 namespace nacre::select {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
-constexpr double kThresholdAngle = std::numbers::pi / 36.0;  // phi_th of Eq. 2.13
+constexpr double kThresholdAngle = thesis::kBinAngleThreshold / 180.0 * std::numbers::pi;
 
 }  // namespace
 

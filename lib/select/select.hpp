@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "explore/search.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::select {
 
 struct SelectionSettings {
   int count = 8;  ///< M of 2.3.4
-  int beam_width = 100;
-  int maximum_rank = 3;
+  int beam_width = thesis::kBeamSize;
+  int maximum_rank = thesis::kBoundaryRanks;
 };
 
 struct Selected {

@@ -10,6 +10,7 @@
 
 #include "pattern/constraints.hpp"
 #include "pattern/random_pattern.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::pattern {
 namespace {
@@ -48,7 +49,7 @@ TEST(Mutation, LinesAndSquaresMakeUpAboutTheirShareOfTheAttempts) {
     larger += changed > 1;
     none += changed == 0;
   }
-  EXPECT_LT(larger + none, (kLineProbability + kSquareProbability) * kTrials * 1.1);
+  EXPECT_LT(larger + none, (thesis::kLineMutation + thesis::kSquareMutation) * kTrials * 1.1);
   EXPECT_GT(larger, 0.09 * kTrials);
   EXPECT_GT(none, 0);  // a line over pixels that had its value already
 }
