@@ -60,7 +60,8 @@ void Endpoint::handle(const Received& received) {
   } else if (received.message.channel == "ACK") {
     const auto ack = wire::decode_safe<ack_t>(received.message.payload);
     if (!ack) return;
-    for (const std::string& hash : ack->hashes) outbox_.acknowledge(hash, received.header.node);
+    for (const std::string& hash : ack->hashes)
+      outbox_.acknowledge(hash, received.header.node, received.header.epoch, ack->journal);
   }
 }
 

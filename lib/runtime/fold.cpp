@@ -41,15 +41,14 @@ Result<void> Fold::feed(const LogRecord& record) {
     if (on_message_input) on_message_input(message);
     return input(record, message);
   }
-  const std::size_t field_count = record.channel == kTickChannel || record.channel == kJournalChannel ? 1 : 2;
+  const bool single = record.channel == kTickChannel || record.channel == kJournalChannel;
+  const std::size_t field_count = single ? 1 : record.channel == kAckedChannel ? 3 : 2;
   const auto fields = fields_of(record, field_count);
   if (!fields) return tl::unexpected(fields.error());
   if (record.channel == kTickChannel) return input(record, Tick{std::stoll(fields->at(0))});
   if (record.channel == kWorkChannel) return work_done(record, *fields);
   if (record.channel == kAckedChannel) {
-    if (on_acknowledged) on_acknowledged(fields->at(0), fields->at(1));
-  } else if (record.channel == kPeerChannel) {
-    if (on_peer) on_peer(fields->at(0), std::stoll(fields->at(1)));
+    if (on_acknowledged) on_acknowledged(fields->at(0), fields->at(1), std::stoll(fields->at(2)));
   } else if (record.channel != kJournalChannel) {
     return fail("{}: a record of an unknown kind", place(record));
   }

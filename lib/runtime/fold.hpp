@@ -22,8 +22,7 @@ class Fold {
 
   std::function<void(const Message&)> on_message_input;  ///< inputs from the bus
   std::function<void(const Message&)> on_output;         ///< journaled outputs, in order
-  std::function<void(const std::string& hash, const std::string& node)> on_acknowledged;
-  std::function<void(const std::string& node, std::int64_t journal)> on_peer;
+  std::function<void(const std::string& hash, const std::string& node, std::int64_t journal)> on_acknowledged;
   /// Called with the work that a journaled result answers; an error stops the fold.
   std::function<Result<void>(const Compute&, const std::string& result)> on_work_done;
 

@@ -22,8 +22,7 @@ inline constexpr std::string_view kWorkChannel = "~work";  ///< input: id, resul
 inline constexpr std::string_view kOutPrefix =
     "~out/";  ///< output message, channel appended: payload with blank header
 inline constexpr std::string_view kComputeChannel = "~compute";  ///< output: id, kind, spec
-inline constexpr std::string_view kAckedChannel = "~acked";      ///< hash, node
-inline constexpr std::string_view kPeerChannel = "~peer";        ///< node, its journal's identity
+inline constexpr std::string_view kAckedChannel = "~acked";      ///< hash, node, identity of that node's journal
 
 /// Fields of a record in one string, closed by a checksum.
 std::string pack(const std::vector<std::string>& fields);

@@ -137,10 +137,9 @@ class NodeShell {
     Fold fold(core_);
     fold.on_message_input = [this](const Message& m) { inbox_.remember(wire::message_hash(m.channel, m.payload)); };
     fold.on_output = [this](const Message& m) { offer(m); };
-    fold.on_acknowledged = [this](const std::string& hash, const std::string& node) {
-      outbox_.acknowledge(hash, node);
+    fold.on_acknowledged = [this](const std::string& hash, const std::string& node, std::int64_t journal) {
+      outbox_.acknowledge(hash, node, 0, journal);
     };
-    fold.on_peer = [this](const std::string& node, std::int64_t journal) { outbox_.saw(node, 0, journal); };
     for (const LogRecord& record : journal_->records()) {
       if (const Result<void> agreed = fold.feed(record); !agreed) {
         throw InputError::format("{}: the journal cannot be resumed: {}", journal_path(), agreed.error().message);
@@ -202,16 +201,16 @@ class NodeShell {
       return;
     }
     const auto status = wire::decode_safe<node_status_t>(received.message.payload);
-    if (!status || !outbox_.saw(received.header.node, received.header.epoch, status->journal)) return;
-    write_down(kPeerChannel, pack({received.header.node, std::to_string(status->journal)}));
+    if (status) outbox_.saw(received.header.node, received.header.epoch, status->journal);
   }
 
   void handle_ack(const Received& received) {
     const auto ack = wire::decode_safe<ack_t>(received.message.payload);
     if (!ack) return;
+    const wire::Header& from = received.header;
     for (const std::string& hash : ack->hashes) {
-      if (outbox_.acknowledge(hash, received.header.node))
-        write_down(kAckedChannel, pack({hash, received.header.node}));
+      if (!outbox_.acknowledge(hash, from.node, from.epoch, ack->journal)) continue;
+      write_down(kAckedChannel, pack({hash, from.node, std::to_string(ack->journal)}));
     }
   }
 
@@ -219,7 +218,7 @@ class NodeShell {
   void repeat_answers(const Received& received) {
     if (received.message.channel != "SIMULATE") return;
     const auto request = wire::decode_safe<simulate_request_t>(received.message.payload);
-    if (request) outbox_.answer_again(request->request_id, received.header.node);
+    if (request) outbox_.answer_again(request->request_id, received.header.node, received.header.epoch);
   }
 
   void take_result(FinishedWork finished) {
@@ -281,6 +280,7 @@ class NodeShell {
     for (const Message* message : outbox_.due(now)) bus_->publish(*message);
     if (std::vector<std::string> hashes = inbox_.due(now); !hashes.empty()) {
       ack_t ack{};
+      ack.journal = journal_->identity();
       ack.hashes = std::move(hashes);
       bus_->publish({"ACK", wire::encode(ack)});
     }

@@ -36,36 +36,40 @@ void Outbox::restart(Entry& entry) {
   active_[entry.order] = &entry;
 }
 
-bool Outbox::acknowledge(const std::string& hash, const std::string& node) {
+bool Outbox::acknowledge(const std::string& hash, const std::string& node, std::int64_t epoch, std::int64_t journal) {
   const auto found = entries_.find(hash);
   if (found == entries_.end()) return false;
   Entry& entry = found->second;
   if (entry.waiting.erase(node) == 0) return false;
-  entry.acknowledged_in_epoch[node] = peers_[node].epoch;
+  entry.acknowledged[node] = {epoch, journal};
+  Peer& peer = peers_[node];
+  if (peer.journal != journal) peer.unchecked = true;
   if (entry.waiting.empty()) active_.erase(entry.order);
   return true;
 }
 
-bool Outbox::saw(const std::string& node, std::int64_t epoch, std::int64_t journal) {
+void Outbox::saw(const std::string& node, std::int64_t epoch, std::int64_t journal) {
   Peer& peer = peers_[node];
   const bool restarted = peer.epoch != epoch;
-  const bool other_journal = peer.journal != journal;
-  const bool lost_journal = other_journal && peer.journal != 0;
-  peer = {epoch, journal};
-  if (!restarted && !lost_journal) return other_journal;
+  const bool check = peer.journal != journal || peer.unchecked;
+  peer = {epoch, journal, false};
+  if (!restarted && !check) return;
   for (auto& [hash, entry] : entries_) {
-    const bool receives = std::ranges::find(entry.receivers, node) != entry.receivers.end();
-    if (lost_journal && receives) entry.waiting.insert(node);
-    if (entry.waiting.count(node)) restart(entry);
+    const auto acknowledged = entry.acknowledged.find(node);
+    const bool lost = acknowledged != entry.acknowledged.end() && acknowledged->second.journal != journal;
+    if (lost) {
+      entry.acknowledged.erase(acknowledged);
+      entry.waiting.insert(node);
+    }
+    if (lost || (restarted && entry.waiting.count(node))) restart(entry);
   }
-  return other_journal;
 }
 
-void Outbox::answer_again(const std::string& request_id, const std::string& node) {
+void Outbox::answer_again(const std::string& request_id, const std::string& node, std::int64_t epoch) {
   for (auto& [hash, entry] : entries_) {
     if (entry.request_id != request_id || entry.waiting.count(node)) continue;
-    const auto acknowledged = entry.acknowledged_in_epoch.find(node);
-    if (acknowledged == entry.acknowledged_in_epoch.end() || acknowledged->second == peers_[node].epoch) continue;
+    const auto acknowledged = entry.acknowledged.find(node);
+    if (acknowledged == entry.acknowledged.end() || acknowledged->second.epoch == epoch) continue;
     entry.waiting.insert(node);
     restart(entry);
   }

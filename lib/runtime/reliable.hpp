@@ -30,15 +30,15 @@ class Outbox {
   /// Takes a message. One that is already known (same hash) is not taken twice.
   void offer(const std::string& hash, Message message, const std::vector<std::string>& receivers);
 
-  /// `node` has the message in its journal. True when that was news.
-  bool acknowledge(const std::string& hash, const std::string& node);
+  /// `node` has the message in its journal of that identity. True when that was news (worth writing down).
+  bool acknowledge(const std::string& hash, const std::string& node, std::int64_t epoch, std::int64_t journal);
 
-  /// What was seen of `node` in its STATUS. A new epoch: what it has not acknowledged is due at once. Another journal:
-  /// what the older one acknowledged is offered again. True when the journal was news (worth writing down).
-  bool saw(const std::string& node, std::int64_t epoch, std::int64_t journal);
+  /// What was seen of `node` in its STATUS. A new epoch: what it has not acknowledged is due at once. What was
+  /// acknowledged for another journal than this one is lost and offered again.
+  void saw(const std::string& node, std::int64_t epoch, std::int64_t journal);
 
   /// `node` asked again with a new process: the answers to its request are offered to it once more.
-  void answer_again(const std::string& request_id, const std::string& node);
+  void answer_again(const std::string& request_id, const std::string& node, std::int64_t epoch);
 
   /// Messages to send now; each counts as sent.
   std::vector<const Message*> due(std::int64_t now_us);
@@ -53,12 +53,16 @@ class Outbox {
   bool knows(const std::string& hash) const { return entries_.count(hash) != 0; }
 
  private:
+  struct Acknowledgement {
+    std::int64_t epoch = 0;
+    std::int64_t journal = 0;
+  };
   struct Entry {
     Message message;
     std::string request_id;  ///< of an answer
     std::vector<std::string> receivers;
-    std::set<std::string> waiting;                              ///< receivers that have not acknowledged
-    std::map<std::string, std::int64_t> acknowledged_in_epoch;  ///< receiver -> its epoch then
+    std::set<std::string> waiting;                        ///< receivers that have not acknowledged
+    std::map<std::string, Acknowledgement> acknowledged;  ///< by receiver
     std::int64_t next_us = 0;
     std::int64_t interval_us = 0;  ///< 0: due at once
     std::uint64_t order = 0;
@@ -68,6 +72,7 @@ class Outbox {
   struct Peer {
     std::int64_t epoch = 0;
     std::int64_t journal = 0;
+    bool unchecked = false;  ///< acknowledged something for another journal than the one last seen
   };
   void restart(Entry& entry);
   std::vector<Entry*> admitted() const;

@@ -100,7 +100,7 @@ class LossyNetwork {
     if (flight.message.channel == "STATUS") {
       to.outbox.saw(flight.from, flight.epoch, flight.journal);
     } else if (flight.message.channel == "ACK") {
-      to.outbox.acknowledge(flight.message.payload, flight.from);
+      to.outbox.acknowledge(flight.message.payload, flight.from, flight.epoch, flight.journal);
     } else {
       const std::string hash = hash_of(flight.message);
       if (!receivers_[hash].count(flight.to)) return;  // everyone hears everything
@@ -172,8 +172,8 @@ TEST(Outbox, BacksOffFrom50MillisecondsToASecond) {
     if (!outbox.due(now).empty()) times.push_back(now / kMillisecond);
   }
   EXPECT_EQ(times, (std::vector<std::int64_t>{0, 50, 150, 350, 750, 1550, 2550, 3550, 4550}));
-  EXPECT_TRUE(outbox.acknowledge("h", "b"));
-  EXPECT_FALSE(outbox.acknowledge("h", "b"));
+  EXPECT_TRUE(outbox.acknowledge("h", "b", 1, 1));
+  EXPECT_FALSE(outbox.acknowledge("h", "b", 1, 1));
   EXPECT_FALSE(outbox.next_due());
 }
 
@@ -186,7 +186,7 @@ TEST(Outbox, KeepsTheWindowPerReceiverAndTheOrder) {
   ASSERT_EQ(first.size(), 5u);  // four of 50 kB for the one that is down, and the one behind them for the other
   EXPECT_EQ(first[0]->payload[0], '0');
   EXPECT_EQ(first[4]->payload[0], 'x');
-  outbox.acknowledge("dead0", "dead");
+  outbox.acknowledge("dead0", "dead", 1, 1);
   const auto next = outbox.due(kMillisecond);
   ASSERT_EQ(next.size(), 1u);
   EXPECT_EQ(next[0]->payload[0], '4');
@@ -198,14 +198,30 @@ TEST(Outbox, ARestartedReceiverIsOfferedTheOpenMessagesAtOnce) {
   outbox.offer("open", text_message("open"), {"b"});
   outbox.offer("done", text_message("done"), {"b"});
   outbox.due(0);
-  outbox.acknowledge("done", "b");
+  outbox.acknowledge("done", "b", 1, 7);
   EXPECT_TRUE(outbox.due(10).empty());
-  EXPECT_FALSE(outbox.saw("b", 2, 7));  // same journal
+  outbox.saw("b", 2, 7);  // same journal
   const auto again = outbox.due(20);
   ASSERT_EQ(again.size(), 1u);
   EXPECT_EQ(again[0]->payload, "open");
-  EXPECT_TRUE(outbox.saw("b", 3, 8));  // the journal was lost
+  outbox.saw("b", 3, 8);  // the journal was lost
   EXPECT_EQ(outbox.due(30).size(), 2u);
+}
+
+TEST(Outbox, AnAcknowledgementIsWorthAsMuchAsItsJournal) {
+  Outbox outbox;  // which has not heard a STATUS yet
+  for (const char* hash : {"early", "late"}) outbox.offer(hash, text_message(hash), {"b"});
+  outbox.due(0);
+  outbox.acknowledge("early", "b", 1, 7);
+  outbox.acknowledge("late", "b", 2, 8);  // by the process that began a new journal
+  outbox.saw("b", 2, 8);
+  const auto again = outbox.due(10);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0]->payload, "early");
+  outbox.acknowledge("early", "b", 1, 7);  // the old process' word, overtaken by the STATUS
+  EXPECT_EQ(outbox.unacknowledged(), 0);
+  outbox.saw("b", 2, 8);
+  EXPECT_EQ(outbox.due(20).size(), 1u);
 }
 
 TEST(Outbox, AnAnswerIsRepeatedForARequesterThatAsksAgainInANewProcess) {
@@ -214,11 +230,11 @@ TEST(Outbox, AnAnswerIsRepeatedForARequesterThatAsksAgainInANewProcess) {
   outbox.saw("proposal_agent", 1, 1);
   outbox.offer("h", {"SIMULATED", wire::write(result)}, {"proposal_agent"});
   outbox.due(0);
-  outbox.acknowledge("h", "proposal_agent");
-  outbox.answer_again("proposal_agent/0/1", "proposal_agent");  // a late repetition by the same process
+  outbox.acknowledge("h", "proposal_agent", 1, 1);
+  outbox.answer_again("proposal_agent/0/1", "proposal_agent", 1);  // a late repetition by the same process
   EXPECT_EQ(outbox.unacknowledged(), 0);
   outbox.saw("proposal_agent", 2, 1);
-  outbox.answer_again("proposal_agent/0/1", "proposal_agent");
+  outbox.answer_again("proposal_agent/0/1", "proposal_agent", 2);
   EXPECT_EQ(outbox.due(1).size(), 1u);
 }
 

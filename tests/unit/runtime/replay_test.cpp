@@ -63,7 +63,7 @@ class Recording {
     for (const Compute& compute : outputs.computes) {
       add(kComputeChannel, pack({compute.id, compute.kind, compute.spec}));
       const WorkDone done{compute.id, kWork.at(compute.kind)(compute.spec)};
-      add(kAckedChannel, pack({"some hash", "somebody"}));
+      add(kAckedChannel, pack({"some hash", "somebody", "1"}));
       add(kWorkChannel, pack({done.id, done.result}));
       step(done);
     }
