@@ -25,6 +25,8 @@ inline constexpr double kGauss = 0.21132486540518711775;
 inline constexpr double kLn2 = 0.69314718055994530942;
 /// Below this J - 1 the logarithm is held: only elements that are inverted or about to fail get there.
 inline constexpr double kSmallestChange = -0.9999;
+/// Up to this |J - 1| the logarithm needs no reduction of its argument (1 - sqrt(1/2) = 0.293).
+inline constexpr double kNearChange = 0.29;
 
 /// Values at the two Gauss abscissae of what varies linearly between `first` and `second`; also the adjoint of that.
 template <class Real>
@@ -81,10 +83,9 @@ NACRE_INLINE void logarithm(Pack<Real> x, Pack<Real>& log, Pack<Real>& inverse) 
   const Pack<Real> z = y * (both * j), z2 = z * z;
   Pack<Real> series;
   if constexpr (sizeof(Real) == 4) {
-    // |z| < 0.172: the next term is below 3e-9 of the sum.
-    series = fma(z2, broadcast(Real(2.0 / 9)), broadcast(Real(2.0 / 7)));
-    series = fma(z2, series, broadcast(Real(2.0 / 5)));
-    series = fma(z2, series, broadcast(Real(2.0 / 3)));
+    // 2/3 + 2/5 z^2 + 2/7 z^4 + ..., interpolated at the Chebyshev points of 0 <= z^2 < 0.0295: 3e-9 of the logarithm.
+    series = fma(z2, broadcast(Real(0.29579949)), broadcast(Real(0.39988781)));
+    series = fma(z2, series, broadcast(Real(0.66666685)));
   } else {
     series = broadcast(Real(2.0 / 23));
     for (int n = 21; n >= 3; n -= 2) series = fma(z2, series, broadcast(Real(2.0 / n)));
@@ -101,7 +102,7 @@ NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (
   Pack<Real> largest{};
   for (int i = 0; i < 2; ++i) {
     for (int k = 0; k < 2; ++k) {
-      const Pack<Real> x = change[i][k];
+      const Pack<Real> x = Reduce ? larger(change[i][k], broadcast(Real(kSmallestChange))) : change[i][k];
       Pack<Real> log, inverse;
       logarithm<Real, Reduce>(x, log, inverse);
       const Pack<Real> pressure = lambda * log;
@@ -128,12 +129,11 @@ bool element_row(const ExplicitState<Real>& s, int row) {
     const Pack<Real> mu = load(mu_row + column), lambda = load(lambda_row + column);
     Pack<Real> change[2][2], t[2][2];
     for (int i = 0; i < 2; ++i)
-      for (int k = 0; k < 2; ++k) change[i][k] = larger(volume_change(g, i, k), broadcast(Real(kSmallestChange)));
-    const Pack<Real> least = smaller(smaller(change[0][0], change[0][1]), smaller(change[1][0], change[1][1]));
-    const Pack<Real> most = larger(larger(change[0][0], change[0][1]), larger(change[1][0], change[1][1]));
+      for (int k = 0; k < 2; ++k) change[i][k] = volume_change(g, i, k);
+    const Pack<Real> most = larger(larger(magnitude<Real>(change[0][0]), magnitude<Real>(change[0][1])),
+                                   larger(magnitude<Real>(change[1][0]), magnitude<Real>(change[1][1])));
     Flags far;
-    flag_unless_at_most(far, broadcast(Real(-0.29)), least);
-    flag_unless_at_most(far, most, broadcast(Real(0.41)));
+    flag_unless_at_most(far, most, broadcast(Real(kNearChange)));
     const Pack<Real> energy = any(far) ? constitutive<Real, true>(g, change, mu, lambda, t)
                                        : constitutive<Real, false>(g, change, mu, lambda, t);
     store(r.excess + column, energy);
@@ -192,25 +192,33 @@ void accelerate_row(const ExplicitState<Real>& s, int row) {
   }
 }
 
+/// v(i-1) + v(i) + v(i+1), symmetric to the last bit.
+template <class Real>
+NACRE_INLINE Pack<Real> sum_of_three(const Real* v) {
+  return (load(v - 1) + load(v + 1)) + load(v);
+}
+
 /// Row sums of velocities for the filter.
 template <class Real>
 void sum_row(const ExplicitState<Real>& s, int row) {
   const auto sum = [&](const Real* v, Real* out) {
-    for (int i = 0; i <= s.columns; i += kLanes<Real>)
-      store(out + i, (load(v + i - 1) + load(v + i + 1)) + load(v + i));
+    for (int i = 0; i <= s.columns; i += kLanes<Real>) store(out + i, sum_of_three(v + i));
   };
   sum(s.vx + row * s.stride, s.row.sum_x[row % 3]);
   sum(s.vy + row * s.stride, s.row.sum_y[row % 3]);
 }
 
-/// Eq. 2.4 for one interior row, then q += v.
+/// Eq. 2.4 for one interior row, then q += v. Forms the sums of the row above, which has just been accelerated.
 template <class Real>
 void smooth_and_move_row(const ExplicitState<Real>& s, int row) {
   const Pack<Real> ninth = broadcast(Real(1.0 / 9));
   const auto finish = [&](Real* v, Real* q, Real* const(&sums)[3]) {
-    const Real *below = sums[(row + 2) % 3], *here = sums[row % 3], *above = sums[(row + 1) % 3];
+    const Real *below = sums[(row + 2) % 3], *here = sums[row % 3];
+    Real* above = sums[(row + 1) % 3];
     for (int i = 0; i <= s.columns; i += kLanes<Real>) {
-      const Pack<Real> box = (load(below + i) + load(above + i)) + load(here + i), old = load(v + i);
+      const Pack<Real> sum_above = sum_of_three(v + s.stride + i);
+      store(above + i, sum_above);
+      const Pack<Real> box = (load(below + i) + sum_above) + load(here + i), old = load(v + i);
       const Pack<Real> smooth = fma(load(s.row.weight + i), fma(ninth, box, -old), old);
       store(v + i, smooth);
       store(q + i, load(q + i) + smooth);
@@ -318,7 +326,7 @@ void advance(ExplicitState<Real>& s) {
     } else {
       accelerate_row<Real, false>(s, row);
     }
-    sum_row(s, row);
+    if (row < 2) sum_row(s, row);
     if (row > 0) finish_row<Real, Ledger>(s, row - 1);
   }
   // The upper grip: no element row above it.
@@ -327,7 +335,6 @@ void advance(ExplicitState<Real>& s) {
   for (Real* row : above) zero_row(row, s.columns);
   for (int i = 0; i <= s.columns; i += kLanes<Real>) store(r.horizontal_x + i, load(r.upper_x + i));
   accelerate_row<Real, true>(s, s.rows);
-  sum_row(s, s.rows);
   finish_row<Real, Ledger>(s, s.rows - 1);
   finish_row<Real, Ledger>(s, s.rows);
 }

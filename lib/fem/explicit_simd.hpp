@@ -52,6 +52,13 @@ NACRE_INLINE Pack<Real> broadcast(Real value) {
   return Pack<Real>{} + value;
 }
 
+/// Absolute value.
+template <class Real>
+NACRE_INLINE Pack<Real> magnitude(Pack<Real> pack) {
+  const Bits<Real> sign = (Bits<Real>)(-Pack<Real>{});
+  return (Pack<Real>)((Bits<Real>)pack & ~sign);
+}
+
 /// Lanes seen so far in which a comparison failed.
 #if defined(__AVX512F__)
 struct Flags {

@@ -73,6 +73,7 @@ template <class Real>
 ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& settings)
     : grid_(grid), settings_(settings) {
   const SimdLevel level = settings.simd.value_or(best_simd_level());
+  assert(has_simd_level(level));
   const auto choose = [&]<class Single>(const ExplicitKernel<Single>* a, const ExplicitKernel<Single>* b,
                                         const ExplicitKernel<Single>* c) {
     return level == SimdLevel::avx512 ? c : level == SimdLevel::avx2 ? b : a;
