@@ -1,0 +1,318 @@
+// Games whose laboratory misbehaves, or is a person; approvals, reviews, injected measurements.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "game/rounds.hpp"
+#include "in_process_game.hpp"
+#include "stand_ins.hpp"
+
+namespace nacre::game_test {
+namespace {
+
+using testing::AnyOf;
+using testing::Contains;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// A game that a person measures for: nothing answers TEST_ORDERs by itself.
+class PersonGame : public testing::Test {
+ protected:
+  PersonGame() {
+    scenario_.rounds = 1;
+    scenario_.laboratory.virtual_lab = false;
+  }
+  void begin() {
+    add_players(game_, scenario_);
+    game_.announce(scenario_);
+    game_.play();
+  }
+  void report(const wire::Measurement& measured) {
+    game_.publish("MEASUREMENT", measured);
+    game_.play();
+  }
+  std::vector<wire::Measurement> all_measurements() const {
+    std::vector<wire::Measurement> all;
+    for (const auto& order : game_.said<wire::TestOrder>("TEST_ORDER")) {
+      for (auto& measured : measure(order, {})) all.push_back(std::move(measured));
+    }
+    return all;
+  }
+  std::size_t rounds() const { return game_.payloads("ROUND").size(); }
+  wire::RoundSummary last_round() const { return game_.said<wire::RoundSummary>("ROUND").back(); }
+
+  game::Scenario scenario_ = small_scenario();
+  InProcessGame game_;
+};
+
+TEST_F(PersonGame, WaitsForTheLastSpecimenHoweverItIsReported) {
+  begin();
+  EXPECT_EQ(rounds(), 1u) << "round 0 needs no laboratory";
+  auto all = all_measurements();
+  // Backwards, and without the order's id, as measurement sets come.
+  std::reverse(all.begin(), all.end());
+  for (auto& measured : all) {
+    measured.order_id.clear();
+    measured.round = -1;
+  }
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) report(all[i]);
+  EXPECT_EQ(rounds(), 1u);
+  EXPECT_THAT(game_.status_of("validation_agent").phase, HasSubstr("measuring"));
+  report(all.back());
+  EXPECT_EQ(rounds(), 2u);
+  EXPECT_TRUE(last_round().last);
+}
+
+TEST_F(PersonGame, TheOrderOfMeasurementsDoesNotMatter) {
+  begin();
+  InProcessGame other;
+  add_players(other, scenario_);
+  other.announce(scenario_);
+  other.play();
+  auto all = all_measurements();
+  for (const auto& measured : all) report(measured);
+  std::reverse(all.begin(), all.end());
+  std::rotate(all.begin(), all.begin() + 7, all.end());
+  for (const auto& measured : all) other.publish("MEASUREMENT", measured);
+  other.play();
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_EQ(other.essence(), game_.essence());
+}
+
+TEST_F(PersonGame, RepeatsAreIgnoredAndContradictionsRefused) {
+  begin();
+  const auto all = all_measurements();
+  report(all.front());
+  report(all.front());
+  EXPECT_THAT(game_.complaints_of("validation_agent"), IsEmpty());
+  auto other = all.front();
+  *other.record.modulus_pa *= 2.0;
+  report(other);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("other content")));
+  for (const auto& measured : all) report(measured);
+  ASSERT_EQ(rounds(), 2u);
+  const auto reference = last_round();
+  InProcessGame clean;
+  add_players(clean, scenario_);
+  clean.announce(scenario_);
+  clean.play();
+  for (const auto& measured : all) clean.publish("MEASUREMENT", measured);
+  clean.play();
+  EXPECT_EQ(clean.said<wire::RoundSummary>("ROUND").back(), reference);
+}
+
+TEST_F(PersonGame, InvalidSpecimensCompleteAnOrderAndAreNotUsed) {
+  begin();
+  auto all = all_measurements();
+  // One design has no valid toughness specimen, one modulus specimen is absurd and invalid.
+  const std::string spoiled = game_.said<wire::Proposal>("PROPOSAL").front().designs.front().design.name();
+  bool absurd = false;
+  for (auto& measured : all) {
+    measurement::SpecimenRecord& record = measured.record;
+    if (record.design.name() == spoiled && record.test == tester::TestKind::toughness) {
+      record.valid = false;
+      record.note = "slipped";
+    } else if (!absurd && record.design.layout() != nullptr && record.test == tester::TestKind::modulus) {
+      absurd = true;
+      record.modulus_pa = 500e9;
+      record.valid = false;
+      record.note = "load cell overflow";
+    }
+    report(measured);
+  }
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), SizeIs(4));
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("load cell overflow")));
+  EXPECT_EQ(last_round().calibration_count, 7);
+  EXPECT_EQ(last_round().after.toughness_count, 6) << "the spoiled design has a modulus only";
+  EXPECT_LT(last_round().measured_hypervolume_staircase, 100.0);
+}
+
+TEST_F(PersonGame, AReviewTakesASpecimenOutAndTheHighestRevisionWins) {
+  begin();
+  auto all = all_measurements();
+  const auto victim = std::find_if(all.begin(), all.end(), [](const wire::Measurement& measured) {
+    return measured.record.design.layout() != nullptr && measured.record.test == tester::TestKind::modulus;
+  });
+  victim->record.modulus_pa = 500e9;
+  const auto review = [&](int revision, bool valid) {
+    review_t message{};
+    message.specimen = victim->record.specimen;
+    message.revision = revision;
+    message.valid = valid;
+    message.by = "lab";
+    message.why = "decimal point";
+    game_.publish({"REVIEW", wire::encode(message)});
+    game_.play();
+  };
+  review(2, false);  // before the measurement it is about
+  for (const auto& measured : all) {
+    if (&measured == &*victim) review(1, true);
+    report(measured);
+  }
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_LT(last_round().measured_hypervolume_staircase, 100.0);
+  EXPECT_LT(last_round().before.modulus_max, 10.0);
+}
+
+TEST_F(PersonGame, DesignsThatNobodyOrderedJoinTheCalibrationSet) {
+  begin();
+  const pattern::Design unknown = pattern::Pattern(0x3ffc9b4ad4d2d9ULL);
+  for (tester::TestKind test : {tester::TestKind::modulus, tester::TestKind::toughness}) {
+    wire::TestOrder invented;
+    invented.round = 1;
+    invented.order_id = std::string("somebody else/") + std::string(tester::to_string(test));
+    invented.design = unknown;
+    invented.test = test;
+    invented.fidelity = scenario_.fidelity;
+    invented.replicates = 2;
+    for (auto measured : measure(invented, {})) {
+      measured.round = -1;
+      measured.order_id.clear();
+      report(measured);
+    }
+  }
+  EXPECT_EQ(rounds(), 1u) << "the orders are still open";
+  for (const auto& measured : all_measurements()) report(measured);
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_EQ(last_round().calibration_count, 8);
+  EXPECT_EQ(last_round().held_out.modulus_count, 3) << "nobody had predicted it";
+  const auto model = game_.said<wire::AdoptedModel>("PARAMETERS").back();
+  EXPECT_THAT(model.measured, Contains(*pattern::Pattern::from_layout(*unknown.layout())));
+}
+
+TEST_F(PersonGame, AMeasurementOfAnotherFidelityIsRefused) {
+  begin();
+  auto measured = all_measurements().front();
+  measured.fidelity = tester::Fidelity::full;
+  report(measured);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("fidelity full")));
+}
+
+TEST_F(PersonGame, EnoughValidSpecimensCompleteAnOrder) {
+  scenario_.validation.enough_valid = 2;
+  begin();
+  for (const auto& measured : all_measurements()) {
+    if (!measured.record.specimen.ends_with("#3")) report(measured);
+  }
+  EXPECT_EQ(rounds(), 2u);
+}
+
+TEST_F(PersonGame, SpecimensMeasuredInAdvanceAnswerLaterOrders) {
+  add_players(game_, scenario_);
+  // The pure materials are known from before: reported even before the run is announced.
+  for (const auto& order : game::opening_orders(scenario_, {})) {
+    wire::TestOrder early{.round = 1,
+                          .order_id = order.id,
+                          .design = order.design,
+                          .test = order.test,
+                          .fidelity = scenario_.fidelity,
+                          .replicates = order.replicates,
+                          .conditions = order.conditions,
+                          .loading = "monotonic",
+                          .batch = "",
+                          .reason = ""};
+    for (auto measured : measure(early, {})) {
+      measured.order_id.clear();
+      measured.round = -1;
+      report(measured);
+    }
+  }
+  game_.announce(scenario_);
+  game_.play();
+  EXPECT_THAT(game_.status_of("validation_agent").phase, HasSubstr("8 of 24 orders complete"));
+}
+
+class ApprovalGame : public PersonGame {
+ protected:
+  ApprovalGame() {
+    scenario_.validation.approval = true;
+    scenario_.laboratory.virtual_lab = true;
+  }
+  void decide(const pattern::Design& design, bool approved, int round = 0) {
+    approval_t message{};
+    message.round = round;
+    message.design = design.name();
+    message.approved = approved;
+    message.by = "head of the lab";
+    message.why = approved ? "go" : "too thin to print";
+    game_.publish({"APPROVAL", wire::encode(message)});
+    game_.play();
+  }
+  std::set<std::string> ordered() const {
+    std::set<std::string> names;
+    for (const auto& order : game_.said<wire::TestOrder>("TEST_ORDER")) names.insert(order.design.name());
+    return names;
+  }
+};
+
+TEST_F(ApprovalGame, NothingProposedIsOrderedWithoutAYes) {
+  begin();
+  EXPECT_EQ(rounds(), 1u);
+  const auto designs = game_.said<wire::Proposal>("PROPOSAL").front().designs;
+  for (const auto& each : designs) EXPECT_FALSE(ordered().contains(each.design.name()));
+  EXPECT_THAT(game_.status_of("validation_agent").phase, HasSubstr("3 designs wait for approval"));
+  decide(designs[0].design, true);
+  decide(designs[1].design, false);
+  EXPECT_EQ(rounds(), 1u);
+  decide(designs[2].design, true);
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_TRUE(ordered().contains(designs[0].design.name()));
+  EXPECT_FALSE(ordered().contains(designs[1].design.name()));
+  EXPECT_EQ(last_round().calibration_count, 6);
+  EXPECT_EQ(last_round().held_out.modulus_count, 2);
+  // A refused design is not proposed again.
+  for (const auto& each : game_.said<wire::Proposal>("PROPOSAL").back().designs) {
+    EXPECT_FALSE(each.design == designs[1].design);
+  }
+}
+
+TEST_F(ApprovalGame, TheFirstDecisionCountsAndStrayOnesAreRefused) {
+  begin();
+  const auto designs = game_.said<wire::Proposal>("PROPOSAL").front().designs;
+  decide(designs[0].design, true);
+  decide(designs[0].design, false);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("was approved before")));
+  decide(pattern::Design(pattern::Mixture{0.65}), true);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("not in the proposal")));
+  decide(designs[1].design, true);
+  decide(designs[2].design, true);
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_EQ(last_round().calibration_count, 7);
+}
+
+TEST(Approval, TheOrderOfDecisionsDoesNotMatter) {
+  game::Scenario scenario = small_scenario();
+  scenario.rounds = 1;
+  scenario.validation.approval = true;
+  std::set<std::pair<std::string, std::string>> reference;
+  for (const bool backwards : {false, true}) {
+    InProcessGame game;
+    add_players(game, scenario);
+    game.announce(scenario);
+    game.play();
+    auto designs = game.said<wire::Proposal>("PROPOSAL").front().designs;
+    if (backwards) std::reverse(designs.begin(), designs.end());
+    for (const auto& each : designs) {
+      approval_t message{};
+      message.design = each.design.name();
+      message.approved = true;
+      message.by = "lab";
+      game.publish({"APPROVAL", wire::encode(message)});
+      game.play();
+    }
+    EXPECT_THAT(game.payloads("ROUND"), SizeIs(2));
+    if (reference.empty()) reference = game.essence();
+    EXPECT_EQ(game.essence(), reference);
+  }
+}
+
+}  // namespace
+}  // namespace nacre::game_test
