@@ -24,9 +24,10 @@ Result<std::unique_ptr<Endpoint>> Endpoint::open(BusOptions options, std::vector
 }
 
 Result<std::string> Endpoint::offer(const Message& message) {
+  if (const Result<void> sound = wire::check_outgoing(message.channel, message.payload); !sound) {
+    return tl::unexpected(sound.error());
+  }
   const wire::Channel* channel = wire::find_channel(message.channel);
-  if (!channel) return fail("there is no channel {}", message.channel);
-  if (const Result<void> sound = channel->validate(message.payload); !sound) return tl::unexpected(sound.error());
   const std::string hash = wire::message_hash(message.channel, message.payload);
   outbox_.offer(hash, message, wire::receivers_of(*channel, message.payload, participants_, node_));
   return hash;

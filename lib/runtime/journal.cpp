@@ -54,19 +54,38 @@ void sync_folder(const std::filesystem::path& folder) {
   ::close(fd);
 }
 
-/// All records of the journal, its torn tail cut off. Returns a sentence about the cut, or nothing.
-std::string read_and_mend(const std::filesystem::path& path, std::vector<LogRecord>& records) {
-  if (!std::filesystem::exists(path)) return {};
+/// What a journal is found like.
+struct Found {
+  std::int64_t records = 0;
+  std::int64_t identity = 0;
+  std::string warning;  ///< what was cut off
+};
+
+std::int64_t identity_in(const std::filesystem::path& path, const LogRecord& record) {
+  const auto fields = unpack(record.data);
+  if (!fields || fields->empty()) {
+    throw InputError::format("{}: record {} at byte {} is damaged", path.string(), record.number, record.offset);
+  }
+  return std::stoll(fields->front());
+}
+
+/// Walks through the journal and cuts its torn tail off.
+Found read_and_mend(const std::filesystem::path& path) {
+  Found found;
+  if (!std::filesystem::exists(path)) return found;
   LogReader reader(path);
-  while (auto record = reader.next()) records.push_back(std::move(*record));
+  for (; const auto record = reader.next(); ++found.records) {
+    if (record->channel == kJournalChannel) found.identity = identity_in(path, *record);
+  }
   const LogEnd end = reader.end();
-  if (end.torn_bytes == 0) return {};
+  if (end.torn_bytes == 0) return found;
   if (::truncate(path.c_str(), end.sound_bytes) != 0) {
     throw InputError::format("{}: its torn tail cannot be cut off: {}", path.string(), std::strerror(errno));
   }
-  return fmt::format(
-      "{}: the last {} bytes were a record that was being written when the node ended; cut off at byte {}",
-      path.string(), end.torn_bytes, end.sound_bytes);
+  found.warning =
+      fmt::format("{}: the last {} bytes were a record that was being written when the node ended; cut off at byte {}",
+                  path.string(), end.torn_bytes, end.sound_bytes);
+  return found;
 }
 
 }  // namespace
@@ -101,17 +120,10 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   std::unique_ptr<Journal> journal(new Journal());
   journal->lock_fd_ = lock_folder(folder);
   journal->path_ = folder / "journal.lcm";
-  journal->warning_ = read_and_mend(journal->path_, journal->records_);
-  for (const LogRecord& record : journal->records_) {
-    if (record.channel != kJournalChannel) continue;
-    const auto fields = unpack(record.data);
-    if (!fields || fields->empty()) {
-      throw InputError::format("{}: record {} at byte {} is damaged", journal->path_.string(), record.number,
-                               record.offset);
-    }
-    journal->identity_ = std::stoll(fields->front());
-  }
-  journal->writer_ = std::make_unique<LogWriter>(journal->path_, static_cast<std::int64_t>(journal->records_.size()));
+  const Found found = read_and_mend(journal->path_);
+  journal->warning_ = found.warning;
+  journal->identity_ = found.identity;
+  journal->writer_ = std::make_unique<LogWriter>(journal->path_, found.records);
   if (journal->identity_ == 0 || !journal->warning_.empty()) {
     // What a torn tail held may have been acknowledged (a disk that lies, a machine that failed): begin a new identity.
     journal->identity_ = now_utime;

@@ -35,12 +35,8 @@ class Journal {
   /// Opens FOLDER/journal.lcm. Throws InputError: locked by another process, damaged in the middle, not writable.
   static std::unique_ptr<Journal> open(const std::filesystem::path& folder, std::int64_t now_utime);
   ~Journal();
-  /// Records found when opening, oldest first. Read once, then release().
-  const std::vector<LogRecord>& records() const { return records_; }
-  void release() {
-    records_.clear();
-    records_.shrink_to_fit();
-  }
+  /// To read what stands in it: LogReader(journal.path()).
+  const std::filesystem::path& path() const { return path_; }
   /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off.
   std::int64_t identity() const { return identity_; }
   /// What was cut off, as a sentence; empty when nothing was.
@@ -50,7 +46,6 @@ class Journal {
 
  private:
   Journal() = default;
-  std::vector<LogRecord> records_;
   std::unique_ptr<LogWriter> writer_;
   std::filesystem::path path_;
   std::int64_t identity_ = 0;

@@ -140,22 +140,20 @@ class NodeShell {
     fold.on_acknowledged = [this](const std::string& hash, const std::string& node, std::int64_t journal) {
       outbox_.acknowledge(hash, node, 0, journal);
     };
-    for (const LogRecord& record : journal_->records()) {
-      if (const Result<void> agreed = fold.feed(record); !agreed) {
-        throw InputError::format("{}: the journal cannot be resumed: {}", journal_path(), agreed.error().message);
+    LogReader reader(journal_->path());
+    while (const auto record = reader.next()) {
+      if (const Result<void> agreed = fold.feed(*record); !agreed) {
+        throw InputError::format("{}: the journal cannot be resumed: {}", journal_->path().string(),
+                                 agreed.error().message);
       }
     }
-    const std::size_t records = journal_->records().size();
-    journal_->release();
     for (Compute& compute : fold.open_work()) pool_.start(std::move(compute));
     carry_out(fold.take_unfinished());
     if (fold.inputs > 0) {
-      log_.write(LogLevel::info, fmt::format("resumed from {} records ({} inputs); {} messages and {} works are open",
-                                             records, fold.inputs, outbox_.unacknowledged(), pool_.pending()));
+      log_.write(LogLevel::info, fmt::format("resumed from a journal of {} inputs; {} messages and {} works are open",
+                                             fold.inputs, outbox_.unacknowledged(), pool_.pending()));
     }
   }
-
-  std::string journal_path() const { return (options_.node_dir() / "journal.lcm").string(); }
 
   void write_down(std::string_view channel, std::string_view data, bool to_disk = false) {
     const Result<void> written = journal_->append(now_utime(), channel, data, to_disk);
@@ -261,11 +259,9 @@ class NodeShell {
   /// A core that says something invalid has a bug: every receiver would drop it and the game would stand still without
   /// a word.
   void expect_sound(const Message& message) const {
-    const wire::Channel* channel = wire::find_channel(message.channel);
-    if (!channel) throw NodeFailure(fmt::format("the core speaks on the unknown channel {}", message.channel));
-    if (const Result<void> sound = channel->validate(message.payload); !sound) {
+    const Result<void> sound = wire::check_outgoing(message.channel, message.payload);
+    if (!sound)
       throw NodeFailure(fmt::format("the core's message on {} is invalid: {}", message.channel, sound.error().message));
-    }
   }
 
   void offer(const Message& message) {

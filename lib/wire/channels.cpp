@@ -97,6 +97,15 @@ std::vector<std::string> receivers_of(const Channel& channel, std::string_view p
   return receivers;
 }
 
+Result<void> check_outgoing(std::string_view channel, std::string_view payload) {
+  const Channel* known = find_channel(channel);
+  if (!known) return fail("there is no channel {}", channel);
+  if (payload.size() > kMaximumBlankPayload) {
+    return fail("a message of {} bytes on {}, at most {}", payload.size(), channel, kMaximumBlankPayload);
+  }
+  return known->validate(payload);
+}
+
 std::string_view requester_of(std::string_view request_id) {
   const std::size_t slash = request_id.find('/');
   return slash == std::string_view::npos ? std::string_view() : request_id.substr(0, slash);

@@ -46,6 +46,9 @@ std::vector<std::string> receivers_of(const Channel& channel, std::string_view p
 /// node's own.
 bool is_meant_for(const Channel& channel, std::string_view payload, std::string_view node);
 
+/// Whether a message may be sent: the channel exists, the payload is valid and leaves room for the header.
+Result<void> check_outgoing(std::string_view channel, std::string_view payload);
+
 /// The name before the first '/' of a request id; empty when there is none.
 std::string_view requester_of(std::string_view request_id);
 

@@ -184,7 +184,7 @@ Result<SimulateResult> from_wire(const simulate_result_t& message) {
 
 std::vector<SimulateResult> simulate_answer(const std::string& request_id,
                                             const std::vector<SimulatedDesign>& results) {
-  constexpr std::size_t kRoom = kMaximumPayload - 2000;  // header and the message's own members
+  constexpr std::size_t kRoom = kMaximumBlankPayload - 500;  // the message's own members
   std::vector<SimulateResult> answer;
   std::size_t filled = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {

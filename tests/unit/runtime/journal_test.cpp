@@ -126,7 +126,7 @@ TEST(Journal, KeepsItsIdentityAndNumbersOnAcrossOpenings) {
   ASSERT_TRUE(Journal::open(folder.path(), 111)->append(1, "A", "x"));
   const auto again = Journal::open(folder.path(), 222);
   EXPECT_EQ(again->identity(), 111);
-  ASSERT_EQ(again->records().size(), 2u);
+  EXPECT_EQ(count_records(again->path()), 2);
   ASSERT_TRUE(again->append(2, "B", "y"));
   LogReader reader(folder.path() / "journal.lcm");
   for (std::int64_t number = 0; number < 3; ++number) EXPECT_EQ(reader.next()->number, number);
@@ -140,8 +140,10 @@ TEST(Journal, CutsATornTailAndTakesANewIdentity) {
   const auto mended = Journal::open(folder.path(), 222);
   EXPECT_THAT(mended->warning(), HasSubstr("cut off"));
   EXPECT_EQ(mended->identity(), 222);  // what the tail held may have been acknowledged: it must come again
-  EXPECT_EQ(mended->records().back().data, "kept");
-  EXPECT_EQ(count_records(path), 3);
+  LogReader reader(path);
+  reader.next();
+  EXPECT_EQ(reader.next()->data, "kept");
+  EXPECT_EQ(reader.next()->channel, kJournalChannel);
 }
 
 TEST(Journal, IsNotOpenedTwice) {
@@ -173,7 +175,7 @@ TEST(Journal, AFileSizeLimitLeavesAJournalThatResumes) {
   const int kept = WEXITSTATUS(status);
   EXPECT_GT(kept, 10);
   const auto journal = Journal::open(folder.path(), 2);
-  EXPECT_GE(static_cast<int>(journal->records().size()), kept);  // all that was reported written is there
+  EXPECT_GE(count_records(journal->path()), kept);  // all that was reported written is there
   EXPECT_TRUE(journal->append(2, "A", "goes on"));
 }
 
