@@ -82,26 +82,39 @@ Eigen::Matrix<double, 8, 1> grip_displacement(int row, int rows) {
   return displacement;
 }
 
-}  // namespace
+/// Element stiffness of a raster.
+class Elements {
+ public:
+  explicit Elements(const Raster& raster) : raster_(raster) {}
+  ElementMatrix stiffness(int row, int column) const {
+    const auto e = static_cast<std::size_t>(row * raster_.columns + column);
+    return raster_.mu_pa[e] * unit_.per_mu + raster_.lambda_pa[e] * unit_.per_lambda;
+  }
 
-Result<double> pull_elastically(const Raster& raster) {
-  const UnitStiffness unit = unit_stiffness();
-  const Unknowns unknowns(raster.columns, raster.rows);
-  const auto stiffness_of = [&](int row, int column) -> ElementMatrix {
-    const auto e = static_cast<std::size_t>(row * raster.columns + column);
-    return raster.mu_pa[e] * unit.per_mu + raster.lambda_pa[e] * unit.per_lambda;
-  };
+ private:
+  const Raster& raster_;
+  UnitStiffness unit_ = unit_stiffness();
+};
+
+/// Lower triangle of the stiffness matrix of the free unknowns, and the load that the moved grip puts on them.
+struct Equations {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::VectorXd load;
+};
+
+Equations equations(const Raster& raster, const Elements& elements, const Unknowns& unknowns) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(raster.columns * raster.rows) * 36);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(unknowns.count);
+  Equations result{.matrix = Eigen::SparseMatrix<double>(unknowns.count, unknowns.count),
+                   .load = Eigen::VectorXd::Zero(unknowns.count)};
   for (int row = 0; row < raster.rows; ++row) {
     for (int column = 0; column < raster.columns; ++column) {
-      const ElementMatrix stiffness = stiffness_of(row, column);
+      const ElementMatrix stiffness = elements.stiffness(row, column);
       const std::array<int, 8> number = unknowns.of_element(row, column);
       const Eigen::Matrix<double, 8, 1> reaction = stiffness * grip_displacement(row, raster.rows);
       for (std::size_t i = 0; i < 8; ++i) {
         if (number[i] < 0) continue;
-        load(number[i]) -= reaction(static_cast<int>(i));
+        result.load(number[i]) -= reaction(static_cast<int>(i));
         for (std::size_t j = 0; j < 8; ++j) {
           if (number[j] < 0 || number[j] > number[i]) continue;
           entries.emplace_back(number[i], number[j], stiffness(static_cast<int>(i), static_cast<int>(j)));
@@ -109,22 +122,35 @@ Result<double> pull_elastically(const Raster& raster) {
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(unknowns.count, unknowns.count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky(matrix);
-  if (cholesky.info() != Eigen::Success) return fail("modulus bench: the stiffness matrix is not positive definite");
-  const Eigen::VectorXd solution = cholesky.solve(load);
+  result.matrix.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
 
-  double force = 0.0;  // on the bottom grip, per unit of thickness
+/// Force on the bottom grip per unit of thickness, in Pa times element edges.
+double bottom_force(const Raster& raster, const Elements& elements, const Unknowns& unknowns,
+                    const Eigen::VectorXd& solution) {
+  double force = 0.0;
   for (int column = 0; column < raster.columns; ++column) {
     Eigen::Matrix<double, 8, 1> displacement = grip_displacement(0, raster.rows);
     const std::array<int, 8> number = unknowns.of_element(0, column);
     for (std::size_t i = 0; i < 8; ++i) {
       if (number[i] >= 0) displacement(static_cast<int>(i)) = solution(number[i]);
     }
-    const Eigen::Matrix<double, 8, 1> forces = stiffness_of(0, column) * displacement;
+    const Eigen::Matrix<double, 8, 1> forces = elements.stiffness(0, column) * displacement;
     force -= forces(1) + forces(3);
   }
+  return force;
+}
+
+}  // namespace
+
+Result<double> pull_elastically(const Raster& raster) {
+  const Elements elements(raster);
+  const Unknowns unknowns(raster.columns, raster.rows);
+  const Equations system = equations(raster, elements, unknowns);
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky(system.matrix);
+  if (cholesky.info() != Eigen::Success) return fail("modulus bench: the stiffness matrix is not positive definite");
+  const double force = bottom_force(raster, elements, unknowns, cholesky.solve(system.load));
   // Stress force / columns over strain 1 / rows, both in element edges.
   const double modulus_pa = force / raster.columns * raster.rows;
   if (!std::isfinite(modulus_pa) || modulus_pa <= 0.0) return fail("modulus bench: modulus {} Pa", modulus_pa);
