@@ -82,12 +82,12 @@ Values laboratory_values(const Truth& truth, const std::vector<pattern::Pattern>
 }
 
 Values tester_moduli(const material::ModulusParameters& theta, const std::vector<pattern::Pattern>& patterns,
-                     int threads) {
+                     tester::Fidelity fidelity, int threads) {
   material::ParameterSet parameters = material::default_parameters();
   parameters.modulus = theta;
   return ask_all(patterns, threads, [&](const pattern::Pattern& pattern) -> Result<double> {
-    const auto result = tester::test_modulus(
-        {.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = tester::Fidelity::full});
+    const auto result =
+        tester::test_modulus({.design = pattern, .parameters = parameters, .conditions = {}, .fidelity = fidelity});
     if (!result) return tl::unexpected(result.error());
     return result->modulus_pa;
   });
@@ -105,48 +105,48 @@ Values tester_toughnesses(const material::ToughnessParameters& eta, const std::v
   });
 }
 
-/// The [modulus] table: full fidelity, at the truth, after a common factor, after a refit of the six constants.
-std::string study_moduli(const Truth& truth, const std::vector<pattern::Pattern>& patterns, int threads,
-                         std::string& table) {
-  const Values laboratory =
-      laboratory_values(truth, patterns, tester::TestKind::modulus, tester::Fidelity::full, threads);
-  const Values testers = tester_moduli(truth.modulus, patterns, threads);
+/// Modulus keys of one fidelity: at the truth, after a common factor, after a refit of the six constants.
+std::string study_moduli(const Truth& truth, const std::vector<pattern::Pattern>& patterns, tester::Fidelity fidelity,
+                         int threads, std::string& table) {
+  const Values laboratory = laboratory_values(truth, patterns, tester::TestKind::modulus, fidelity, threads);
+  const Values testers = tester_moduli(truth.modulus, patterns, fidelity, threads);
   const auto [target, at_truth] = paired_logs(laboratory, testers);
   if (target.size() != patterns.size()) throw InputError("a modulus simulation failed, see above");
   const std::vector<double> raw = minus(target, at_truth);
   const Refit refit = refit_moduli(target, truth.modulus, [&](const material::ModulusParameters& theta) {
     std::vector<double> logs;
-    for (const auto& value : tester_moduli(theta, patterns, threads)) logs.push_back(std::log(value.value()));
+    for (const auto& value : tester_moduli(theta, patterns, fidelity, threads)) logs.push_back(std::log(value.value()));
     return logs;
   });
   for (std::size_t i = 0; i < patterns.size(); ++i) {
-    table += fmt::format("modulus,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", patterns[i].key(), patterns[i].rigid_fraction(),
-                         *laboratory[i], *testers[i], refit.residual[i]);
+    table += fmt::format("{},modulus,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", tester::to_string(fidelity), patterns[i].key(),
+                         patterns[i].rigid_fraction(), *laboratory[i], *testers[i], refit.residual[i]);
   }
   return fmt::format(
-      "\n[modulus]\nfidelity = \"full\"\nlayouts = {}\nlog_mean_shift = {:.4f}\nlog_sd_rescaled = {:.5f}\n"
-      "log_sd_refitted = {:.5f}  # {} constants refitted\n",
+      "modulus_layouts = {}\nlog_modulus_mean = {:.4f}  # laboratory - tester at the truth\n"
+      "log_modulus_sd_rescaled = {:.5f}  # after one common factor\n"
+      "log_modulus_sd = {:.5f}  # after a refit of {} constants\n",
       patterns.size(), mean(raw), standard_deviation(raw), root_mean_square(refit.residual, refit.free_parameters),
       refit.free_parameters);
 }
 
-/// The [toughness] table: at the truth and after a common factor.
-std::string study_toughness(const Truth& truth, const std::vector<pattern::Pattern>& patterns, const Options& options,
-                            std::string& table) {
-  const tester::Fidelity fidelity = tester::fidelity_from_string(options.fidelity).value();
-  const Values laboratory = laboratory_values(truth, patterns, tester::TestKind::toughness, fidelity, options.threads);
-  const Values testers = tester_toughnesses(truth.toughness, patterns, fidelity, options.threads);
+/// Toughness keys of one fidelity: at the truth and after a common factor.
+std::string study_toughness(const Truth& truth, const std::vector<pattern::Pattern>& patterns,
+                            tester::Fidelity fidelity, int threads, std::string& table) {
+  const Values laboratory = laboratory_values(truth, patterns, tester::TestKind::toughness, fidelity, threads);
+  const Values testers = tester_toughnesses(truth.toughness, patterns, fidelity, threads);
   const auto [target, at_truth] = paired_logs(laboratory, testers);
   const std::vector<double> raw = minus(target, at_truth);
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     if (!laboratory[i] || !testers[i]) continue;
-    table += fmt::format("toughness,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", patterns[i].key(), patterns[i].rigid_fraction(),
-                         *laboratory[i], *testers[i], std::log(*laboratory[i] / *testers[i]) - mean(raw));
+    table += fmt::format("{},toughness,{},{:.2f},{:.6g},{:.6g},{:.5f}\n", tester::to_string(fidelity),
+                         patterns[i].key(), patterns[i].rigid_fraction(), *laboratory[i], *testers[i],
+                         std::log(*laboratory[i] / *testers[i]) - mean(raw));
   }
   return fmt::format(
-      "\n[toughness]\nfidelity = \"{}\"\nlayouts = {}\nlog_mean_shift = {:.4f}\nlog_sd_rescaled = {:.5f}\n"
-      "spearman = {:.3f}\n",
-      options.fidelity, raw.size(), mean(raw), standard_deviation(raw), spearman(target, at_truth));
+      "toughness_layouts = {}\nlog_toughness_mean = {:.4f}  # laboratory - tester at the truth\n"
+      "log_toughness_sd = {:.5f}  # after one common factor\ntoughness_spearman = {:.3f}\n",
+      raw.size(), mean(raw), standard_deviation(raw), spearman(target, at_truth));
 }
 
 void run(const Options& options) {
@@ -155,16 +155,23 @@ void run(const Options& options) {
   truth.effects = {};
   RandomStream random(options.seed, "numerics floor");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(options.layouts, random);
-  std::string table = "test,pattern,rigid_fraction,laboratory_pa,tester_pa,log_residual\n";
+  std::string table = "fidelity,test,pattern,rigid_fraction,laboratory_pa,tester_pa,log_residual\n";
   std::string text = fmt::format(
-      "# What remains between virtual laboratory and testers at the same truth, no scatter, no effects.\n"
+      "# What remains between virtual laboratory and testers at the same truth, without scatter and effects; natural\n"
+      "# logarithms. Method and figures: docs/studies/numerics-floor.md.\n"
       "command = \"numerics_floor --layouts {} --toughness-layouts {} --fidelity {} --seed {}\"\nseed = {}\n",
       options.layouts, options.toughness_layouts, options.fidelity, options.seed, options.seed);
-  text += study_moduli(truth, patterns, options.threads, table);
-  if (options.toughness_layouts > 0) {
-    const auto count = std::min<std::size_t>(patterns.size(), static_cast<std::size_t>(options.toughness_layouts));
-    text += study_toughness(truth, {patterns.begin(), patterns.begin() + static_cast<std::ptrdiff_t>(count)}, options,
-                            table);
+  const auto count = std::min(patterns.size(), static_cast<std::size_t>(options.toughness_layouts));
+  const std::vector<pattern::Pattern> torn(patterns.begin(), patterns.begin() + static_cast<std::ptrdiff_t>(count));
+  std::string full_moduli;
+  for (const tester::Fidelity fidelity : {tester::Fidelity::full, tester::Fidelity::preview, tester::Fidelity::tiny}) {
+    text += fmt::format("\n[{}]\n", tester::to_string(fidelity));
+    // The modulus specimen of preview is that of full.
+    const bool same_as_full = fidelity == tester::Fidelity::preview;
+    if (!same_as_full) full_moduli = study_moduli(truth, patterns, fidelity, options.threads, table);
+    text += full_moduli;
+    if (tester::to_string(fidelity) != options.fidelity || torn.empty()) continue;
+    text += study_toughness(truth, torn, fidelity, options.threads, table);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{}\n# {:.0f} s\n", text, seconds);
