@@ -133,6 +133,20 @@ void run(std::uint64_t seed, const Study& study) {
   std::fflush(stdout);
 }
 
+/// Fits a measurement set and prints what was reached.
+void fit_set(const std::string& folder, const Study& study) {
+  sysid::OfflineSettings settings{.calibration = {.start = material::default_parameters(),
+                                                  .modulus_budget = study.modulus_budget,
+                                                  .toughness_budget = study.toughness_budget},
+                                  .fidelity = tester::fidelity_from_string(study.fidelity).value()};
+  const sysid::OfflineCalibration result =
+      sysid::calibrate_offline(measurement::read_measurement_set(folder), settings);
+  const sysid::PredictionErrors& errors = result.after_fitted;
+  fmt::print("{}: E mean {:.5f} max {:.5f} ({}), T mean {:.4f} max {:.4f} ({}), {} simulations\n{}\n", study.fidelity,
+             errors.modulus_mean, errors.modulus_max, errors.modulus_count, errors.toughness_mean, errors.toughness_max,
+             errors.toughness_count, result.simulations, material::to_toml(result.calibrated.parameters));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -151,6 +165,12 @@ int main(int argc, char** argv) {
   app.add_option("--modulus-budget", study.modulus_budget);
   app.add_option("--toughness-scatter", study.toughness_scatter);
   app.add_option("--modulus-scatter", study.modulus_scatter);
+  std::string set;
+  app.add_option("--set", set, "fit this measurement set instead");
   CLI11_PARSE(app, argc, argv);
+  if (!set.empty()) {
+    fit_set(set, study);
+    return 0;
+  }
   for (int k = 0; k < study.seeds; ++k) run(static_cast<std::uint64_t>(study.first_seed + k), study);
 }
