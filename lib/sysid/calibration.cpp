@@ -112,7 +112,7 @@ struct Calibration::State {
                          other_starts(fit_settings.start));
   }
 
-  /// The middle of the ranges, and the start with a weaker, more compliant interface: what the first batch holds beside
+  /// The middle of the ranges, and the start with another interface: what the first batch holds beside
   /// the start.
   std::vector<Point> other_starts(const Point& start) const {
     constexpr double kApart = 1e-3;  // mean square distance below which two starts are one
