@@ -142,6 +142,8 @@ double site_factor(Site site, const HiddenEffects& effects, double orientation_d
       return 1.0 - along_x;
     case Site::corner:
       return 1.0 - effects.corner_debonding;
+    case Site::diagonal:
+      return (1.0 - effects.corner_debonding) * (1.0 - effects.diagonal_debonding);
     default:
       return 1.0;
   }
@@ -203,13 +205,14 @@ Raster rasterised(const Constants& constants, const HiddenEffects& effects, cons
 
 Site site_at(const pattern::Layout& layout, double x_m, double y_m) {
   const Neighbours x = neighbours(x_m), y = neighbours(y_m);
-  const bool lower_left = rigid_at(layout, x.first, y.first);
-  const bool differ = lower_left != rigid_at(layout, x.second, y.first) ||
-                      lower_left != rigid_at(layout, x.first, y.second) ||
-                      lower_left != rigid_at(layout, x.second, y.second);
-  if (!differ) return lower_left ? Site::rigid : Site::soft;
-  if (x.at_boundary() && y.at_boundary()) return Site::corner;
-  return x.at_boundary() ? Site::interface_x : Site::interface_y;
+  const bool lower_left = rigid_at(layout, x.first, y.first), lower_right = rigid_at(layout, x.second, y.first);
+  const bool upper_left = rigid_at(layout, x.first, y.second), upper_right = rigid_at(layout, x.second, y.second);
+  const bool agree = lower_left == lower_right && lower_left == upper_left && lower_left == upper_right;
+  if (agree) return lower_left ? Site::rigid : Site::soft;
+  if (!x.at_boundary()) return Site::interface_y;
+  if (!y.at_boundary()) return Site::interface_x;
+  const bool crossed = lower_left == upper_right && lower_right == upper_left;  // and neighbours differ
+  return crossed ? Site::diagonal : Site::corner;
 }
 
 bool is_cut_away(const SpecimenSize& size, double x_m, double y_m) {

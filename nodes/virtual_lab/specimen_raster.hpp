@@ -20,11 +20,11 @@ inline constexpr double kPixelM = thesis::kElementsPerPixel * kTesterElementM;
 
 /// Where a point of the specimen lies: inside a pixel's material, or within a quarter pixel of a boundary at which
 /// pixels differ.
-enum class Site : std::uint8_t { soft, rigid, interface_x, interface_y, corner };
+enum class Site : std::uint8_t { soft, rigid, interface_x, interface_y, corner, diagonal };
 
 /// The site of the point (x, y), metres from the lower left of a specimen made of `layout` repeated without end.
 /// interface_x: between neighbours along x; corner: within a quarter pixel of a vertical and of a horizontal boundary,
-/// pixels around differ.
+/// pixels around differ; diagonal: such a corner where like pixels touch only across it.
 Site site_at(const pattern::Layout& layout, double x_m, double y_m);
 
 /// Outer measures of a specimen and its cuts, in tester elements.

@@ -30,6 +30,7 @@ struct HiddenEffects {
   double droplet_mixing_pixels = 0.0;
   double interface_anisotropy = 0.0;
   double corner_debonding = 0.0;
+  double diagonal_debonding = 0.0;
   double load_cell_gain = 0.0;
   double toe_slack = 0.0;
   bool operator==(const HiddenEffects&) const = default;

@@ -1,5 +1,6 @@
 #include "virtual_lab/specimen_raster.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -97,24 +98,43 @@ TEST(SpecimenRaster, AnisotropyTurnsWithThePrintersAxesAsTheTestersExtensionDoes
   }
 }
 
-TEST(SpecimenRaster, CornerDebondingWeakensOnlyAreasWhereFourPixelsMeet) {
+/// Expects the effect to weaken elements of the given sites alone, to 0.6 of what they were.
+void expect_weakened(const HiddenEffects& effects, const std::vector<Site>& sites) {
   Truth weak = plain_truth();
-  weak.effects.corner_debonding = 0.4;
-  const pattern::Layout layout = sample_layouts().front();
+  weak.effects = effects;
+  const pattern::Layout layout = sample_layouts().back();
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
-  const Raster before = fracture_raster(plain_truth(), layout, 0.0, size),
-               after = fracture_raster(weak, layout, 0.0, size);
-  int corners = 0;
+  const Raster before = fracture_raster(plain_truth(), layout, 0.0, size);
+  const Raster after = fracture_raster(weak, layout, 0.0, size);
+  int weakened = 0;
   for (int row = 0; row < after.rows; ++row) {
     for (int column = 0; column < after.columns; ++column) {
       const auto e = static_cast<std::size_t>(row * after.columns + column);
-      const bool corner = site_at(layout, (column + 0.5) * kElementM, (row + 0.5) * kElementM) == Site::corner;
-      corners += corner;
-      EXPECT_NEAR(after.mu_pa[e] / before.mu_pa[e], corner ? 0.6 : 1.0, 1e-12);
-      EXPECT_NEAR(after.threshold_j_per_m3[e] / before.threshold_j_per_m3[e], corner ? 0.6 : 1.0, 1e-12);
+      const Site site = site_at(layout, (column + 0.5) * kElementM, (row + 0.5) * kElementM);
+      const bool weakens = std::ranges::find(sites, site) != sites.end();
+      weakened += weakens;
+      EXPECT_NEAR(after.mu_pa[e] / before.mu_pa[e], weakens ? 0.6 : 1.0, 1e-12);
+      EXPECT_NEAR(after.threshold_j_per_m3[e] / before.threshold_j_per_m3[e], weakens ? 0.6 : 1.0, 1e-12);
     }
   }
-  EXPECT_GT(corners, 0);
+  EXPECT_GT(weakened, 0);
+}
+
+TEST(SpecimenRaster, CornerDebondingWeakensOnlyAreasWhereFourPixelsMeet) {
+  expect_weakened({.corner_debonding = 0.4}, {Site::corner, Site::diagonal});
+}
+
+TEST(SpecimenRaster, DiagonalDebondingWeakensOnlyContactsAcrossACorner) {
+  expect_weakened({.diagonal_debonding = 0.4}, {Site::diagonal});
+  pattern::Layout checkerboard, laminate;
+  for (int i = 0; i < pattern::kPixels; ++i) {
+    const int row = i / pattern::kSide, column = i % pattern::kSide;
+    checkerboard.set(row, column, (row + column) % 2 == 0);
+    laminate.set(row, column, row % 4 < 2);
+  }
+  const double corner_m = kTesterElementM * 1.5;  // between the first four pixels
+  EXPECT_EQ(site_at(checkerboard, corner_m, corner_m), Site::diagonal);
+  EXPECT_NE(site_at(laminate, corner_m, corner_m + kPixelM), Site::diagonal);
 }
 
 TEST(SpecimenRaster, NotchAndCutAreVoidWhereTheTestersAre) {
@@ -142,6 +162,7 @@ TEST(SpecimenRaster, EffectsOfZeroAreExactlyNothing) {
                   .droplet_mixing_pixels = 0.0,
                   .interface_anisotropy = -0.0,
                   .corner_debonding = 0.0,
+                  .diagonal_debonding = 0.0,
                   .load_cell_gain = 0.0,
                   .toe_slack = 0.0};
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
