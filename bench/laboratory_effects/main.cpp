@@ -94,12 +94,12 @@ std::vector<Signature> signatures(const Truth& truth, const Patterns& patterns, 
   return result;
 }
 
-/// Size beyond the base and all rivals at all their magnitudes together: a combination of them cannot be closer.
-double beyond_all_rivals(const Signature& signature, const std::vector<Signature>& all,
-                         const Eigen::MatrixXd& tangents) {
+/// Size beyond the base and all other effects of the diagnosis' library, each at all its magnitudes: no combination of
+/// them comes closer. Not a number when the patterns are too few to tell.
+double beyond_library(const Signature& signature, const std::vector<Signature>& all, const Eigen::MatrixXd& tangents) {
   Eigen::MatrixXd space = tangents;
   for (const Signature& other : all) {
-    if (other.kind == signature.kind) continue;
+    if (other.kind == signature.kind || !other.kind->in_library) continue;
     space.conservativeResize(Eigen::NoChange, space.cols() + 1);
     space.col(space.cols() - 1) = other.raw;
   }
@@ -114,14 +114,14 @@ void run(int count, std::uint64_t seed, int threads) {
   const Eigen::VectorXd base = log_moduli(truth, patterns, threads);
   const Eigen::MatrixXd tangents = base_tangents(truth, patterns, threads, base);
   const std::vector<Signature> all = signatures(truth, patterns, threads, base, tangents);
-  fmt::print("{} patterns, seed {}\n| effect | value | mean | rms | beyond the base | beyond base and all rivals |",
-             count, seed);
+  fmt::print("{} patterns, seed {}\n| effect | value | mean | rms | beyond the base | beyond base and library |", count,
+             seed);
   for (const Signature& other : all) fmt::print(" {:.4} {} |", other.kind->name, other.value);
   fmt::print("\n");
   for (const Signature& signature : all) {
     fmt::print("| {} | {} | {:+.3f} | {:.3f} | {:.4f} | {:.4f} |", signature.kind->name, signature.value,
                signature.raw.mean(), rms(signature.raw), rms(signature.left, kConstants),
-               beyond_all_rivals(signature, all, tangents));
+               beyond_library(signature, all, tangents));
     for (const Signature& other : all) {
       fmt::print(" {:+.2f} |", signature.left.dot(other.left) / (signature.left.norm() * other.left.norm()));
     }
