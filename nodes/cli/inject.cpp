@@ -83,7 +83,7 @@ void wait_for_validation_agent(runtime::Endpoint& endpoint, const std::vector<st
     const auto arrived = std::count_if(hashes.begin(), hashes.end(), [&](const std::string& hash) {
       return endpoint.waiting_for(hash).count("validation_agent") == 0;
     });
-    progress.set(arrived, static_cast<std::int64_t>(hashes.size()));
+    progress.set(arrived);
     if (agent_has_all || arrived < static_cast<std::int64_t>(hashes.size())) continue;
     agent_has_all = true;
     end = std::min(deadline, Clock::now() + kGrace);
@@ -109,10 +109,7 @@ void print_delivery(const Delivery& delivery, bool json) {
 int inject(const Options& options) {
   const RunAccess run = open_run(options.run);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
-  for (const std::string& warning : set.warnings) warn(warning);
-  for (const auto& row : set.rejected) {
-    warn(fmt::format("{}: line {}, {}: {}", options.set, row.line, row.column, row.reason));
-  }
+  warn_about(set, options.set);
   const std::set<std::string> known = hashes_known(run);
   const auto endpoint = speak(run, "inject");
   std::vector<std::string> hashes;

@@ -18,6 +18,11 @@ void remark(const std::string& line) { fmt::print(stderr, "{}\n", line); }
 
 void warn(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
 
+void warn_about(const measurement::MeasurementSet& set, const std::string& name) {
+  for (const std::string& warning : set.warnings) warn(warning);
+  for (const auto& row : set.rejected) warn(fmt::format("{}: line {}, {}: {}", name, row.line, row.column, row.reason));
+}
+
 void check_standard_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw InputError::format("standard output: cannot be written: {}", std::strerror(errno));

@@ -1,10 +1,12 @@
 #pragma once
 // What the program says: answers on standard output, remarks on standard error.
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
 
 namespace nacre::cli {
@@ -21,6 +23,9 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
 /// A line on standard error.
 void remark(const std::string& line);
 void warn(const std::string& line);
+
+/// What was odd about a measurement set, and the rows of it that could not be used.
+void warn_about(const measurement::MeasurementSet& set, const std::string& name);
 
 /// Throws InputError unless all that was written to standard output has arrived (full disk, closed pipe).
 void check_standard_output();

@@ -11,30 +11,39 @@ namespace nacre::cli {
 Progress::Progress(std::string task, std::int64_t total)
     : task_(std::move(task)), total_(total), columns_(runtime::terminal_columns(STDERR_FILENO)) {}
 
-Progress::~Progress() {
+void Progress::end() {
+  const std::lock_guard lock(mutex_);
   if (is_drawn_) fmt::print(stderr, "\r\x1b[K");
+  is_drawn_ = false;
 }
 
 void Progress::advance(std::int64_t count) {
   const std::lock_guard lock(mutex_);
   done_ += count;
+  share_ = static_cast<double>(done_) / static_cast<double>(total_);
   show();
 }
 
-void Progress::set(std::int64_t done, std::int64_t total, const std::string& note) {
+void Progress::set(std::int64_t done) {
   const std::lock_guard lock(mutex_);
   done_ = done;
-  total_ = total;
+  share_ = static_cast<double>(done_) / static_cast<double>(total_);
+  show();
+}
+
+void Progress::set_share(double share, const std::string& note) {
+  const std::lock_guard lock(mutex_);
+  share_ = share;
   note_ = note;
   show();
 }
 
 std::string Progress::line() const {
   constexpr int kCells = 24;
-  const double share = total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 0.0;
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - begun_).count();
-  const std::string left = done_ > 0 ? runtime::in_words(elapsed_s * (1.0 - share) / share) : "";
-  return fmt::format("{} {}{}/{}{}{}", task_, columns_ > 0 ? runtime::bar(share, kCells) + " " : "", done_, total_,
+  const std::string left = share_ > 0.0 ? runtime::in_words(elapsed_s * (1.0 - share_) / share_) : "";
+  const std::string count = total_ > 0 ? fmt::format("{}/{}", done_, total_) : fmt::format("{:.0f} %", 100.0 * share_);
+  return fmt::format("{} {}{}{}{}", task_, columns_ > 0 ? runtime::bar(share_, kCells) + " " : "", count,
                      left.empty() ? "" : ", " + left + " left", note_.empty() ? "" : ", " + note_);
 }
 

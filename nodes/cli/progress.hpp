@@ -11,15 +11,20 @@ namespace nacre::cli {
 /// seconds elsewhere. Quick work says nothing. Thread-safe.
 class Progress {
  public:
-  Progress(std::string task, std::int64_t total);
-  ~Progress();
+  /// `total` things to do; 0 when only a share of the whole is known.
+  explicit Progress(std::string task, std::int64_t total = 0);
+  ~Progress() { end(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// `count` more of the total are done.
   void advance(std::int64_t count = 1);
-  /// So many are done, of a total that may have changed, with a remark ("best error 8 %").
-  void set(std::int64_t done, std::int64_t total, const std::string& note = "");
+  /// So many of the total are done.
+  void set(std::int64_t done);
+  /// A share of 0..1 is done; `note` says what is being done.
+  void set_share(double share, const std::string& note);
+  /// Removes the live line.
+  void end();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -29,6 +34,7 @@ class Progress {
   std::string task_;
   std::int64_t total_;
   std::int64_t done_ = 0;
+  double share_ = 0.0;
   std::string note_;
   int columns_;
   Clock::time_point begun_ = Clock::now();

@@ -31,9 +31,7 @@ Measured read_measured(const std::string& folder) {
   Measured measured;
   if (folder.empty()) return measured;
   const measurement::MeasurementSet set = measurement::read_measurement_set(folder);
-  for (const std::string& warning : set.warnings) warn(warning);
-  for (const auto& row : set.rejected)
-    warn(fmt::format("{}: line {}, {}: {}", folder, row.line, row.column, row.reason));
+  warn_about(set, folder);
   std::set<pattern::Pattern> patterns;
   for (const measurement::Replicates& design : measurement::summarise(set.specimens)) {
     if (const pattern::Layout* layout = design.design.layout()) {
