@@ -1,0 +1,251 @@
+// The command line as people and scripts meet it: what it answers, and what it says to bad input.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kPublishedA = std::string(NACRE_SOURCE_DIR) + "/data/patterns/published_a.txt";
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name()); }
+  std::string file(const std::string& name, const std::string& content) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return (folder_ / name).string();
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  fs::path folder_;
+};
+
+/// 20 lines of `line`.
+std::string twenty(const std::string& line) {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += line + "\n";
+  return text;
+}
+
+void expect_refused(const Outcome& outcome, const std::vector<std::string>& words) {
+  EXPECT_EQ(outcome.status, 2) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, IsEmpty());
+  for (const std::string& word : words) EXPECT_THAT(outcome.err, HasSubstr(word));
+}
+
+TEST_F(CommandLine, SimulateAnswersInTheDocumentedForm) {
+  const Outcome outcome = run_nacre({"simulate", kPublishedA, "soft", "--fidelity", "tiny", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto document = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(document.size(), 2U);
+  EXPECT_EQ(document[0]["pattern"], kPublishedA);
+  EXPECT_EQ(document[0]["key"], "577fffe9fffdef");
+  for (const char* field :
+       {"modulus_pa", "toughness_pa", "peak_stress_pa", "failure_strain", "steps", "element_steps_per_s"}) {
+    EXPECT_GT(document[0][field].get<double>(), 0.0) << field;
+  }
+  EXPECT_LT(document[1]["modulus_pa"].get<double>(), document[0]["modulus_pa"].get<double>());
+}
+
+TEST_F(CommandLine, SimulateLeavesFieldsOfATestNotRunNull) {
+  const Outcome outcome =
+      run_nacre({"simulate", "577fffe9fffdef", "--test", "modulus", "--fidelity", "tiny", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto document = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(document[0]["toughness_pa"].is_null());
+  EXPECT_TRUE(document[0]["steps"].is_null());
+  EXPECT_TRUE(document[0]["modulus_pa"].is_number());
+}
+
+TEST_F(CommandLine, SimulateWritesCurvesAndFrames) {
+  const Outcome outcome = run_nacre({"simulate", "mix:0.65", "--test", "toughness", "--fidelity", "tiny", "--curves",
+                                     path("curves"), "--frames", path("frames"), "--frame-count", "5"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(fs::file_size(path("curves/mix_0.65.csv")), 100U);
+  const auto pictures = std::distance(fs::directory_iterator(path("frames")), {});
+  EXPECT_GE(pictures, 2);
+  EXPECT_LE(pictures, 5);
+}
+
+TEST_F(CommandLine, SimulateAnswersTheSameTwice) {
+  const std::vector<std::string> arguments = {"simulate", "577fffe9fffdef", "--fidelity", "tiny",
+                                              "--curves", path("c"),        "--json"};
+  auto first = nlohmann::json::parse(run_nacre(arguments).out);
+  auto second = nlohmann::json::parse(run_nacre(arguments).out);
+  for (auto* document : {&first, &second}) (*document)[0].erase("element_steps_per_s");
+  EXPECT_EQ(first, second);
+}
+
+TEST_F(CommandLine, MalformedPatternsAreRefusedWithTheirPlace) {
+  expect_refused(run_nacre({"simulate", file("letter.txt", twenty("0101010101x101010101"))}),
+                 {"letter.txt", "line 1, column 11"});
+  expect_refused(run_nacre({"simulate", file("short.txt", twenty("0101010101"))}), {"short.txt", "20"});
+  expect_refused(run_nacre({"simulate", file("few.txt", "01010101010101010101\n")}), {"few.txt", "20"});
+  expect_refused(run_nacre({"simulate", file("empty.txt", "")}), {"empty.txt"});
+  expect_refused(run_nacre({"simulate", "ffffffffffffff"}), {"ffffffffffffff"});
+  expect_refused(run_nacre({"simulate", "mix:1.5"}), {"mix:1.5"});
+  expect_refused(run_nacre({"simulate", path("nowhere.txt")}), {"nowhere.txt"});
+  expect_refused(run_nacre({"simulate", folder_.string()}), {folder_.string()});
+}
+
+TEST_F(CommandLine, BadParameterFilesAreRefusedWithLineAndKey) {
+  const auto simulate = [&](const std::string& parameters) {
+    return run_nacre({"simulate", "soft", "--fidelity", "tiny", "--params", file("p.toml", parameters)});
+  };
+  expect_refused(simulate("[modulus]\ne_tb_pa = nan\n"), {"p.toml:2", "e_tb_pa"});
+  expect_refused(simulate("[modulus]\ne_tb = 1e6\n"), {"p.toml:2", "e_tb"});
+  expect_refused(simulate("[modulus]\ne_tb_pa = \"soft\"\n"), {"p.toml:2", "e_tb_pa"});
+  expect_refused(simulate("[modulus\n"), {"p.toml:1"});
+  expect_refused(run_nacre({"simulate", "soft", "--params", path("nowhere.toml")}), {"nowhere.toml"});
+}
+
+TEST_F(CommandLine, WrongUsageIsRefused) {
+  expect_refused(run_nacre({"simulate"}), {"PATTERN"});
+  expect_refused(run_nacre({"simulate", "soft", "--fidelity", "fine"}), {"fine"});
+  expect_refused(run_nacre({"simulate", "soft", "--test", "hardness"}), {"hardness"});
+  expect_refused(run_nacre({"explore", "--algorithm", "magic", "--out", path("g.csv")}), {"magic"});
+  expect_refused(run_nacre({"nonsense"}), {});
+  expect_refused(run_nacre({"launch"}), {"SCENARIO"});
+}
+
+TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {
+  const Outcome out = run_nacre({"explore", "--fidelity", "tiny", "--budget", "2", "--population", "2", "--batch", "2",
+                                 "--out", "/dev/full/gamut.csv"});
+  EXPECT_EQ(out.status, 2);
+  EXPECT_THAT(out.err, HasSubstr("/dev/full"));
+  runtime::ChildProcess process(
+      {"/bin/sh", "-c", "exec \"$0\" simulate soft --fidelity tiny --json >/dev/full", program("nacre")});
+  std::string said;
+  EXPECT_EQ(wait_for_end(process, said).exit_status, 2);
+  EXPECT_THAT(said, HasSubstr("No space left on device"));
+}
+
+TEST_F(CommandLine, ScenarioErrorsNameFileLineKeyAndRange) {
+  expect_refused(run_nacre({"launch", file("s.toml", "seed = 1\n[proposal]\ndesigns = 0\n"), "--logs", path("logs")}),
+                 {"s.toml:3", "proposal.designs", "1 to 100"});
+  expect_refused(run_nacre({"launch", file("t.toml", "sead = 1\n"), "--logs", path("logs")}), {"t.toml:1", "sead"});
+  expect_refused(run_nacre({"launch", path("nowhere.toml"), "--logs", path("logs")}), {"nowhere.toml"});
+  EXPECT_FALSE(fs::exists(path("logs"))) << "nothing is made for a scenario that cannot be played";
+}
+
+TEST_F(CommandLine, ExploreAndSelectWorkHandInHand) {
+  const Outcome explored = run_nacre({"explore", "--fidelity", "tiny", "--algorithm", "random", "--budget", "30",
+                                      "--out", path("gamut.csv"), "--json"},
+                                     120.0);
+  ASSERT_EQ(explored.status, 0) << explored.err;
+  EXPECT_EQ(nlohmann::json::parse(explored.out)["evaluated"], 30);
+  const Outcome selected = run_nacre({"select", path("gamut.csv"), "--count", "3", "--json"});
+  ASSERT_EQ(selected.status, 0) << selected.err;
+  const auto document = nlohmann::json::parse(selected.out);
+  EXPECT_EQ(document.size(), 3U);
+  for (const char* field : {"key", "modulus_pa", "toughness_pa", "reason", "bin"})
+    EXPECT_TRUE(document[0].contains(field));
+}
+
+TEST_F(CommandLine, SelectRefusesBrokenGamuts) {
+  expect_refused(run_nacre({"select", file("empty.csv", "")}), {"empty.csv"});
+  expect_refused(run_nacre({"select", file("nan.csv",
+                                           "index,pattern,rigid_fraction,modulus_pa,toughness_pa\n"
+                                           "0,577fffe9fffdef,0.8,nan,1e5\n")}),
+                 {"nan.csv", "2", "modulus_pa"});
+}
+
+TEST_F(CommandLine, InterruptedExploreKeepsTheGamutSoFar) {
+  runtime::ChildProcess process(
+      {program("nacre"), "explore", "--fidelity", "tiny", "--budget", "100000", "--out", path("g.csv")});
+  ASSERT_TRUE(becomes_true([&] { return fs::exists(path("g.csv")); }, 60.0));
+  process.signal_group(SIGINT);
+  std::string said;
+  EXPECT_EQ(wait_for_end(process, said).exit_status, 1) << said;
+  std::ifstream gamut(path("g.csv"));
+  EXPECT_GT(std::count(std::istreambuf_iterator<char>(gamut), {}, '\n'), 5);
+}
+
+TEST_F(CommandLine, MeasureWritesASetAndSealsTheTruthBesideIt) {
+  const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n");
+  const Outcome outcome = run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "577fffe9fffdef", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["specimens"], 4);
+  EXPECT_TRUE(fs::exists(path("set/measurements.csv")));
+  EXPECT_TRUE(fs::exists(path("set.truth.toml")));
+  expect_refused(run_nacre({"measure", "--lab", file("bad.toml", "sede = 3\n"), "--out", path("x"), "soft"}),
+                 {"bad.toml", "line 1", "sede"});
+}
+
+TEST_F(CommandLine, CalibrateFindsTheModulusOfASetAndWritesParametersThatSimulateTakes) {
+  const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\nreplicates = 1\n");
+  ASSERT_EQ(run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "--test", "modulus", "577fffe9fffdef",
+                       "3ffc9b4ad4d2d9", "39647e81c943cf", "13c4e17fb6f8fd"})
+                .status,
+            0);
+  const Outcome outcome = run_nacre({"calibrate", path("set"), "--fidelity", "tiny", "--modulus-budget", "40",
+                                     "--budget", "0", "--hold-out", "1", "--out", path("p.toml"), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto document = nlohmann::json::parse(outcome.out);
+  EXPECT_LT(document["after"]["fitted"]["E_mean"].get<double>(), document["before"]["fitted"]["E_mean"].get<double>());
+  EXPECT_TRUE(document["after"]["held_out"]["E_mean"].is_number());
+  EXPECT_TRUE(document["after"]["fitted"]["T_mean"].is_null()) << "nothing was measured";
+  EXPECT_TRUE(document["parameters"]["modulus.e_vw_pa"]["interval90"].is_array());
+  EXPECT_GT(document["simulations"], 0);
+  EXPECT_EQ(run_nacre({"simulate", "soft", "--fidelity", "tiny", "--params", path("p.toml")}).status, 0);
+}
+
+TEST_F(CommandLine, MeasurementSetsThatCannotBeUsedAreRefusedWithTheirPlace) {
+  const std::string head = "specimen,pattern,test,modulus_pa,toughness_pa,curve\n";
+  const auto calibrate = [&](const std::string& set) {
+    return run_nacre({"calibrate", path(set), "--fidelity", "tiny", "--out", path("p.toml")});
+  };
+  file("empty/measurements.csv", "");
+  expect_refused(calibrate("empty"), {"measurements.csv"});
+  file("nan/measurements.csv", head + "a,577fffe9fffdef,modulus,nan,,\n");
+  expect_refused(calibrate("nan"), {"measurements.csv", "modulus_pa"});
+  file("nocurve/measurements.csv", head + "a,577fffe9fffdef,toughness,,,curves/nowhere.csv\n");
+  expect_refused(calibrate("nocurve"), {"nowhere.csv"});
+  expect_refused(calibrate("nofolder"), {"nofolder"});
+}
+
+TEST_F(CommandLine, CommandsThatNeedARunSayWhatIsMissing) {
+  for (const char* command : {"status", "report"}) {
+    expect_refused(run_nacre({command, "--run", path("norun")}), {"norun", "manifest.json"});
+  }
+  expect_refused(run_nacre({"inject", path("set"), "--run", path("norun")}), {"norun"});
+  expect_refused(run_nacre({"echo", "NOISE"}), {"NOISE", "MEASUREMENT"});
+}
+
+TEST_F(CommandLine, DoctorNamesEveryCheckWithAVerdict) {
+  const Outcome outcome = run_nacre({"doctor", "--logs", folder_.string(), "--json"});
+  const auto findings = nlohmann::json::parse(outcome.out);
+  bool any_fault = false;
+  for (const auto& finding : findings) {
+    any_fault = any_fault || finding["verdict"] == "fault";
+    EXPECT_EQ(finding["verdict"] == "good", finding["remedy"].get<std::string>().empty()) << finding;
+  }
+  EXPECT_EQ(outcome.status, any_fault ? 1 : 0);
+  const Outcome nowhere = run_nacre({"doctor", "--logs", path("nowhere"), "--json"});
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_THAT(nowhere.out, HasSubstr("mkdir -p"));
+}
+
+TEST_F(CommandLine, DoctorFindsADatabaseThatIsNone) {
+  file("simulations.db", twenty("this is no database"));
+  const Outcome outcome = run_nacre({"doctor", "--logs", folder_.string(), "--json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("simulations.db"));
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,193 @@
+// The launcher against nodes that pretend: readiness, restarts, endings. Real processes, a real bus.
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/files.hpp"
+#include "program.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class Launcher : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_ / "bin");
+    for (const char* node : {"virtual_lab", "simulator_farm", "analyser", "proposal_agent", "validation_agent"}) {
+      fs::create_symlink(std::string(NACRE_TEST_BINARY_DIR) + "/fake_node",
+                         folder_ / "bin" / (std::string("nacre_") + node));
+    }
+    misbehave("");
+  }
+  void TearDown() override { EXPECT_THAT(processes_with(folder_.string()), IsEmpty()) << "left behind"; }
+
+  static void misbehave(const std::string& how) { ::setenv("NACRE_FAKE", how.c_str(), 1); }
+
+  std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
+    std::vector<std::string> all = {"launch", "--programs", (folder_ / "bin").string(), "--logs", logs().string()};
+    if (more.empty()) more = {scenario(), "--run", "game"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::unique_ptr<runtime::ChildProcess> start(std::vector<std::string> more = {}) const {
+    std::vector<std::string> command = arguments(std::move(more));
+    command.insert(command.begin(), program("nacre"));
+    return std::make_unique<runtime::ChildProcess>(command);
+  }
+  static std::string scenario() { return std::string(NACRE_SOURCE_DIR) + "/launch/tiny.toml"; }
+  fs::path logs() const { return folder_ / "logs"; }
+  fs::path run() const { return logs() / "game"; }
+
+  fs::path folder_;
+};
+
+TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
+  const Outcome outcome = run_nacre(arguments());
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("every node is ready"), HasSubstr("round 0: gap"), HasSubstr("the game is over")));
+  for (const char* file : {"scenario.toml", "manifest.json", "run.lcm", "inputs/base_materials.csv",
+                           "nodes/validation_agent/output.log", "nodes/recorder/output.log"}) {
+    EXPECT_TRUE(fs::exists(run() / file)) << file;
+  }
+  EXPECT_EQ(fs::read_symlink(logs() / "latest"), "game");
+  EXPECT_THAT(read_file(run() / "manifest.json"), AllOf(HasSubstr("\"commit\""), HasSubstr("\"port\"")));
+  const Outcome recorded = run_nacre({"echo", "--log", (run() / "run.lcm").string()});
+  EXPECT_EQ(recorded.status, 0) << recorded.err;
+  EXPECT_THAT(recorded.out, AllOf(HasSubstr("\"channel\":\"RUN\""), HasSubstr("\"channel\":\"ROUND\"")));
+}
+
+TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
+  misbehave("analyser:crash=2");
+  const Outcome outcome = run_nacre(arguments());
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("analyser died (killed by SIGABRT"), HasSubstr("analyser started again")));
+}
+
+TEST_F(Launcher, NodeThatDiesTooOftenEndsTheRunWithItsName) {
+  misbehave("analyser:crash=1000");
+  const Outcome outcome = run_nacre(arguments());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("analyser died too often"), HasSubstr("--resume")));
+}
+
+TEST_F(Launcher, NodeThatRefusesItsInputIsNotStartedAgain) {
+  misbehave("proposal_agent:refuse");
+  const Outcome outcome = run_nacre(arguments());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("proposal_agent cannot work (exit status 2)"), Not(HasSubstr("started again"))));
+}
+
+TEST_F(Launcher, InterruptedRunStopsInOrderAndIsResumed) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  {
+    const auto process = start();
+    ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+    ::kill(process->pid(), SIGINT);
+    const runtime::ProcessEnd end = wait_for_end(*process, said, 20.0);
+    EXPECT_EQ(end.exit_status, 1) << end.in_words() << said;
+    EXPECT_THAT(said, AllOf(HasSubstr("stopping"), HasSubstr("validation_agent stopped (exit status 0)")));
+    EXPECT_THAT(processes_with(folder_.string()), IsEmpty());
+  }
+  misbehave("");
+  const Outcome resumed = run_nacre(arguments({"--resume", run().string()}));
+  EXPECT_EQ(resumed.status, 0) << resumed.out << resumed.err;
+}
+
+TEST_F(Launcher, NodeThatIgnoresSignalsIsKilled) {
+  misbehave("validation_agent:endless,analyser:deaf");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  ::kill(process->pid(), SIGINT);
+  const runtime::ProcessEnd end = wait_for_end(*process, said, 30.0);
+  EXPECT_EQ(end.exit_status, 1) << end.in_words() << said;
+  EXPECT_THAT(said, HasSubstr("analyser stopped (killed by SIGKILL)"));
+}
+
+TEST_F(Launcher, KilledLauncherLeavesNothingBehind) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  EXPECT_GE(processes_with(run().string()).size(), 6U);
+  ::kill(process->pid(), SIGKILL);
+  wait_for_end(*process, said, 5.0);
+  EXPECT_TRUE(becomes_true([&] { return processes_with(run().string()).empty(); }, 5.0));
+}
+
+TEST_F(Launcher, RunHasOneLauncherAtATime) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  const Outcome second = run_nacre(arguments({"--resume", run().string()}));
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.err, HasSubstr("another launcher plays this run"));
+  const Outcome same_name = run_nacre(arguments());
+  EXPECT_EQ(same_name.status, 2);
+  EXPECT_THAT(same_name.err, HasSubstr("exists already"));
+  ::kill(process->pid(), SIGINT);
+  wait_for_end(*process, said, 20.0);
+}
+
+TEST_F(Launcher, PortInUseIsRefusedBeforeAnythingIsMade) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start({scenario(), "--run", "first", "--port", "7791"});
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  const Outcome second = run_nacre(arguments({scenario(), "--run", "second", "--port", "7791"}));
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.err, HasSubstr("UDP port 7791 is in use"));
+  EXPECT_FALSE(fs::exists(logs() / "second"));
+  ::kill(process->pid(), SIGINT);
+  wait_for_end(*process, said, 20.0);
+}
+
+TEST_F(Launcher, StatusListsEveryNodeOfTheRun) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  const Outcome status = run_nacre({"status", "--run", run().string(), "--json"});
+  EXPECT_EQ(status.status, 0) << status.err;
+  for (const char* node : {"virtual_lab", "simulator_farm", "analyser", "proposal_agent", "validation_agent"}) {
+    EXPECT_THAT(status.out, HasSubstr(std::string("\"node\": \"") + node)) << status.out;
+  }
+  ::kill(process->pid(), SIGINT);
+  wait_for_end(*process, said, 20.0);
+  EXPECT_EQ(run_nacre({"status", "--run", run().string()}).status, 1) << "nobody speaks any more";
+}
+
+TEST_F(Launcher, ChangedScenarioCannotBeResumed) {
+  ASSERT_EQ(run_nacre(arguments()).status, 0);
+  std::ofstream(run() / "scenario.toml", std::ios::app) << "# changed\n";
+  const Outcome resumed = run_nacre(arguments({"--resume", run().string()}));
+  EXPECT_EQ(resumed.status, 2);
+  EXPECT_THAT(resumed.err, HasSubstr("was changed after the run began"));
+}
+
+TEST_F(Launcher, FinishedRunIsResumedAndEndsAtOnce) {
+  ASSERT_EQ(run_nacre(arguments()).status, 0);
+  const Outcome resumed = run_nacre(arguments({"--resume", run().string()}));
+  EXPECT_EQ(resumed.status, 0) << resumed.out << resumed.err;
+  EXPECT_THAT(resumed.out, HasSubstr("the game is over"));
+}
+
+}  // namespace
+}  // namespace nacre
