@@ -56,6 +56,7 @@ struct Scenario {
   int farm_threads = 0;                                ///< 0 all allowed cores
   std::string benchmark_file;                          ///< homogeneous benchmark for l1 when mixtures are not measured
   std::string base_materials_file = "data/thesis/base_materials.csv";  ///< real measurements of round 0
+  std::string numerics_floor_file = "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
   ProposalSettings proposal;
   ValidationSettings validation;
   DiagnosisSettings diagnosis;

@@ -184,6 +184,8 @@ std::vector<ScenarioKey> make_top_level_keys() {
                 at(&Scenario::benchmark_file)),
       file_name("", "base_materials_file", "measured base materials that round 0 is fitted to",
                 at(&Scenario::base_materials_file)),
+      file_name("", "numerics_floor_file", "how far two numerics of one truth differ: the floor of every diagnosis",
+                at(&Scenario::numerics_floor_file)),
   };
 }
 

@@ -38,6 +38,7 @@ Scenario with_nothing_at_its_default() {
   s.farm_threads = 3;
   s.benchmark_file = "a \"quoted\" path\\with.csv";
   s.base_materials_file = "b.csv";
+  s.numerics_floor_file = "f.toml";
   s.proposal = {"random", 17, 5, 4, 3};
   s.validation = {1, 2, 1, 4, 5, 6, {0.0, 1.0 / 3.0, 1.0}, true};
   s.diagnosis = {false, 1, 123};
@@ -117,6 +118,7 @@ TEST(Scenario, ShippedScenariosAreValid) {
         read_scenario(std::filesystem::path(NACRE_SOURCE_DIR) / "launch" / fmt::format("{}.toml", name));
     EXPECT_EQ(scenario.name, name);
     EXPECT_TRUE(std::filesystem::exists(scenario.base_materials_file));
+    EXPECT_TRUE(std::filesystem::exists(scenario.numerics_floor_file));
   }
 }
 
