@@ -6,9 +6,9 @@
 
 namespace nacre::analyser {
 
-/// The run as one self-contained HTML page, readable offline: standing, gamuts with fronts and measured points, hypervolumes and gap,
-/// errors beside the thesis' figures, improvement over homogeneous mixtures, curves simulated against measured, proposed patterns,
-/// diagnosis, specimens.
+/// The run as one self-contained HTML page, readable offline: standing, gamuts with fronts and measured points,
+/// hypervolumes and gap, errors beside the thesis' figures, improvement over homogeneous mixtures, curves simulated
+/// against measured, proposed patterns, diagnosis, specimens.
 std::string render_report(const store::RunRecord& run, const std::string& run_id);
 
 }  // namespace nacre::analyser

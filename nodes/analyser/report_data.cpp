@@ -1,0 +1,183 @@
+#include "analyser/report_data.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "game/standings.hpp"
+#include "material/extensions.hpp"
+
+namespace nacre::analyser {
+namespace {
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double standard_deviation(std::span<const double> values) {
+  if (values.size() < 2) return 0.0;
+  const double mean = mean_of(values);
+  double sum = 0.0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+/// The constant c with the least mean of |c - v| / v: the median of v weighted by 1 / v.
+double least_relative_error_constant(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  double total = 0.0, below = 0.0;
+  for (const double value : sorted) total += 1.0 / value;
+  for (const double value : sorted) {
+    below += 1.0 / value;
+    if (below >= 0.5 * total) return value;
+  }
+  return sorted.back();
+}
+
+/// Mean relative error of y predicted by a straight line in x through the other designs; nothing when they share one x.
+std::optional<double> left_out_line_error(std::span<const double> x, std::span<const double> y) {
+  const auto n = static_cast<double>(x.size());
+  const double mean_x = mean_of(x), mean_y = mean_of(y);
+  double sxx = 0.0, sxy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sxx += (x[i] - mean_x) * (x[i] - mean_x);
+    sxy += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  if (x.size() < 3 || sxx <= 0.0) return std::nullopt;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double leverage = 1.0 / n + (x[i] - mean_x) * (x[i] - mean_x) / sxx;
+    if (leverage > 1.0 - 1e-9) return std::nullopt;
+    const double residual = y[i] - (mean_y + sxy / sxx * (x[i] - mean_x));
+    sum += std::abs(residual / (1.0 - leverage)) / y[i];
+  }
+  return sum / n;
+}
+
+/// Largest `value` at which the polyline passes `position`; members say which coordinate is which.
+std::optional<double> line_at(std::span<const optimize::Performance> line, double optimize::Performance::*position_of,
+                              double optimize::Performance::*value_of, double position) {
+  std::optional<double> best;
+  const auto offer = [&](double value) { best = std::max(best.value_or(value), value); };
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double p0 = line[i].*position_of, p1 = line[i + 1].*position_of;
+    const double v0 = line[i].*value_of, v1 = line[i + 1].*value_of;
+    if (position < std::min(p0, p1) || position > std::max(p0, p1)) continue;
+    offer(p0 == p1 ? std::max(v0, v1) : v0 + (v1 - v0) * (position - p0) / (p1 - p0));
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<int> newest_round(const store::RunRecord& run) {
+  return run.rounds.empty() ? std::nullopt : std::optional<int>(run.rounds.rbegin()->first);
+}
+
+std::optional<int> newest_closed_round(const store::RunRecord& run) {
+  for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
+    if (round->second.summary) return round->first;
+  }
+  return std::nullopt;
+}
+
+std::vector<MeasuredPattern> measured_patterns(const store::RunRecord& run, int round) {
+  const int newest = newest_round(run).value_or(0);
+  std::vector<measurement::SpecimenRecord> known;
+  std::map<std::string, int> first_round;
+  for (const store::MeasuredSpecimen& specimen : run.specimens) {
+    const int measured_in = specimen.round < 0 ? newest : specimen.round;
+    if (measured_in > round) continue;
+    known.push_back(specimen.record);
+    const auto [place, is_new] = first_round.emplace(specimen.record.design.name(), measured_in);
+    if (!is_new) place->second = std::min(place->second, measured_in);
+  }
+  std::vector<MeasuredPattern> patterns;
+  for (const auto& [pattern, values] : game::measured_values(known)) {
+    if (values.modulus_pa.empty() || values.toughness_pa.empty()) continue;
+    patterns.push_back({.pattern = pattern,
+                        .mean = {mean_of(values.modulus_pa), mean_of(values.toughness_pa)},
+                        .modulus_sd_pa = standard_deviation(values.modulus_pa),
+                        .toughness_sd_pa = standard_deviation(values.toughness_pa),
+                        .modulus_count = static_cast<int>(values.modulus_pa.size()),
+                        .toughness_count = static_cast<int>(values.toughness_pa.size()),
+                        .round = first_round.at(pattern.key())});
+  }
+  return patterns;
+}
+
+Baselines baselines(std::span<const double> rigid_fraction, std::span<const double> modulus_pa,
+                    std::span<const double> toughness_pa) {
+  Baselines result;
+  result.count = static_cast<int>(rigid_fraction.size());
+  const auto positive = [](double value) { return value > 0.0; };
+  if (toughness_pa.size() > 1 && std::all_of(toughness_pa.begin(), toughness_pa.end(), positive)) {
+    result.toughness_pa = least_relative_error_constant(toughness_pa);
+    double sum = 0.0;
+    for (const double toughness : toughness_pa) sum += std::abs(result.toughness_pa - toughness) / toughness;
+    result.constant_toughness = sum / static_cast<double>(toughness_pa.size());
+  }
+  if (modulus_pa.size() >= 3 && std::all_of(modulus_pa.begin(), modulus_pa.end(), positive)) {
+    result.linear_modulus = left_out_line_error(rigid_fraction, modulus_pa);
+  }
+  return result;
+}
+
+Baselines baselines(std::span<const MeasuredPattern> patterns) {
+  std::vector<double> fraction, modulus, toughness;
+  for (const MeasuredPattern& p : patterns) {
+    fraction.push_back(p.pattern.rigid_fraction());
+    modulus.push_back(p.mean.modulus_pa);
+    toughness.push_back(p.mean.toughness_pa);
+  }
+  return baselines(fraction, modulus, toughness);
+}
+
+Improvement improvement_over(std::span<const optimize::Performance> line, const optimize::Performance& design) {
+  using optimize::Performance;
+  Improvement improvement;
+  const auto modulus = line_at(line, &Performance::toughness_pa, &Performance::modulus_pa, design.toughness_pa);
+  const auto toughness = line_at(line, &Performance::modulus_pa, &Performance::toughness_pa, design.modulus_pa);
+  if (modulus && *modulus > 0.0) improvement.modulus = design.modulus_pa / *modulus;
+  if (toughness && *toughness > 0.0) improvement.toughness = design.toughness_pa / *toughness;
+  return improvement;
+}
+
+material::Extensions extensions_of(const store::RoundRecord& round) {
+  constexpr std::string_view kPrefix = "extension.";
+  material::Extensions extensions;
+  for (const auto& [key, value] : round.parameters) {
+    if (!key.starts_with(kPrefix)) continue;
+    std::string name = key.substr(kPrefix.size());
+    std::size_t index = 0;
+    if (const auto dot = name.rfind('.'); dot != std::string::npos) {
+      std::from_chars(name.data() + dot + 1, name.data() + name.size(), index);
+      name.resize(dot);
+    }
+    const material::Effect* effect = material::find_effect(name);
+    if (effect == nullptr || index >= effect->parameters.size()) continue;
+    std::vector<double>& values = extensions[name];
+    values.resize(std::max(values.size(), index + 1));
+    values[index] = value;
+  }
+  return extensions;
+}
+
+std::vector<optimize::Performance> thinned(std::span<const optimize::Performance> points, std::size_t most) {
+  if (points.size() <= most) return {points.begin(), points.end()};
+  std::vector<optimize::Performance> kept = optimize::pareto_front(points);
+  const std::size_t stride = (points.size() + most - 1) / most;
+  for (std::size_t i = 0; i < points.size(); i += stride) kept.push_back(points[i]);
+  return kept;
+}
+
+const MeasuredPattern* find_measured(std::span<const MeasuredPattern> patterns, std::string_view design) {
+  const auto found = std::find_if(patterns.begin(), patterns.end(),
+                                  [&](const MeasuredPattern& p) { return p.pattern.key() == design; });
+  return found == patterns.end() ? nullptr : &*found;
+}
+
+}  // namespace nacre::analyser
