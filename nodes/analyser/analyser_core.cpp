@@ -8,12 +8,14 @@
 #include "base/hash.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "game/model.hpp"
+#include "wire/channels.hpp"
 
 namespace nacre::analyser {
 namespace {
 
 bool is_kept(const std::string& channel) {
-  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT", "PROPOSAL", "MEASUREMENT", "REVIEW", "ROUND", "SIMULATED"};
+  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT", "PROPOSAL", "MEASUREMENT",
+                                              "REVIEW",     "ROUND", "SIMULATED"};
   return kKept.contains(channel);
 }
 
@@ -30,35 +32,44 @@ runtime::Outputs AnalyserCore::step(const runtime::Input& input) {
 }
 
 void AnalyserCore::accept_message(const runtime::Message& message) {
+  const wire::Channel* channel = wire::find_channel(message.channel);
+  if (channel == nullptr) return;
+  if (const auto sound = channel->validate(message.payload); !sound) {
+    outputs_.log.push_back(
+        {runtime::LogLevel::warning, fmt::format("{} ignored: {}", message.channel, sound.error().message)});
+    return;
+  }
   if (is_kept(message.channel)) store(message.channel, message.payload);
   if (message.channel == "PARAMETERS") {
-    if (auto model = wire::read<wire::AdoptedModel>(message.payload)) models_[model->round] = *std::move(model);
+    const auto model = wire::read<wire::AdoptedModel>(message.payload);
+    models_.emplace(model->round, *model);
+    ask_about_measured_designs();
   } else if (message.channel == "MEASUREMENT") {
     const auto measured = wire::read<wire::Measurement>(message.payload);
-    if (measured) measurements_.emplace(measured->record.specimen, message.payload);
+    measurements_.emplace(measured->record.specimen, message.payload);
     diagnose_when_complete();
-  } else if (message.channel == "REVIEW") {
-    const auto review = wire::decode_safe<review_t>(message.payload);
-    if (!review || !wire::validate(*review)) return;
-    const auto known = reviews_.find(review->specimen);
-    if (known == reviews_.end() || review->revision > known->second.revision) reviews_[review->specimen] = *review;
   } else if (message.channel == "DIAGNOSE") {
-    if (auto request = wire::read<wire::DiagnoseRequest>(message.payload)) {
-      waiting_diagnosis_ = *std::move(request);
-      phase_ = fmt::format("diagnosing round {}", waiting_diagnosis_->round);
-      diagnose_when_complete();
-    }
+    accept_question(*wire::read<wire::DiagnoseRequest>(message.payload));
   } else if (message.channel == "SIMULATED") {
-    accept_answer(message);
+    accept_answer(*wire::read<wire::SimulateResult>(message.payload));
   } else if (message.channel == "ROUND") {
-    if (const auto round = wire::read<wire::RoundSummary>(message.payload)) close_round(*round);
+    close_round(*wire::read<wire::RoundSummary>(message.payload));
   }
 }
 
 void AnalyserCore::store(const std::string& channel, const std::string& payload) {
   const std::string id = "store/" + content_hash(channel + payload);
+  if (!kept_.insert(id).second) return;
   storing_.insert(id);
   outputs_.computes.push_back({.id = id, .kind = "store", .spec = store_spec(channel, payload)});
+  if (last_) report_due_ = round_;  // the game is over: no later round would show it
+}
+
+void AnalyserCore::accept_question(const wire::DiagnoseRequest& request) {
+  if (!diagnosed_.insert(request.round).second) return;
+  waiting_diagnosis_ = request;
+  phase_ = fmt::format("diagnosing round {}", request.round);
+  diagnose_when_complete();
 }
 
 void AnalyserCore::diagnose_when_complete() {
@@ -69,13 +80,10 @@ void AnalyserCore::diagnose_when_complete() {
     if (found == measurements_.end()) return;  // still on its way
     payloads.push_back(found->second);
   }
-  std::vector<review_t> reviews;
-  for (const auto& [specimen, review] : reviews_) reviews.push_back(review);
   outputs_.computes.push_back({.id = fmt::format("diagnose/r{}", waiting_diagnosis_->round),
                                .kind = "diagnose",
                                .spec = diagnosis_spec({.request = *waiting_diagnosis_,
                                                        .measurements = payloads,
-                                                       .reviews = reviews,
                                                        .bootstraps = scenario_.diagnosis.bootstraps,
                                                        .seed = scenario_.seed,
                                                        .numerics_sd_log_modulus = numerics_sd_log_modulus_})});
@@ -83,49 +91,68 @@ void AnalyserCore::diagnose_when_complete() {
 }
 
 void AnalyserCore::close_round(const wire::RoundSummary& round) {
+  if (!closed_.insert(round.round).second) return;
   round_ = std::max(round_, round.round);
   last_ = last_ || round.last;
-  report_due_ = round.round;
+  report_due_ = round_;
   phase_ = fmt::format("reporting round {}", round.round);
-  // What the model of the round says about everything measured: the farm mostly knows it already.
+  unasked_.insert(round.round);
+  ask_about_measured_designs();
+  report_when_ready();
+}
+
+std::vector<pattern::Design> AnalyserCore::measured_designs() const {
   std::set<std::string> names;
   std::vector<pattern::Design> designs;
   for (const auto& [specimen, payload] : measurements_) {
     const auto measured = wire::read<wire::Measurement>(payload);
-    if (!measured || !measured->record.design.layout() || measured->record.conditions.orientation_deg != 0.0) continue;
+    const bool upright = measured->record.conditions.orientation_deg == 0.0;
+    if (!measured->record.design.layout() || !upright) continue;
     if (names.insert(measured->record.design.name()).second) designs.push_back(measured->record.design);
   }
-  const auto model = models_.find(round.round);
-  if (model != models_.end()) {
+  return designs;
+}
+
+void AnalyserCore::ask_about_measured_designs() {
+  for (auto round = unasked_.begin(); round != unasked_.end();) {
+    const auto model = models_.find(*round);
+    if (model == models_.end()) {  // still on its way
+      ++round;
+      continue;
+    }
+    const std::vector<pattern::Design> designs = measured_designs();
     for (std::size_t first = 0; first < designs.size(); first += wire::kMaximumDesigns) {
+      const std::size_t end = std::min(designs.size(), first + wire::kMaximumDesigns);
       wire::SimulateRequest request;
-      request.request_id = fmt::format("analyser/r{}/measured/{}", round.round, first);
+      request.request_id = fmt::format("analyser/r{}/measured/{}", *round, first);
       request.modulus = request.toughness = true;
       request.fidelity = scenario_.fidelity;
       request.parameters = game::material_side(model->second.parameters);
       request.curve_points = kCurvePoints;
       request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
-                             designs.begin() + static_cast<std::ptrdiff_t>(std::min(designs.size(), first + wire::kMaximumDesigns)));
-      open_answers_[request.request_id] = -1;
+                             designs.begin() + static_cast<std::ptrdiff_t>(end));
+      open_answers_[request.request_id];
       outputs_.messages.push_back({"SIMULATE", wire::write(request)});
     }
+    round = unasked_.erase(round);
   }
-  report_when_ready();
 }
 
-void AnalyserCore::accept_answer(const runtime::Message& message) {
-  const auto part = wire::read<wire::SimulateResult>(message.payload);
-  if (!part) return;
-  const auto open = open_answers_.find(part->request_id);
+void AnalyserCore::accept_answer(const wire::SimulateResult& part) {
+  const auto open = open_answers_.find(part.request_id);
   if (open == open_answers_.end()) return;
-  if (open->second < 0) open->second = part->chunks;
-  if (--open->second == 0) open_answers_.erase(open);
+  open->second.insert(part.chunk);
+  if (static_cast<int>(open->second.size()) == part.chunks) open_answers_.erase(open);
 }
 
 void AnalyserCore::report_when_ready() {
-  if (!report_due_ || reporting_ || !storing_.empty() || !open_answers_.empty()) return;
-  outputs_.computes.push_back({.id = fmt::format("report/r{}", *report_due_), .kind = "report", .spec = std::to_string(*report_due_)});
+  const bool all_known = storing_.empty() && unasked_.empty() && open_answers_.empty();
+  if (!report_due_ || reporting_ || !all_known) return;
+  outputs_.computes.push_back({.id = fmt::format("report/r{}/{}", *report_due_, ++reports_),
+                               .kind = "report",
+                               .spec = std::to_string(*report_due_)});
   reporting_ = true;
+  finished_ = false;
   report_due_.reset();
 }
 
@@ -135,7 +162,8 @@ void AnalyserCore::accept_work(const runtime::WorkDone& work) {
   } else if (work.id.starts_with("diagnose/")) {
     const auto diagnosis = wire::decode_safe<diagnosis_t>(work.result);
     if (diagnosis) {
-      outputs_.log.push_back({runtime::LogLevel::info, fmt::format("round {}: {}", diagnosis->round, diagnosis->summary)});
+      outputs_.log.push_back(
+          {runtime::LogLevel::info, fmt::format("round {}: {}", diagnosis->round, diagnosis->summary)});
       outputs_.messages.push_back({"DIAGNOSIS", work.result});
       store("DIAGNOSIS", work.result);
     }
@@ -149,10 +177,13 @@ void AnalyserCore::accept_work(const runtime::WorkDone& work) {
   report_when_ready();
 }
 
-runtime::Status AnalyserCore::status() const { return {.phase = phase_, .round = round_, .progress = -1.0, .finished = finished_}; }
+runtime::Status AnalyserCore::status() const {
+  return {.phase = phase_, .round = round_, .progress = -1.0, .finished = finished_};
+}
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
-  return std::make_unique<AnalyserCore>(scenario, diagnosis::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity));
+  return std::make_unique<AnalyserCore>(
+      scenario, diagnosis::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity));
 }
 
 }  // namespace nacre::analyser

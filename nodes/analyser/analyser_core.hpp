@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
@@ -16,9 +17,9 @@ namespace nacre::analyser {
 /// Points of the simulated curves shown beside measured ones.
 inline constexpr int kCurvePoints = 64;
 
-/// Keeps every message of the game in run.db (Compute kind "store"), answers DIAGNOSE with DIAGNOSIS (kind "diagnose") once all
-/// measurements meant have arrived, asks the farm at the end of each round what the round's model says about the measured
-/// designs, and then has the report written (kind "report"). See works.hpp.
+/// Keeps every message of the game in run.db (Compute kind "store"), answers DIAGNOSE with DIAGNOSIS (kind "diagnose")
+/// once all measurements meant have arrived, asks the farm at the end of each round what the round's model says about
+/// the measured designs, and then has the report written (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
   AnalyserCore(const game::Scenario& scenario, double numerics_sd_log_modulus);
@@ -28,10 +29,13 @@ class AnalyserCore : public runtime::NodeCore {
  private:
   void accept_message(const runtime::Message& message);
   void accept_work(const runtime::WorkDone& work);
-  void accept_answer(const runtime::Message& message);
+  void accept_question(const wire::DiagnoseRequest& request);
+  void accept_answer(const wire::SimulateResult& part);
   void store(const std::string& channel, const std::string& payload);
   void diagnose_when_complete();
   void close_round(const wire::RoundSummary& round);
+  std::vector<pattern::Design> measured_designs() const;
+  void ask_about_measured_designs();
   void report_when_ready();
 
   game::Scenario scenario_;
@@ -39,13 +43,17 @@ class AnalyserCore : public runtime::NodeCore {
   runtime::Outputs outputs_;  // of the present step
 
   std::map<std::string, std::string> measurements_;  // specimen -> payload of its MEASUREMENT
-  std::map<std::string, review_t> reviews_;          // specimen -> the review that counts
   std::map<int, wire::AdoptedModel> models_;
+  std::set<int> diagnosed_;  // rounds that a diagnosis was asked for
   std::optional<wire::DiagnoseRequest> waiting_diagnosis_;
-  std::set<std::string> storing_;                    // ids of "store" work in progress
-  std::map<std::string, int> open_answers_;          // request id -> chunks still missing, -1 before the first
-  std::optional<int> report_due_;                    // round
+  std::set<std::string> kept_;     // ids of "store" work ever asked for
+  std::set<std::string> storing_;  // ids of "store" work in progress
+  std::set<int> closed_;           // rounds
+  std::set<int> unasked_;          // closed rounds whose model has not been asked about the measured designs
+  std::map<std::string, std::set<int>> open_answers_;  // request id -> chunks that have come
+  std::optional<int> report_due_;                      // round
   bool reporting_ = false;
+  int reports_ = 0;
   int round_ = 0;
   bool last_ = false;
   bool finished_ = false;

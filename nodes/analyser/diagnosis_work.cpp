@@ -10,7 +10,7 @@
 namespace nacre::analyser {
 namespace {
 
-constexpr std::size_t kFixedFields = 5;
+constexpr std::size_t kFixedFields = 4;
 
 /// A spec that this program wrote itself must read back.
 template <class T>
@@ -26,25 +26,15 @@ DiagnosisTask task_from(const std::string& spec) {
   task.bootstraps = std::stoi(fields.at(1));
   task.seed = std::stoull(fields.at(2));
   task.numerics_sd_log_modulus = std::stod(fields.at(3));
-  const std::size_t review_count = std::stoul(fields.at(4));
-  for (std::size_t i = kFixedFields; i < fields.size(); ++i) {
-    if (i < kFixedFields + review_count) {
-      task.reviews.push_back(expected(wire::decode_safe<review_t>(fields[i])));
-    } else {
-      task.measurements.push_back(fields[i]);
-    }
-  }
+  task.measurements.assign(fields.begin() + kFixedFields, fields.end());
   return task;
 }
 
-/// Specimens with their validity as reviewed.
 std::vector<measurement::SpecimenRecord> specimens_of(const DiagnosisTask& task) {
   std::vector<measurement::SpecimenRecord> specimens;
   for (const std::string& payload : task.measurements) {
     specimens.push_back(expected(wire::read<wire::Measurement>(payload)).record);
-    for (const review_t& review : task.reviews) {
-      if (review.specimen == specimens.back().specimen) specimens.back().valid = review.valid != 0;
-    }
+    specimens.back().valid = true;
   }
   return specimens;
 }
@@ -69,7 +59,8 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
     message.reduction_high = d.gain->interval_high;
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    message.next_experiments.push_back({e.design.name(), wire::to_wire(e.test), wire::to_wire(e.conditions), e.replicates, e.reason});
+    message.next_experiments.push_back(
+        {e.design.name(), wire::to_wire(e.test), wire::to_wire(e.conditions), e.replicates, e.reason});
   }
   message.n_effects = static_cast<std::int32_t>(message.effects.size());
   message.n_candidates = static_cast<std::int32_t>(message.candidates.size());
@@ -89,9 +80,8 @@ diagnosis_t undecided(int round, const std::string& why) {
 }  // namespace
 
 std::string diagnosis_spec(const DiagnosisTask& task) {
-  std::vector<std::string> fields = {wire::write(task.request), std::to_string(task.bootstraps), std::to_string(task.seed),
-                                     fmt::format("{}", task.numerics_sd_log_modulus), std::to_string(task.reviews.size())};
-  for (const review_t& review : task.reviews) fields.push_back(wire::encode(review));
+  std::vector<std::string> fields = {wire::write(task.request), std::to_string(task.bootstraps),
+                                     std::to_string(task.seed), fmt::format("{}", task.numerics_sd_log_modulus)};
   fields.insert(fields.end(), task.measurements.begin(), task.measurements.end());
   return runtime::pack(fields);
 }

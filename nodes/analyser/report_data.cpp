@@ -37,24 +37,32 @@ double least_relative_error_constant(std::span<const double> values) {
   return sorted.back();
 }
 
-/// Mean relative error of y predicted by a straight line in x through the other designs; nothing when they share one x.
+/// Mean relative error of y predicted by a straight line in x through the other designs (least squares of the relative
+/// errors); nothing when they share one x.
 std::optional<double> left_out_line_error(std::span<const double> x, std::span<const double> y) {
-  const auto n = static_cast<double>(x.size());
-  const double mean_x = mean_of(x), mean_y = mean_of(y);
-  double sxx = 0.0, sxy = 0.0;
+  double sum_w = 0.0, mean_x = 0.0, mean_y = 0.0, sxx = 0.0, sxy = 0.0;
+  const auto weight = [&](std::size_t i) { return 1.0 / (y[i] * y[i]); };
   for (std::size_t i = 0; i < x.size(); ++i) {
-    sxx += (x[i] - mean_x) * (x[i] - mean_x);
-    sxy += (x[i] - mean_x) * (y[i] - mean_y);
+    sum_w += weight(i);
+    mean_x += weight(i) * x[i];
+    mean_y += weight(i) * y[i];
   }
-  if (x.size() < 3 || sxx <= 0.0) return std::nullopt;
+  mean_x /= sum_w;
+  mean_y /= sum_w;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sxx += weight(i) * (x[i] - mean_x) * (x[i] - mean_x);
+    sxy += weight(i) * (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  const bool shares_one_x = std::all_of(x.begin(), x.end(), [&](double each) { return each == x.front(); });
+  if (x.size() < 3 || shares_one_x) return std::nullopt;
   double sum = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double leverage = 1.0 / n + (x[i] - mean_x) * (x[i] - mean_x) / sxx;
-    if (leverage > 1.0 - 1e-9) return std::nullopt;
+    const double leverage = weight(i) * (1.0 / sum_w + (x[i] - mean_x) * (x[i] - mean_x) / sxx);
+    if (leverage > 1.0 - 1e-9) return std::nullopt;  // without this design the others share one x
     const double residual = y[i] - (mean_y + sxy / sxx * (x[i] - mean_x));
     sum += std::abs(residual / (1.0 - leverage)) / y[i];
   }
-  return sum / n;
+  return sum / static_cast<double>(x.size());
 }
 
 /// Largest `value` at which the polyline passes `position`; members say which coordinate is which.

@@ -13,7 +13,9 @@
 
 namespace nacre::analyser {
 
-std::string store_spec(const std::string& channel, const std::string& payload) { return runtime::pack({channel, payload}); }
+std::string store_spec(const std::string& channel, const std::string& payload) {
+  return runtime::pack({channel, payload});
+}
 
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir) {
   const auto database = std::make_shared<store::RunDatabase>(run_dir / "run.db");
@@ -28,7 +30,8 @@ std::map<std::string, runtime::WorkFunction> work_functions(const std::filesyste
       {"diagnose", diagnose_work},
       {"report",
        [run_dir](const std::string& round) -> std::string {
-         write_file_atomically(run_dir / "report.html", render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
+         write_file_atomically(run_dir / "report.html",
+                               render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
          return fmt::format("round {}: report.html written", round);
        }},
   };

@@ -14,11 +14,11 @@ namespace nacre::analyser {
 /// Spec of "store": one message of the run, to be kept in run.db.
 std::string store_spec(const std::string& channel, const std::string& payload);
 
-/// What a diagnosis needs to know.
+/// What a diagnosis needs to know. The specimens that the request names count as valid: the validation agent asks after
+/// it has heard the reviews, and a review that arrives here early or late must not change the answer.
 struct DiagnosisTask {
   wire::DiagnoseRequest request;
   std::vector<std::string> measurements;  ///< payloads of the MEASUREMENTs meant, in the order of the request
-  std::vector<review_t> reviews;
   int bootstraps = 2000;
   std::uint64_t seed = 1;
   double numerics_sd_log_modulus = 0.0;
@@ -27,7 +27,8 @@ struct DiagnosisTask {
 std::string diagnosis_spec(const DiagnosisTask& task);
 std::string diagnose_work(const std::string& spec);
 
-/// All work functions: "store" keeps a message in RUN_DIR/run.db, "report" writes RUN_DIR/report.html from it, "diagnose" is pure.
+/// All work functions: "store" keeps a message in RUN_DIR/run.db, "report" writes RUN_DIR/report.html from it,
+/// "diagnose" is pure.
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir);
 
 }  // namespace nacre::analyser

@@ -1,0 +1,276 @@
+#include "analyser/analyser_core.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "analyser/works.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::analyser {
+namespace {
+
+using runtime::Message;
+using runtime::Outputs;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::StartsWith;
+
+/// A core with all that it has asked for.
+struct Watched {
+  AnalyserCore core{game::Scenario{}, 0.006};
+  std::vector<runtime::Compute> computes;
+  std::vector<Message> messages;
+  std::vector<runtime::LogLine> log;
+
+  void take(Outputs outputs) {
+    for (auto& each : outputs.computes) computes.push_back(std::move(each));
+    for (auto& each : outputs.messages) messages.push_back(std::move(each));
+    for (auto& each : outputs.log) log.push_back(std::move(each));
+  }
+  void hear(const std::string& channel, const std::string& payload) { take(core.step(Message{channel, payload})); }
+  void finish(const std::string& id, const std::string& result = "kept") {
+    take(core.step(runtime::WorkDone{id, result}));
+  }
+  std::vector<std::string> ids(const std::string& kind) const {
+    std::vector<std::string> found;
+    for (const auto& each : computes) {
+      if (each.kind == kind) found.push_back(each.id);
+    }
+    return found;
+  }
+  void finish_stores() {
+    for (const std::string& id : ids("store")) finish(id);
+  }
+  std::vector<Message> sent_on(const std::string& channel) const {
+    std::vector<Message> found;
+    for (const Message& each : messages) {
+      if (each.channel == channel) found.push_back(each);
+    }
+    return found;
+  }
+};
+
+std::string measurement_of(const std::string& specimen, std::uint64_t bits) {
+  wire::Measurement m;
+  m.round = 1;
+  m.record.specimen = specimen;
+  m.record.design = pattern::Pattern(bits);
+  m.record.test = tester::TestKind::modulus;
+  m.record.modulus_pa = 1e9;
+  return wire::write(m);
+}
+
+std::string question(std::vector<std::string> specimens) {
+  wire::DiagnoseRequest request;
+  request.round = 1;
+  request.parameters = material::default_parameters();
+  request.specimens = std::move(specimens);
+  return wire::write(request);
+}
+
+std::string model_of(int round) {
+  wire::AdoptedModel model;
+  model.round = round;
+  model.parameters = material::default_parameters();
+  return wire::write(model);
+}
+
+std::string round_of(int number, bool last) {
+  wire::RoundSummary round;
+  round.round = number;
+  round.last = last;
+  return wire::write(round);
+}
+
+/// The farm's answer to all that a request asks for.
+std::vector<std::string> answers_to(const Message& request) {
+  const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
+  std::vector<wire::SimulatedDesign> results;
+  for (const pattern::Design& design : asked.designs)
+    results.push_back({.design = design,
+                       .failure = "",
+                       .modulus_pa = 1e9,
+                       .toughness_pa = 1e5,
+                       .peak_stress_pa = 1e7,
+                       .failure_strain = 0.03,
+                       .curve = {}});
+  std::vector<std::string> payloads;
+  for (const auto& part : wire::simulate_answer(asked.request_id, results)) payloads.push_back(wire::write(part));
+  return payloads;
+}
+
+TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.hear("DIAGNOSE", question({"a", "b"}));
+  EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
+  analyser.hear("MEASUREMENT", measurement_of("c", 6));
+  EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
+  analyser.hear("MEASUREMENT", measurement_of("b", 7));
+  EXPECT_THAT(analyser.ids("diagnose"), ElementsAre("diagnose/r1"));
+}
+
+TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
+  review_t review{};
+  review.specimen = "b";
+  review.revision = 1;
+  std::vector<Message> messages = {{"MEASUREMENT", measurement_of("a", 5)},
+                                   {"MEASUREMENT", measurement_of("b", 6)},
+                                   {"MEASUREMENT", measurement_of("c", 7)},
+                                   {"DIAGNOSE", question({"a", "b", "c"})},
+                                   {"REVIEW", wire::encode(review)}};
+  std::set<std::string> specs;
+  std::mt19937 shuffling(1);
+  for (int order = 0; order < 20; ++order) {
+    std::shuffle(messages.begin(), messages.end(), shuffling);
+    Watched analyser;
+    for (const Message& message : messages) analyser.hear(message.channel, message.payload);
+    ASSERT_THAT(analyser.ids("diagnose"), SizeIs(1));
+    for (const auto& compute : analyser.computes) {
+      if (compute.kind == "diagnose") specs.insert(compute.spec);
+    }
+  }
+  EXPECT_THAT(specs, SizeIs(1));
+}
+
+TEST(Analyser, DiagnosisIsPublishedAndKept) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.hear("DIAGNOSE", question({"a"}));
+  const auto compute = std::find_if(analyser.computes.begin(), analyser.computes.end(),
+                                    [](const auto& c) { return c.kind == "diagnose"; });
+  ASSERT_NE(compute, analyser.computes.end());
+  const std::string result = diagnose_work(compute->spec);  // one specimen is too few: said, not thrown
+  analyser.finish("diagnose/r1", result);
+  ASSERT_THAT(analyser.sent_on("DIAGNOSIS"), SizeIs(1));
+  const auto diagnosis = wire::decode_safe<diagnosis_t>(analyser.sent_on("DIAGNOSIS").front().payload).value();
+  EXPECT_EQ(diagnosis.verdict, "ambiguous");
+  EXPECT_EQ(diagnosis.round, 1);
+  EXPECT_EQ(analyser.computes.back().spec, store_spec("DIAGNOSIS", result));
+}
+
+TEST(Analyser, QuestionAskedTwiceIsAnsweredOnce) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  for (int i = 0; i < 3; ++i) analyser.hear("DIAGNOSE", question({"a"}));
+  EXPECT_THAT(analyser.ids("diagnose"), SizeIs(1));
+}
+
+TEST(Analyser, SameMessageTwiceIsStoredOnce) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.finish_stores();
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  EXPECT_THAT(analyser.ids("store"), SizeIs(1));
+  analyser.hear("MEASUREMENT", measurement_of("b", 5));
+  EXPECT_THAT(analyser.ids("store"), SizeIs(2));
+}
+
+TEST(Analyser, CorruptMessagesAreAWarningAndChangeNothing) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", "not a message");
+  analyser.hear("ROUND", round_of(0, true).substr(3));
+  analyser.hear("NO_SUCH_CHANNEL", "x");
+  EXPECT_THAT(analyser.computes, IsEmpty());
+  EXPECT_THAT(analyser.messages, IsEmpty());
+  EXPECT_THAT(analyser.log, SizeIs(2));
+}
+
+TEST(Analyser, ReportWaitsForStoresAndTheModelsWordOnMeasuredDesigns) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.hear("MEASUREMENT", measurement_of("b", 5));
+  analyser.hear("PARAMETERS", model_of(1));
+  analyser.hear("ROUND", round_of(1, false));
+  const auto requests = analyser.sent_on("SIMULATE");
+  ASSERT_THAT(requests, SizeIs(1));
+  EXPECT_THAT(wire::read<wire::SimulateRequest>(requests.front().payload)->designs, SizeIs(1));
+  analyser.finish_stores();
+  EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the farm has not answered";
+  for (const std::string& answer : answers_to(requests.front())) analyser.hear("SIMULATED", answer);
+  EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the answer is not stored";
+  analyser.finish_stores();
+  EXPECT_THAT(analyser.ids("report"), ElementsAre(StartsWith("report/r1")));
+}
+
+TEST(Analyser, ChunksOfAnAnswerCountOnceEach) {
+  Watched analyser;
+  for (std::uint64_t bits = 1; bits <= 60; ++bits)
+    analyser.hear("MEASUREMENT", measurement_of(std::to_string(bits), bits));
+  analyser.hear("PARAMETERS", model_of(1));
+  analyser.hear("ROUND", round_of(1, false));
+  const auto asked = wire::read<wire::SimulateRequest>(analyser.sent_on("SIMULATE").front().payload).value();
+  wire::SimulateResult part{.request_id = asked.request_id, .chunk = 0, .chunks = 2, .first = 0, .results = {}};
+  part.results = {{.design = asked.designs.at(0),
+                   .failure = "J <= 0",
+                   .modulus_pa = 0.0,
+                   .toughness_pa = 0.0,
+                   .peak_stress_pa = 0.0,
+                   .failure_strain = 0.0,
+                   .curve = {}}};
+  for (int i = 0; i < 3; ++i) analyser.hear("SIMULATED", wire::write(part));
+  analyser.finish_stores();
+  EXPECT_THAT(analyser.ids("report"), IsEmpty());
+  part.chunk = 1;
+  part.first = 30;
+  analyser.hear("SIMULATED", wire::write(part));
+  analyser.finish_stores();
+  EXPECT_THAT(analyser.ids("report"), SizeIs(1));
+}
+
+TEST(Analyser, RoundBeforeItsModelWaitsForTheModel) {
+  Watched analyser;
+  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.hear("ROUND", round_of(1, false));
+  analyser.finish_stores();
+  EXPECT_THAT(analyser.ids("report"), IsEmpty());
+  analyser.hear("PARAMETERS", model_of(1));
+  EXPECT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
+}
+
+TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
+  Watched analyser;
+  analyser.hear("PARAMETERS", model_of(0));
+  analyser.hear("ROUND", round_of(0, false));
+  analyser.finish_stores();
+  analyser.finish(analyser.ids("report").at(0));
+  EXPECT_FALSE(analyser.core.status().finished);
+  analyser.hear("PARAMETERS", model_of(1));
+  analyser.hear("ROUND", round_of(1, true));
+  analyser.finish_stores();
+  EXPECT_FALSE(analyser.core.status().finished);
+  analyser.finish(analyser.ids("report").at(1));
+  EXPECT_TRUE(analyser.core.status().finished);
+}
+
+TEST(Analyser, LateMessagesAfterTheLastRoundReachTheReport) {
+  Watched analyser;
+  analyser.hear("PARAMETERS", model_of(0));
+  analyser.hear("ROUND", round_of(0, true));
+  analyser.finish_stores();
+  analyser.finish(analyser.ids("report").at(0));
+  analyser.hear("MEASUREMENT", measurement_of("late", 5));
+  analyser.finish_stores();
+  ASSERT_THAT(analyser.ids("report"), SizeIs(2));
+  EXPECT_NE(analyser.ids("report").at(0), analyser.ids("report").at(1));
+  analyser.finish(analyser.ids("report").at(1));
+  EXPECT_TRUE(analyser.core.status().finished);
+}
+
+TEST(Analyser, RoundAnnouncedTwiceIsReportedOnce) {
+  Watched analyser;
+  analyser.hear("PARAMETERS", model_of(0));
+  for (int i = 0; i < 2; ++i) analyser.hear("ROUND", round_of(0, false));
+  analyser.finish_stores();
+  analyser.finish(analyser.ids("report").at(0));
+  analyser.hear("ROUND", round_of(0, false));
+  EXPECT_THAT(analyser.ids("report"), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace nacre::analyser
