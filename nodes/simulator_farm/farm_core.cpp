@@ -28,6 +28,10 @@ runtime::Outputs FarmCore::step(const runtime::Input& input) {
   runtime::Outputs outputs;
   if (const auto* message = std::get_if<runtime::Message>(&input)) {
     if (message->channel == "SIMULATE") accept(message->payload, outputs);
+    if (message->channel == "ROUND") {
+      const auto summary = wire::read<wire::RoundSummary>(message->payload);
+      if (summary && summary->last) game_over_ = true;
+    }
   } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
     settle(*work, outputs);
   }
@@ -150,7 +154,9 @@ void FarmCore::answer(const wire::SimulateRequest& request, runtime::Outputs& ou
 }
 
 runtime::Status FarmCore::status() const {
-  if (open_requests_ == 0) return {.phase = "idle", .round = 0, .progress = -1.0, .finished = false};
+  if (open_requests_ == 0) {
+    return {.phase = game_over_ ? "the game is over" : "idle", .round = 0, .progress = -1.0, .finished = game_over_};
+  }
   return {.phase = fmt::format("simulating {} of {}", answered_, asked_),
           .round = 0,
           .progress = static_cast<double>(answered_) / std::max(1, asked_),

@@ -52,9 +52,8 @@ TEST(Game, TwoRoundsTakeTheCourseOfTheRules) {
   EXPECT_EQ(rounds[2].calibration_count, 10);
   EXPECT_EQ(rounds[1].held_out.modulus_count, 3);
   EXPECT_EQ(rounds[2].held_out.toughness_count, 3);
-  EXPECT_TRUE(game.status_of("validation_agent").finished);
-  EXPECT_TRUE(game.status_of("proposal_agent").finished);
   for (const char* node : {"validation_agent", "proposal_agent", "simulator_farm"}) {
+    EXPECT_TRUE(game.status_of(node).finished) << node;
     EXPECT_THAT(game.complaints_of(node), IsEmpty()) << node;
   }
 }
