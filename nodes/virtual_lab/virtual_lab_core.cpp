@@ -13,6 +13,7 @@ using runtime::LogLevel;
 using runtime::Outputs;
 
 constexpr const char* kOrderChannel = "TEST_ORDER";
+constexpr const char* kRoundChannel = "ROUND";
 constexpr const char* kMeasurementChannel = "MEASUREMENT";
 constexpr const char* kWorkKind = "measure";
 constexpr int kPrintPositions = 1000;
@@ -33,6 +34,10 @@ Outputs VirtualLabCore::step(const runtime::Input& input) {
   Outputs outputs;
   if (const auto* message = std::get_if<runtime::Message>(&input)) {
     if (message->channel == kOrderChannel) accept(message->payload, outputs);
+    if (message->channel == kRoundChannel) {
+      const auto round = wire::read<wire::RoundSummary>(message->payload);
+      game_over_ = game_over_ || (round && round->last);
+    }
   } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
     settle(*work, outputs);
   }
@@ -114,7 +119,7 @@ runtime::Status VirtualLabCore::status() const {
   return {.phase = busy ? fmt::format("measuring, {} of {} tests done", settled_, total) : "waiting for orders",
           .round = latest_round_,
           .progress = busy ? settled_ / static_cast<double>(total) : -1.0,
-          .finished = false};
+          .finished = game_over_ && !busy};
 }
 
 Truth truth_of(const game::Scenario& scenario) {

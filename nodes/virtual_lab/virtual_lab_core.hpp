@@ -42,6 +42,7 @@ class VirtualLabCore : public runtime::NodeCore {
   std::map<std::string, Simulation> simulations_;  // by id of their Compute
   int latest_round_ = 0;
   int settled_ = 0;  // simulations
+  bool game_over_ = false;
 };
 
 /// The truth of the scenario's laboratory: from its file, else drawn from the scenario's seed; at the scenario's
