@@ -8,6 +8,7 @@
 #include "analyser/report_style.hpp"
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
+#include "game/model.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -59,6 +60,21 @@ std::string judgement_in_words(const store::RunRecord& run, const wire::RoundSum
                                verdict_in_words(round->second.diagnosis->verdict));
   }
   return words + "; there is no diagnosis yet.";
+}
+
+/// Where the model holds faults of the testing machine, simulated and measured values mean different things.
+std::string machine_in_words(const store::RunRecord& run) {
+  for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
+    material::ParameterSet model;
+    model.extensions = extensions_of(round->second);
+    if (!game::has_measurement_side(model)) continue;
+    return paragraph(
+        fmt::format("The model of round {} holds effects of the testing machine: there the simulated values are the "
+                    "material's own, the measured "
+                    "ones as the machine shows them.",
+                    round->first));
+  }
+  return "";
 }
 
 std::string contents() {
@@ -118,6 +134,7 @@ std::string gamut_section(const store::RunRecord& run) {
       "bounds what is dominated; the area between the two is the gap. Bars: ± 1 standard deviation of the replicates.");
   const std::vector<std::string> figures = gamut_figures(run);
   if (figures.empty()) return section("gamuts", "Gamut and measurements, round by round", awaited("the first gamut"));
+  content += machine_in_words(run);
   content += "<div class=\"figures\">\n";
   for (const std::string& each : figures) content += each;
   return section("gamuts", "Gamut and measurements, round by round", content + "</div>\n");

@@ -46,10 +46,10 @@ std::string candidate_table(const std::vector<store::RecordedCandidate>& candida
 
 std::string gain_in_words(const store::RecordedDiagnosis& d) {
   if (!d.held_out_error_before || !d.held_out_error_after) return "";
-  return paragraph(
-      fmt::format("On patterns that were held out, the extended model brings the mean error of log E from {} to "
-                  "<strong>{}</strong>.",
-                  percent(*d.held_out_error_before), percent(*d.held_out_error_after)));
+  return paragraph(fmt::format(
+      "On patterns that were held out, the extended model brings the mean absolute error of ln E from {} to "
+      "<strong>{}</strong>.",
+      percent(*d.held_out_error_before), percent(*d.held_out_error_after)));
 }
 
 }  // namespace

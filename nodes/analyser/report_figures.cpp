@@ -74,9 +74,12 @@ std::string gamut_figure(const store::RunRecord& run, int number, const Range& x
              .x_label = "Young's modulus E (GPa)",
              .y_label = "toughness T (MPa)",
              .x = x,
-             .y = y});
+             .y = y,
+             .width = 540,
+             .height = 400});
   plot.cloud(to_points(thinned(round.gamut, kMostGamutPoints)), Ink::simulated, "simulated patterns");
   plot.line(to_points(round.benchmark), Ink::homogeneous, Stroke::dashed, "homogeneous mixtures");
+  plot.dots(to_points(round.benchmark), Ink::homogeneous, "");
   plot.staircase(front_points(round.gamut), Ink::simulated, "simulated front");
   draw_measured(plot, measured_patterns(run, number), number);
   std::vector<Point> proposals;
@@ -90,12 +93,14 @@ std::string gamut_figure(const store::RunRecord& run, int number, const Range& x
   return plot.svg();
 }
 
-/// One figure of the closed rounds as points over the round's number.
-template <class Value>
-std::vector<Point> over_rounds(const store::RunRecord& run, Value value) {
+bool has_measurements(const wire::RoundSummary& summary) { return summary.measured_hypervolume_staircase > 0.0; }
+
+/// One figure of the closed rounds as points over the round's number; `counts` says which rounds have it.
+template <class Value, class Counts = decltype(&has_measurements)>
+std::vector<Point> over_rounds(const store::RunRecord& run, Value value, Counts counts = has_measurements) {
   std::vector<Point> points;
   for (const auto& [number, round] : run.rounds) {
-    if (round.summary) points.push_back({static_cast<double>(number), value(*round.summary)});
+    if (round.summary && counts(*round.summary)) points.push_back({static_cast<double>(number), value(*round.summary)});
   }
   return points;
 }
@@ -120,7 +125,8 @@ void line_with_dots(Plot& plot, std::span<const Point> points, Ink ink, std::str
 }
 
 std::string hypervolume_figure(const store::RunRecord& run) {
-  const auto gamut = over_rounds(run, [](const auto& s) { return s.gamut_hypervolume_staircase; });
+  const auto gamut = over_rounds(
+      run, [](const auto& s) { return s.gamut_hypervolume_staircase; }, [](const auto&) { return true; });
   const auto measured = over_rounds(run, [](const auto& s) { return s.measured_hypervolume_staircase; });
   const auto low =
       over_rounds(run, [](const auto& s) { return s.measured_hypervolume_staircase - s.hypervolume_error; });
@@ -265,6 +271,8 @@ std::vector<std::string> gamut_figures(const store::RunRecord& run) {
 
 std::vector<std::string> round_figures(const store::RunRecord& run) {
   if (!newest_closed_round(run)) return {};
+  const bool is_measured = !over_rounds(run, [](const auto&) { return 0.0; }).empty();
+  if (!is_measured) return {hypervolume_figure(run)};
   return {hypervolume_figure(run), gap_figure(run), signed_gap_figure(run)};
 }
 

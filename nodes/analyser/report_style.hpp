@@ -8,10 +8,10 @@ namespace nacre::analyser {
 inline constexpr std::string_view kReportStyle = R"css(
 :root { color-scheme: light dark;
   --page: #fcfcfa; --panel: #ffffff; --ink: #22262b; --quiet: #626a73; --rule: #e0e2e0; --grid: #eceeec;
-  --sim: #2a66a8; --meas: #c4561a; --earlier: #dfa27f; --homo: #6b7178; --rigid: #343a42; --soft: #e6dfd0; --warn: #fbeede; --good: #2f7d4f; --bad: #b3372b; }
+  --sim: #2a66a8; --meas: #c4561a; --earlier: #dfa27f; --homo: #6b7178; --rigid: #343a42; --soft: #e6dfd0; --warn: #fbeede; --bad: #b3372b; }
 @media (prefers-color-scheme: dark) { :root {
   --page: #15181c; --panel: #1c2025; --ink: #dfe3e7; --quiet: #97a0a9; --rule: #31373e; --grid: #282d33;
-  --sim: #74aee8; --meas: #f0935a; --earlier: #95603f; --homo: #9aa2ab; --rigid: #c3cbd4; --soft: #3a372f; --warn: #3a2b1a; --good: #6cc08d; --bad: #ef8d82; } }
+  --sim: #74aee8; --meas: #f0935a; --earlier: #95603f; --homo: #9aa2ab; --rigid: #c3cbd4; --soft: #3a372f; --warn: #3a2b1a; --bad: #ef8d82; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--page); color: var(--ink); font: 16px/1.55 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
 main { max-width: 1160px; margin: 0 auto; padding: 40px 28px 80px; }
@@ -28,11 +28,12 @@ code { font: 0.9em ui-monospace, "DejaVu Sans Mono", Menlo, monospace; }
 .warning { background: var(--warn); border-left: 3px solid var(--meas); padding: 10px 14px; }
 nav { display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 18px; font-size: 14px; }
 a { color: var(--sim); text-decoration: none; } a:hover { text-decoration: underline; }
-.figures { display: flex; flex-wrap: wrap; gap: 18px; margin: 14px 0; }
+.figures { display: flex; flex-wrap: wrap; align-items: flex-start; gap: 18px; margin: 14px 0; }
 svg.plot { display: block; max-width: 100%; height: auto; }
 .sim { --c: var(--sim); } .meas { --c: var(--meas); } .earlier { --c: var(--earlier); } .homo { --c: var(--homo); }
 .dot { fill: var(--c); stroke: var(--page); stroke-width: 0.8; } .ring { fill: var(--page); stroke: var(--c); stroke-width: 1.6; }
-.cloud { stroke: var(--c); stroke-width: 2.6; stroke-linecap: round; opacity: 0.32; fill: none; }
+.cloud { stroke: var(--c); stroke-width: 2.6; stroke-linecap: round; opacity: 0.34; fill: none; }
+@media (prefers-color-scheme: dark) { .cloud { opacity: 0.6; } }
 .line { stroke: var(--c); stroke-width: 1.8; fill: none; stroke-linejoin: round; } .thin { stroke-width: 1.2; opacity: 0.85; } .dashed { stroke-width: 1.4; stroke-dasharray: 5 3; }
 .bar { stroke: var(--c); stroke-width: 1.1; fill: none; opacity: 0.8; } .band { fill: var(--c); opacity: 0.18; }
 .grid { stroke: var(--grid); fill: none; } .axis { stroke: var(--quiet); fill: none; stroke-width: 1; }
@@ -43,15 +44,18 @@ svg.unit { flex: none; border-radius: 3px; display: block; } .rigid { fill: var(
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 th { text-align: right; font-weight: 600; color: var(--quiet); padding: 4px 10px; border-bottom: 1px solid var(--rule); vertical-align: bottom; white-space: nowrap; }
 td { text-align: right; padding: 4px 10px; border-bottom: 1px solid var(--grid); vertical-align: middle; }
-th.group { text-align: center; } td.split, th.split { border-left: 1px solid var(--rule); }
+th.group { text-align: center; }
 table.words td, table.words th { text-align: left; } td:first-child, th:first-child { text-align: left; padding-left: 0; }
 tr.reference td { color: var(--quiet); } tr.first-reference td { border-top: 1px solid var(--rule); } tr.invalid td { color: var(--quiet); }
 tr.note td { text-align: left; color: var(--quiet); padding-top: 12px; }
-td.prose { max-width: 44ch; overflow-wrap: anywhere; }
-strong.good { color: var(--good); } strong.bad { color: var(--bad); }
-.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(340px, 1fr)); gap: 14px; }
+thead tr + tr th:first-child { text-align: right; padding-left: 10px; }
+table.words td { white-space: nowrap; } table.words td code { display: inline-block; max-width: 32ch; white-space: normal; overflow-wrap: anywhere; }
+table.words td:last-child { white-space: normal; min-width: 18ch; overflow-wrap: anywhere; }
+strong.bad { color: var(--bad); }
+.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 14px; }
 .card { display: flex; gap: 14px; padding: 12px; background: var(--panel); border: 1px solid var(--rule); border-radius: 6px; font-size: 14px; }
-.card p { margin: 0 0 4px; } .card table { font-size: 13px; margin: 2px 0 6px; } .card td, .card th { padding: 1px 8px; border: 0; }
+.card p { margin: 0 0 4px; } .card table { font-size: 13px; margin: 2px 0 6px; } .card td, .card th { padding: 1px 8px; border: 0; white-space: nowrap; }
+.card > div { min-width: 0; }
 @media print { section { break-inside: avoid-page; } nav { display: none; } }
 )css";
 
