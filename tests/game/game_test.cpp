@@ -107,6 +107,23 @@ TEST(Game, AFreshCoreRepeatsItsJournalWordForWord) {
   EXPECT_GT(game.replay("simulator_farm", *simulator_farm::make_core(scenario)), 300u);
 }
 
+TEST(Game, NoStepTakesLongerThanATenthOfASecond) {
+  // As many designs and evaluations as the demonstration has.
+  game::Scenario scenario = small_scenario();
+  scenario.proposal.samples = 300;
+  scenario.proposal.population = 20;
+  scenario.proposal.designs = 4;
+  scenario.validation.random_patterns = 6;
+  scenario.validation.calibration_evaluations = 25;
+  scenario.validation.modulus_evaluations = 120;
+  InProcessGame game;
+  add_players(game, scenario);
+  play_whole(game, scenario);
+  EXPECT_EQ(game.payloads("ROUND").size(), 3u);
+  EXPECT_LT(game.longest_step_s(), 0.1);
+  RecordProperty("longest_step_us", static_cast<int>(1e6 * game.longest_step_s()));
+}
+
 TEST(Game, DesignsAreNotProposedTwice) {
   game::Scenario scenario = small_scenario();
   scenario.rounds = 4;

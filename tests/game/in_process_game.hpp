@@ -62,6 +62,7 @@ class InProcessGame {
   /// Feeds everything that `node` received to a fresh core and compares what it says. Returns the number of inputs.
   std::size_t replay(const std::string& node, runtime::NodeCore& fresh) const;
 
+  /// Longest time that a core has computed within one step.
   double longest_step_s() const { return longest_step_s_; }
 
  private:
