@@ -47,15 +47,20 @@ std::string conditions_of(const measurement::SpecimenRecord& r) {
 
 std::string test_name(tester::TestKind test) { return std::string(tester::to_string(test)); }
 
+std::string specimen_name(const std::string& name) {
+  constexpr std::size_t kOneLine = 36;
+  return fmt::format("<code{}>{}</code>", name.size() > kOneLine ? " class=\"long\"" : "", escaped(name));
+}
+
 std::string specimen_row(const store::MeasuredSpecimen& m) {
   const measurement::SpecimenRecord& r = m.record;
   const auto modulus = measurement::modulus_of(r),
              toughness = r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa;
   const std::string validity = r.valid ? "valid" : "<strong class=\"bad\">invalid</strong>";
-  return table_row({fmt::format("<code>{}</code>", escaped(r.specimen)),
-                    m.round < 0 ? "not ordered" : fmt::format("{}", m.round), design_name(r.design.name()),
-                    test_name(r.test), modulus ? gpa(*modulus) : "–", toughness ? mpa(*toughness) : "–",
-                    conditions_of(r), escaped(r.batch), validity, fmt::format("<span>{}</span>", escaped(r.note))},
+  return table_row({specimen_name(r.specimen), m.round < 0 ? "not ordered" : fmt::format("{}", m.round),
+                    design_name(r.design.name()), test_name(r.test), modulus ? gpa(*modulus) : "–",
+                    toughness ? mpa(*toughness) : "–", conditions_of(r), escaped(r.batch), validity,
+                    fmt::format("<span>{}</span>", escaped(r.note))},
                    r.valid ? "" : "invalid");
 }
 

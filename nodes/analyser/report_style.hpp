@@ -49,7 +49,7 @@ table.words td, table.words th { text-align: left; } td:first-child, th:first-ch
 tr.reference td { color: var(--quiet); } tr.first-reference td { border-top: 1px solid var(--rule); } tr.invalid td { color: var(--quiet); }
 tr.note td { text-align: left; color: var(--quiet); padding-top: 12px; }
 thead tr + tr th:first-child { text-align: right; padding-left: 10px; }
-table.words td { white-space: nowrap; } table.words td code { display: inline-block; max-width: 32ch; white-space: normal; overflow-wrap: anywhere; }
+table.words td { white-space: nowrap; } table.words code.long { display: inline-block; width: 36ch; white-space: normal; overflow-wrap: anywhere; }
 table.words td:last-child { white-space: normal; min-width: 18ch; overflow-wrap: anywhere; }
 strong.bad { color: var(--bad); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 14px; }

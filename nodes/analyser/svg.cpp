@@ -11,7 +11,7 @@ namespace {
 
 // Sizes in px.
 constexpr int kLeft = 50, kRight = 12, kTop = 28, kBottom = 42;
-constexpr int kTickSpacing = 48;  // about
+constexpr int kTickSpacingX = 60, kTickSpacingY = 38;  // about
 constexpr int kLegendRow = 17, kLegendSample = 26, kLegendGap = 14;
 constexpr double kCharacterWidth = 6.7;  // of the 11 px legend, on average
 constexpr double kDot = 3.4;
@@ -238,13 +238,13 @@ void Plot::add_to_legend(std::string sample, std::string_view label) {
 std::string Plot::axes_svg() const {
   const int width = axes_.width - kLeft - kRight, height = axes_.height - kTop - kBottom;
   std::string text = text_at(kLeft, 16, "title", axes_.title);
-  const std::vector<double> y_ticks = round_ticks(axes_.y, height / kTickSpacing);
+  const std::vector<double> y_ticks = round_ticks(axes_.y, height / kTickSpacingY);
   for (const double tick : y_ticks) {
     const double y = kTop + py(tick);
     text += fmt::format("<path class=\"grid\" d=\"M{} {:.1f}h{}\"/>", kLeft, y, width);
     text += text_at(kLeft - 6, y + 3.5, "tick end", tick_text(tick, y_ticks));
   }
-  std::vector<double> x_ticks = round_ticks(axes_.x, width / kTickSpacing);
+  std::vector<double> x_ticks = round_ticks(axes_.x, width / kTickSpacingX);
   if (axes_.whole_numbers_x) std::erase_if(x_ticks, [](double t) { return std::abs(t - std::round(t)) > 1e-6; });
   for (const double tick : x_ticks) {
     const double x = kLeft + px(tick);
