@@ -40,9 +40,12 @@ std::string proposal_card(const store::RecordedProposal& proposal, const std::ve
                      performance_table(proposal, find_measured(measured, proposal.design)), escaped(proposal.reason));
 }
 
+std::string in_words(const tester::TestConditions& c) {
+  return fmt::format("{:.0f}°, {} /s, {:.2f} mm", c.orientation_deg, quantity(c.strain_rate_per_s), c.thickness_mm);
+}
+
 std::string conditions_of(const measurement::SpecimenRecord& r) {
-  return fmt::format("{:.0f}°, {} /s, {:.2f} mm", r.conditions.orientation_deg,
-                     quantity(r.conditions.strain_rate_per_s), r.conditions.thickness_mm);
+  return r.conditions == tester::TestConditions{} ? "standard" : in_words(r.conditions);
 }
 
 std::string test_name(tester::TestKind test) { return std::string(tester::to_string(test)); }
@@ -94,9 +97,10 @@ std::string specimen_section(const store::RunRecord& run) {
     rows += specimen_row(m);
     if (!m.record.valid) ++invalid;
   }
-  const std::string count =
-      fmt::format("{} specimens, {} of them invalid. Validity as reviewed; invalid ones count nowhere but are shown.",
-                  run.specimens.size(), invalid);
+  const std::string count = fmt::format(
+      "{} specimens, {} of them invalid. Validity as reviewed; invalid ones count nowhere but are shown. Standard "
+      "conditions: {}.",
+      run.specimens.size(), invalid, in_words({}));
   return section("specimens", kHeading,
                  paragraph(count) + table(header_row({"specimen", "round", "design", "test", "E (GPa)", "T (MPa)",
                                                       "conditions", "batch", "validity", "note"}),
