@@ -8,34 +8,26 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Whitened projector off the anchor's coordinates: data rows, then the prior's rows.
+/// Whitened projector off the anchor's free coordinates: data rows, then the prior's rows.
 class Projector {
  public:
-  Projector(const Fit& fit, const Eigen::VectorXd& variances) : fit_(fit), weight_(variances.cwiseSqrt().cwiseInverse()) {
-    const Eigen::Index n = fit.jacobian.rows();
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + kBaseCount, fit.jacobian.cols());
-    a.topRows(n) = weight_.asDiagonal() * fit.jacobian;
-    for (int i = 0; i < kBaseCount; ++i) a(n + i, i) = 1.0 / kPriorSd;
-    q_ = Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
+  Projector(const Fit& fit, const Whitener& whitener) : fit_(fit), whitener_(whitener) {
+    const Eigen::MatrixXd a = fit.whitened_columns(whitener);
+    q_ = a.householderQr().householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
   }
   /// Residual of data against the anchor, refitted.
-  Eigen::VectorXd residual(const Eigen::VectorXd& y) const {
-    Eigen::VectorXd b = extended(y - fit_.predicted);
-    for (int i = 0; i < kBaseCount; ++i) b[y.size() + i] = (0.5 - fit_.u[i]) / kPriorSd;
-    return off(b);
-  }
-  Eigen::VectorXd whitened(const Eigen::VectorXd& change) const { return extended(change); }
-  Eigen::VectorXd projected(const Eigen::VectorXd& change) const { return off(extended(change)); }
-
- private:
-  Eigen::VectorXd extended(const Eigen::VectorXd& v) const {
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(v.size() + kBaseCount);
-    b.head(v.size()) = weight_.cwiseProduct(v);
+  Eigen::VectorXd residual(const Eigen::VectorXd& y) const { return off(fit_.whitened_residual(y, whitener_)); }
+  Eigen::VectorXd whitened(const Eigen::VectorXd& change) const {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(change.size() + kBaseCount);
+    b.head(change.size()) = whitener_(change);
     return b;
   }
+  Eigen::VectorXd projected(const Eigen::VectorXd& change) const { return off(whitened(change)); }
+
+ private:
   Eigen::VectorXd off(const Eigen::VectorXd& b) const { return b - q_ * (q_.transpose() * b); }
   const Fit& fit_;
-  Eigen::VectorXd weight_;
+  const Whitener& whitener_;
   Eigen::MatrixXd q_;
 };
 
@@ -55,17 +47,16 @@ double DrawStatistics::largest_contrast() const {
 }
 
 NoisyData draw_data(const Eigen::VectorXd& truth, const Observations& observations, RandomStream& random) {
-  const Eigen::VectorXd deviations = observations.variances().cwiseSqrt();
-  NoisyData data{truth, {}};
-  for (Eigen::Index i = 0; i < truth.size(); ++i) data.log_moduli[i] += deviations[i] * random.normal();
+  const Eigen::MatrixXd factor = observations.covariance().llt().matrixL();
+  Eigen::VectorXd noise(truth.size());
+  for (Eigen::Index i = 0; i < truth.size(); ++i) noise[i] = random.normal();
   const int dof = observations.replicate_dof;
   const double variance = observations.replicate_sd * observations.replicate_sd;
-  data.variances = observations.variances(dof > 0 ? variance * chi_square(dof, random) / dof : variance);
-  return data;
+  return {truth + factor * noise, Whitener(observations.covariance(dof > 0 ? variance * chi_square(dof, random) / dof : variance))};
 }
 
 DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
-  const Projector projector(anchor.fit, data.variances);
+  const Projector projector(anchor.fit, data.whitener);
   const Eigen::VectorXd residual = projector.residual(data.log_moduli);
   DrawStatistics statistics;
   statistics.chi2 = residual.squaredNorm();
@@ -105,10 +96,10 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "rival/" + std::to_string(truth) + "/" + std::to_string(i));
     const NoisyData data = draw_data(rivals[truth].predicted, observations, random);
-    const double own = linear_refit(rivals[truth], data.log_moduli, data.variances);
+    const double own = linear_refit(rivals[truth], data.log_moduli, data.whitener);
     double best_other = own;
     for (std::size_t k = 0; k < rivals.size(); ++k) {
-      if (k != truth) best_other = std::min(best_other, linear_refit(rivals[k], data.log_moduli, data.variances));
+      if (k != truth) best_other = std::min(best_other, linear_refit(rivals[k], data.log_moduli, data.whitener));
     }
     statistics.chi2[static_cast<std::size_t>(i)] = own;
     statistics.lead_of_best_other[static_cast<std::size_t>(i)] = own - best_other;
@@ -121,8 +112,8 @@ double exceedance(const std::vector<double>& draws, double observed) {
   return (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(draws.size()));
 }
 
-SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Eigen::VectorXd& variances) {
-  const Projector projector(anchor, variances);
+SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener) {
+  const Projector projector(anchor, whitener);
   return {projector.whitened(change).norm(), projector.projected(change).norm()};
 }
 

@@ -35,10 +35,10 @@ struct Anchor {
   std::vector<ContrastDirection> directions;
 };
 
-/// Data with their noise model: means of log E and the variances that these data themselves suggest.
+/// Data with their noise model: means of log E and the covariance that these data themselves suggest.
 struct NoisyData {
   Eigen::VectorXd log_moduli;
-  Eigen::VectorXd variances;
+  Whitener whitener;
 };
 
 /// Draws data as if `truth` were exact.
@@ -68,6 +68,6 @@ struct SignatureSize {
   /// Share that the anchor imitates: 1 - projected^2 / whitened^2.
   double absorption() const { return whitened > 0.0 ? 1.0 - projected * projected / (whitened * whitened) : 1.0; }
 };
-SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Eigen::VectorXd& variances);
+SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener);
 
 }  // namespace nacre::diagnosis

@@ -27,8 +27,7 @@ bool holds(const std::vector<Fit>& fits, const std::string& effect) {
 
 Candidate candidate_of(const Evidence& evidence, const Decision& decision, std::size_t k) {
   const Fit& single = evidence.singles[k];
-  const Eigen::VectorXd variances = evidence.observations.variances();
-  const SignatureSize typical = signature_size(evidence.base.fit, evidence.base.signatures[k].changes[kTypicalSize], variances);
+  const SignatureSize typical = signature_size(evidence.base.fit, evidence.base.signatures[k].changes[kTypicalSize], Whitener(evidence.observations.covariance()));
   Candidate candidate;
   candidate.name = evidence.effects[k];
   candidate.statistic = evidence.base.fit.chi2 - single.chi2;
@@ -46,7 +45,7 @@ Candidate candidate_of(const Evidence& evidence, const Decision& decision, std::
 /// 90 % interval from the local covariance; Student's factor for the degrees of freedom of the replicate scatter.
 std::vector<NamedEffect> named_effects(const Evidence& evidence, const Fit& fit) {
   const CoordinateMap map(fit.effects);
-  const Eigen::MatrixXd covariance = fit.covariance(evidence.observations.variances());
+  const Whitener whitener(evidence.observations.covariance());
   const int dof = evidence.observations.replicate_dof;
   const double student = dof > 0 ? 1.645 * (1.0 + 0.93 / dof) : 2.0;  // Cornish-Fisher, within 1 % from 4 degrees of freedom on
   std::vector<NamedEffect> named;
@@ -55,7 +54,7 @@ std::vector<NamedEffect> named_effects(const Evidence& evidence, const Fit& fit)
     const material::Effect& effect = *material::find_effect(name);
     const double scale = map.scale(coordinate - kBaseCount);
     const double value = map.value(coordinate, fit.u[coordinate]);
-    const double half = student * std::sqrt(covariance(coordinate, coordinate)) * scale;
+    const double half = student * std::sqrt(fit.variance(coordinate, whitener)) * scale;
     named.push_back({name, std::string(effect.family), value, value - half, value + half, std::string(effect.parameters.front().unit)});
     coordinate += static_cast<int>(effect.parameters.size());
   }
@@ -100,7 +99,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
-  const Eigen::VectorXd variances = observations.variances();
+  const Eigen::VectorXd variances = observations.covariance().diagonal();
   std::vector<ResidualRow> rows;
   for (int i = 0; i < observations.size(); ++i) {
     const Observation& g = observations.groups[static_cast<std::size_t>(i)];

@@ -27,7 +27,8 @@ Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
 /// Start for a joint fit: the size of the effect whose signature lowers the misfit most.
 Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
   const CoordinateMap map(std::vector<std::string>{evidence.effects[effect]});
-  const Eigen::VectorXd y = evidence.observations.log_moduli(), variances = evidence.observations.variances();
+  const Eigen::VectorXd y = evidence.observations.log_moduli();
+  const Whitener whitener(evidence.observations.covariance());
   Eigen::VectorXd best = widened_start(evidence.base.fit, map);
   double least = evidence.base.fit.chi2;
   std::size_t index = 0;
@@ -38,7 +39,7 @@ Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
       Fit shifted = evidence.base.fit;
       shifted.predicted += signature.changes[index++];
       Eigen::VectorXd step;
-      const double chi2 = linear_refit(shifted, y, variances, &step);
+      const double chi2 = linear_refit(shifted, y, whitener, &step);
       if (chi2 >= least) continue;
       least = chi2;
       best = widened_start(evidence.base.fit, map);
@@ -93,7 +94,7 @@ Evidence gather_evidence(const ModulusModel& model, const Observations& observat
     evidence.singles.push_back(fit_model(model, observations, {evidence.effects[k]}, best_start(evidence, k)));
   }
   report(0.7, "bootstrap of the base model");
-  evidence.base_statistics = anchor_statistics(evidence.base, {observations.log_moduli(), observations.variances()});
+  evidence.base_statistics = anchor_statistics(evidence.base, {observations.log_moduli(), Whitener(observations.covariance())});
   evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
   return evidence;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nacre::diagnosis {
 namespace {
@@ -13,10 +14,6 @@ constexpr int kIterations = 12;
 constexpr double kConverged = 0.02;
 
 double prior_chi2(const Eigen::VectorXd& u) { return ((u.head(kBaseCount).array() - 0.5) / kPriorSd).square().sum(); }
-
-double weighted_chi2(const Eigen::VectorXd& residual, const Eigen::VectorXd& variances) {
-  return (residual.array().square() / variances.array()).sum();
-}
 
 /// Columns d log E / d u by one-sided differences that stay inside the bounds.
 Eigen::MatrixXd jacobian_at(const ModulusModel& model, const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted) {
@@ -33,44 +30,34 @@ Eigen::MatrixXd jacobian_at(const ModulusModel& model, const CoordinateMap& map,
   return columns;
 }
 
-/// Whitened system [W^1/2 J; prior] delta = [W^1/2 r; prior residual].
-struct WhitenedSystem {
-  Eigen::MatrixXd a;
-  Eigen::VectorXd b;
-};
-
-WhitenedSystem whiten(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual, const Eigen::VectorXd& variances, const Eigen::VectorXd& u) {
-  const Eigen::Index n = jacobian.rows();
-  WhitenedSystem system{Eigen::MatrixXd::Zero(n + kBaseCount, jacobian.cols()), Eigen::VectorXd(n + kBaseCount)};
-  const Eigen::VectorXd weight = variances.cwiseSqrt().cwiseInverse();
-  system.a.topRows(n) = weight.asDiagonal() * jacobian;
-  system.b.head(n) = weight.cwiseProduct(residual);
-  for (int i = 0; i < kBaseCount; ++i) {
-    system.a(n + i, i) = 1.0 / kPriorSd;
-    system.b[n + i] = (0.5 - u[i]) / kPriorSd;
-  }
-  return system;
-}
-
 Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
   for (int i = 0; i < map.size(); ++i) u[i] = std::clamp(u[i], map.lower(i), map.upper(i));
   return u;
 }
 
-/// Levenberg-Marquardt step; coordinates that stand on a bound and would leave it are held.
-Eigen::VectorXd damped_step(const WhitenedSystem& system, const CoordinateMap& map, const Eigen::VectorXd& u, double damping) {
-  Eigen::MatrixXd normal = system.a.transpose() * system.a;
-  Eigen::VectorXd gradient = system.a.transpose() * system.b;
-  normal.diagonal() *= 1.0 + damping;
+/// Coordinates that do not stand on a bound which the descent direction would leave.
+std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, const Eigen::VectorXd& y, const Whitener& whitener) {
+  Fit whole = fit;
+  whole.free.resize(static_cast<std::size_t>(map.size()));
+  std::iota(whole.free.begin(), whole.free.end(), 0);
+  const Eigen::VectorXd descent = whole.whitened_columns(whitener).transpose() * whole.whitened_residual(y, whitener);
+  std::vector<int> free;
   for (int i = 0; i < map.size(); ++i) {
-    const bool held = (u[i] <= map.lower(i) && gradient[i] < 0.0) || (u[i] >= map.upper(i) && gradient[i] > 0.0);
-    if (!held) continue;
-    normal.row(i).setZero();
-    normal.col(i).setZero();
-    normal(i, i) = 1.0;
-    gradient[i] = 0.0;
+    const bool held = (fit.u[i] <= map.lower(i) && descent[i] < 0.0) || (fit.u[i] >= map.upper(i) && descent[i] > 0.0);
+    if (!held) free.push_back(i);
   }
-  return normal.ldlt().solve(gradient);
+  return free;
+}
+
+/// Levenberg-Marquardt step over the free coordinates.
+Eigen::VectorXd damped_step(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, double damping) {
+  const Eigen::MatrixXd a = fit.whitened_columns(whitener);
+  Eigen::MatrixXd normal = a.transpose() * a;
+  normal.diagonal() *= 1.0 + damping;
+  const Eigen::VectorXd step = normal.ldlt().solve(a.transpose() * fit.whitened_residual(y, whitener));
+  Eigen::VectorXd full = Eigen::VectorXd::Zero(fit.u.size());
+  full(fit.free) = step;
+  return full;
 }
 
 /// An extension that ended on a bound other than zero says that the library's range does not hold the truth.
@@ -85,29 +72,52 @@ bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
 
 }  // namespace
 
-Eigen::MatrixXd Fit::covariance(const Eigen::VectorXd& variances) const {
-  const WhitenedSystem system = whiten(jacobian, Eigen::VectorXd::Zero(jacobian.rows()), variances, u);
-  const Eigen::MatrixXd normal = system.a.transpose() * system.a;
-  return normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+Eigen::MatrixXd Fit::whitened_columns(const Whitener& whitener) const {
+  const Eigen::Index n = jacobian.rows();
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + kBaseCount, static_cast<Eigen::Index>(free.size()));
+  columns.topRows(n) = whitener(jacobian(Eigen::all, free));
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    if (free[k] < kBaseCount) columns(n + free[k], static_cast<Eigen::Index>(k)) = 1.0 / kPriorSd;
+  }
+  return columns;
+}
+
+Eigen::VectorXd Fit::whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const {
+  Eigen::VectorXd residual(y.size() + kBaseCount);
+  residual.head(y.size()) = whitener(y - predicted);
+  for (int i = 0; i < kBaseCount; ++i) residual[y.size() + i] = (0.5 - u[i]) / kPriorSd;
+  return residual;
+}
+
+double Fit::variance(int coordinate, const Whitener& whitener) const {
+  const auto place = std::find(free.begin(), free.end(), coordinate);
+  if (place == free.end()) return 0.0;
+  const Eigen::MatrixXd a = whitened_columns(whitener);
+  const Eigen::Index k = place - free.begin();
+  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(a.cols(), k);
+  return (a.transpose() * a).ldlt().solve(unit)[k];
 }
 
 Fit fit_model(const ModulusModel& model, const Observations& observations, const std::vector<std::string>& effects, const Eigen::VectorXd& start) {
   const CoordinateMap map(effects);
-  const Eigen::VectorXd y = observations.log_moduli(), variances = observations.variances();
+  const Eigen::VectorXd y = observations.log_moduli();
+  const Whitener whitener(observations.covariance());
   Fit fit;
   fit.effects = effects;
   fit.u = clamped(map, start);
+  fit.lower = fit.upper = fit.u;
+  for (int i = 0; i < map.size(); ++i) fit.lower[i] = map.lower(i), fit.upper[i] = map.upper(i);
   fit.predicted = model.predict(map.parameters(fit.u));
-  fit.chi2 = weighted_chi2(y - fit.predicted, variances) + prior_chi2(fit.u);
+  fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
-    const WhitenedSystem system = whiten(fit.jacobian, y - fit.predicted, variances, fit.u);
+    fit.free = free_coordinates(fit, map, y, whitener);
     double gained = 0.0;
     for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
-      const Eigen::VectorXd candidate = clamped(map, fit.u + damped_step(system, map, fit.u, damping));
+      const Eigen::VectorXd candidate = clamped(map, fit.u + damped_step(fit, y, whitener, damping));
       const Eigen::VectorXd predicted = model.predict(map.parameters(candidate));
-      const double chi2 = weighted_chi2(y - predicted, variances) + prior_chi2(candidate);
+      const double chi2 = whitener.chi2(y - predicted) + prior_chi2(candidate);
       gained = fit.chi2 - chi2;
       if (gained > 0.0) {
         fit.u = candidate;
@@ -121,17 +131,39 @@ Fit fit_model(const ModulusModel& model, const Observations& observations, const
     if (gained < kConverged) break;
   }
   fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
+  fit.free = free_coordinates(fit, map, y, whitener);
   fit.parameters = map.parameters(fit.u);
   fit.extension_on_bound = ends_on_bound(map, fit.u);
   return fit;
 }
 
-double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Eigen::VectorXd& variances, Eigen::VectorXd* delta) {
-  const WhitenedSystem system = whiten(fit.jacobian, y - fit.predicted, variances, fit.u);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(system.a);
-  const Eigen::VectorXd step = qr.solve(system.b);
-  if (delta) *delta = step;
-  return (system.b - system.a * step).squaredNorm();
+double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta) {
+  // Data that no longer determine a coordinate would send it out of its range: what leaves is put on its bound, and the others are
+  // solved for again.
+  Fit part = fit;
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.u.size());
+  Eigen::VectorXd b = fit.whitened_residual(y, whitener);
+  while (!part.free.empty()) {
+    const Eigen::MatrixXd a = part.whitened_columns(whitener);
+    const Eigen::VectorXd step = a.householderQr().solve(b);
+    Eigen::Index worst = -1;
+    double excess = 1e-9, bounded = 0.0;
+    for (Eigen::Index k = 0; k < step.size(); ++k) {
+      const int i = part.free[static_cast<std::size_t>(k)];
+      const double inside = std::clamp(fit.u[i] + step[k], fit.lower[i], fit.upper[i]) - fit.u[i];
+      if (std::abs(step[k] - inside) > excess) excess = std::abs(step[k] - inside), worst = k, bounded = inside;
+    }
+    if (worst < 0) {
+      for (Eigen::Index k = 0; k < step.size(); ++k) moved[part.free[static_cast<std::size_t>(k)]] = step[k];
+      b -= a * step;
+      break;
+    }
+    moved[part.free[static_cast<std::size_t>(worst)]] = bounded;
+    b -= a.col(worst) * bounded;
+    part.free.erase(part.free.begin() + worst);
+  }
+  if (delta) *delta = moved;
+  return b.squaredNorm();
 }
 
 }  // namespace nacre::diagnosis

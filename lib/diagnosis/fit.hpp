@@ -13,13 +13,19 @@ namespace nacre::diagnosis {
 struct Fit {
   std::vector<std::string> effects;  ///< extensions fitted with the base; empty: the base model
   Eigen::VectorXd u;                 ///< coordinates of the optimum (CoordinateMap)
+  Eigen::VectorXd lower, upper;      ///< their bounds
   material::ParameterSet parameters;
   Eigen::VectorXd predicted;         ///< log E per group
   Eigen::MatrixXd jacobian;          ///< groups x coordinates
+  std::vector<int> free;             ///< coordinates that may move; the others are held by a bound that they would leave
   double chi2 = 0.0;                 ///< weighted sum of squares, prior included
   bool extension_on_bound = false;   ///< an extension parameter ended on a bound of its range (zero does not count)
-  /// Covariance of the coordinates for group variances `variances`.
-  Eigen::MatrixXd covariance(const Eigen::VectorXd& variances) const;
+  /// Whitened columns of the free coordinates: groups, then the prior's rows.
+  Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
+  /// Whitened residual of data: groups, then the prior's rows.
+  Eigen::VectorXd whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const;
+  /// Variance of one coordinate; 0 when it is held.
+  double variance(int coordinate, const Whitener& whitener) const;
 };
 
 /// Standard deviation of the prior, in widths of the widened range.
@@ -31,7 +37,7 @@ Fit fit_model(const ModulusModel& model, const Observations& observations, const
               const Eigen::VectorXd& start);
 
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
-/// |y - predicted - J delta|^2 / variances + prior. `delta` returns the minimiser when wanted.
-double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Eigen::VectorXd& variances, Eigen::VectorXd* delta = nullptr);
+/// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the minimiser when wanted.
+double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta = nullptr);
 
 }  // namespace nacre::diagnosis

@@ -29,9 +29,9 @@ struct Refit {
   Eigen::VectorXd delta;
 };
 
-Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y, const Eigen::VectorXd& variances) {
+Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y, const Whitener& whitener) {
   Refit result;
-  result.chi2 = linear_refit(restricted(fit, rows), y(rows), variances(rows), &result.delta);
+  result.chi2 = linear_refit(restricted(fit, rows), y(rows), whitener, &result.delta);
   return result;
 }
 
@@ -44,7 +44,8 @@ double reduction(const std::vector<DesignErrors>& errors, const std::vector<std:
 }  // namespace
 
 Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed, std::uint64_t seed) {
-  const Eigen::VectorXd y = observations.log_moduli(), variances = observations.variances();
+  const Eigen::VectorXd y = observations.log_moduli();
+  const Eigen::MatrixXd covariance = observations.covariance();
   // Folds of whole designs, dealt by a seeded shuffle.
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
   std::vector<Eigen::Index> always;  // homogeneous coupons are no patterns: they stay in every training set
@@ -64,11 +65,12 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
       if (static_cast<int>(d) % kFolds != fold) train.insert(train.end(), designs[d].begin(), designs[d].end());
     }
     std::sort(train.begin(), train.end());
-    const Refit plain = refit(base, train, y, variances);
+    const Whitener whitener(covariance(train, train));
+    const Refit plain = refit(base, train, y, whitener);
     const Fit* chosen = &base;
     Refit chosen_refit = plain;
     for (const Fit& model : models) {
-      const Refit own = refit(model, train, y, variances);
+      const Refit own = refit(model, train, y, whitener);
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - drop_needed) chosen = &model, chosen_refit = own;
     }
     for (std::size_t d = static_cast<std::size_t>(fold); d < designs.size(); d += kFolds) {

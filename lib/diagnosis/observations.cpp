@@ -43,15 +43,18 @@ Eigen::VectorXd Observations::log_moduli() const {
   return y;
 }
 
-Eigen::VectorXd Observations::variances(double replicate_variance) const {
-  Eigen::VectorXd v(size());
+Eigen::MatrixXd Observations::covariance(double replicate_variance) const {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size(), size());
   for (int i = 0; i < size(); ++i) {
-    const Observation& group = groups[static_cast<std::size_t>(i)];
+    const Observation& a = groups[static_cast<std::size_t>(i)];
+    matrix(i, i) = replicate_variance / a.replicates;
     // Homogeneous coupons are computed in closed form: no discretisation, no floor.
-    const double floor = group.design.layout() ? numerics_sd * numerics_sd : 0.0;
-    v[i] = replicate_variance / group.replicates + floor;
+    if (!a.design.layout()) continue;
+    for (int j = 0; j < size(); ++j) {
+      if (groups[static_cast<std::size_t>(j)].design == a.design) matrix(i, j) += numerics_sd * numerics_sd;
+    }
   }
-  return v;
+  return matrix;
 }
 
 Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd) {

@@ -18,6 +18,18 @@ struct Observation {
   std::string batch;         ///< empty when the replicates are of several batches
 };
 
+/// Turns differences of log E into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
+class Whitener {
+ public:
+  explicit Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {}
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& differences) const { return factor_.matrixL().solve(differences); }
+  /// The squared length of the whitened vector.
+  double chi2(const Eigen::VectorXd& differences) const { return factor_.matrixL().solve(differences).squaredNorm(); }
+
+ private:
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
 /// The modulus data of a measurement set, groups sorted by design and conditions.
 struct Observations {
   std::vector<Observation> groups;
@@ -26,9 +38,10 @@ struct Observations {
   double numerics_sd = 0.0;         ///< per layout, of log E
   int size() const { return static_cast<int>(groups.size()); }
   Eigen::VectorXd log_moduli() const;
-  /// Variance of each group's mean when single specimens scatter with `replicate_variance`.
-  Eigen::VectorXd variances(double replicate_variance) const;
-  Eigen::VectorXd variances() const { return variances(replicate_sd * replicate_sd); }
+  /// Covariance of the groups' means when single specimens scatter with `replicate_variance`. What two numerics differ by is the
+  /// same for all specimens of one layout: rotated twins share it.
+  Eigen::MatrixXd covariance(double replicate_variance) const;
+  Eigen::MatrixXd covariance() const { return covariance(replicate_sd * replicate_sd); }
 };
 
 /// Groups the valid specimens that have a modulus.

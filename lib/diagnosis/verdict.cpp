@@ -34,7 +34,7 @@ double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
   const Anchor anchor{fit, {}, contrast_directions(evidence.observations, fit.predicted)};
   const std::vector<DrawStatistics> draws = bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
   const double omnibus = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.chi2; }), fit.chi2);
-  const DrawStatistics own = anchor_statistics(anchor, {evidence.observations.log_moduli(), evidence.observations.variances()});
+  const DrawStatistics own = anchor_statistics(anchor, {evidence.observations.log_moduli(), Whitener(evidence.observations.covariance())});
   const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }), own.largest_contrast());
   return std::min(1.0, 2.0 * std::min(omnibus, contrast));
 }
