@@ -1,0 +1,24 @@
+#pragma once
+// Tables without patterns: along which of its columns do measured and predicted values part?
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nacre::diagnosis {
+
+/// Rank correlation of log(measured / predicted) with one numeric column.
+struct Trend {
+  std::string column;
+  double spearman = 0.0;
+  double p_family_wise = 1.0;  ///< chance of a correlation as strong along any column when rows are exchangeable
+  int rows = 0;                ///< rows with a number in all three columns
+};
+
+/// Trends of a CSV table, strongest first; the predicted values themselves are one of the columns. Rows without two positive
+/// numbers are left out. Throws InputError when a column is missing or fewer than five rows are usable.
+std::vector<Trend> table_trends(const std::filesystem::path& table, const std::string& measured, const std::string& predicted,
+                                std::uint64_t seed, int permutations = 2000);
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,105 @@
+// nacre diagnose: what the simulation gets wrong, and why.
+
+#include <filesystem>
+#include <string>
+
+#include "command.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/table_trends.hpp"
+#include "measurement/measurement.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string set;
+  std::string parameters;
+  std::string fidelity = "full";
+  std::string table, measured, predicted;
+  std::string numerics_floor;
+  std::uint64_t seed = 1;
+  int bootstraps = 2000;
+  bool json = false;
+};
+
+/// data/numerics_floor.toml in the working folder or above the program.
+std::filesystem::path shipped_numerics_floor() {
+  const std::filesystem::path name = "data/numerics_floor.toml";
+  std::error_code unreadable;
+  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", unreadable);
+  while (folder.has_parent_path() && folder != folder.root_path()) {
+    folder = folder.parent_path();
+    if (std::filesystem::exists(folder / name, unreadable)) return folder / name;
+  }
+  return name;
+}
+
+void print_candidates(const diagnosis::Diagnosis& d) {
+  for (const diagnosis::Candidate& c : d.candidates) {
+    fmt::print("  {:<22} {:<10} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:.1f}\n", c.name, c.status, c.statistic, c.p_family_wise, 100 * c.absorption,
+               c.signal_to_noise);
+  }
+  for (std::size_t i = 0; i < d.contrasts.size() && i < 3; ++i) {
+    fmt::print("  residuals along {}: {:.1f} standard deviations (p {:.4f})\n", d.contrasts[i].name, d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
+  }
+  for (const diagnosis::NextExperiment& e : d.next_experiments) {
+    fmt::print("  next: {} of {} at {:.0f} degrees, {} specimens: {}\n", tester::to_string(e.test), e.design.name(), e.conditions.orientation_deg, e.replicates, e.reason);
+  }
+}
+
+int diagnose_table(const Options& options) {
+  const std::vector<diagnosis::Trend> trends = diagnosis::table_trends(options.table, options.measured, options.predicted, options.seed);
+  nlohmann::ordered_json document = nlohmann::ordered_json::array();
+  for (const diagnosis::Trend& t : trends) {
+    document.push_back({{"column", t.column}, {"spearman", t.spearman}, {"p_family_wise", t.p_family_wise}, {"rows", t.rows}});
+    if (!options.json) fmt::print("{:<32} rank correlation {:+.3f}  p {:.4f}  ({} rows)\n", t.column, t.spearman, t.p_family_wise, t.rows);
+  }
+  if (options.json) print_json({{"trends", document}});
+  return 0;
+}
+
+int diagnose(const Options& options) {
+  if (!options.table.empty()) return diagnose_table(options);
+  if (options.set.empty()) throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
+  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  warn_about(set, options.set);
+  diagnosis::DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  if (!options.parameters.empty()) settings.start = material::read_parameters(options.parameters, settings.start);
+  settings.fidelity = fidelity_from_option(options.fidelity);
+  settings.seed = options.seed;
+  settings.bootstraps = options.bootstraps;
+  const std::filesystem::path floor = options.numerics_floor.empty() ? shipped_numerics_floor() : std::filesystem::path(options.numerics_floor);
+  settings.numerics_sd_log_modulus = diagnosis::read_numerics_floor(floor, settings.fidelity);
+  Progress progress("diagnosing " + options.set, 100);
+  settings.progress = [&](double share, std::string_view phase) { progress.set(static_cast<std::int64_t>(100 * share), 100, std::string(phase)); };
+  const diagnosis::Diagnosis d = diagnosis::diagnose_modulus(set.specimens, settings);
+  if (options.json) {
+    print_json(nlohmann::ordered_json::parse(to_json(d)));
+  } else {
+    fmt::print("{}: {}\n", diagnosis::to_string(d.verdict), d.summary);
+    print_candidates(d);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "diagnose", "Show what the simulation gets wrong about measured moduli, and why", options, diagnose);
+  command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
+  command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
+  command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
+  command.add_option("--numerics-floor", options->numerics_floor, "What two numerics of one truth differ by (data/numerics_floor.toml)");
+  command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")->check(CLI::Range(100, 1'000'000))->capture_default_str();
+  command.add_option("--seed", options->seed, "Of the resampling")->capture_default_str();
+  command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");
+  command.add_option("--measured", options->measured, "Column of measured values in --table")->needs("--table");
+  command.add_option("--predicted", options->predicted, "Column of predicted values in --table")->needs("--table");
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli
