@@ -73,9 +73,10 @@ int diagnose(const Options& options) {
   settings.bootstraps = options.bootstraps;
   const std::filesystem::path floor = options.numerics_floor.empty() ? shipped_numerics_floor() : std::filesystem::path(options.numerics_floor);
   settings.numerics_sd_log_modulus = diagnosis::read_numerics_floor(floor, settings.fidelity);
-  Progress progress("diagnosing " + options.set, 100);
-  settings.progress = [&](double share, std::string_view phase) { progress.set(static_cast<std::int64_t>(100 * share), 100, std::string(phase)); };
+  Progress progress("diagnose");
+  settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
   const diagnosis::Diagnosis d = diagnosis::diagnose_modulus(set.specimens, settings);
+  progress.end();
   if (options.json) {
     print_json(nlohmann::ordered_json::parse(to_json(d)));
   } else {
