@@ -30,7 +30,10 @@ runtime::Outputs FarmCore::step(const runtime::Input& input) {
     if (message->channel == "SIMULATE") accept(message->payload, outputs);
     if (message->channel == "ROUND") {
       const auto summary = wire::read<wire::RoundSummary>(message->payload);
-      if (summary && summary->last) game_over_ = true;
+      if (summary) {
+        game_over_ = game_over_ || summary->last;
+        round_ = std::max(round_, summary->last ? summary->round : summary->round + 1);
+      }
     }
   } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
     settle(*work, outputs);
@@ -155,10 +158,10 @@ void FarmCore::answer(const wire::SimulateRequest& request, runtime::Outputs& ou
 
 runtime::Status FarmCore::status() const {
   if (open_requests_ == 0) {
-    return {.phase = game_over_ ? "the game is over" : "idle", .round = 0, .progress = -1.0, .finished = game_over_};
+    return {.phase = game_over_ ? "the game is over" : "idle", .round = round_, .progress = -1.0, .finished = game_over_};
   }
   return {.phase = fmt::format("simulating {} of {}", answered_, asked_),
-          .round = 0,
+          .round = round_,
           .progress = static_cast<double>(answered_) / std::max(1, asked_),
           .finished = false};
 }

@@ -49,6 +49,7 @@ class FarmCore : public runtime::NodeCore {
   int open_requests_ = 0;
   int asked_ = 0;  // questions of the present busy spell
   int answered_ = 0;
+  int round_ = 0;  // for people: the one being played
   bool game_over_ = false;
 };
 
