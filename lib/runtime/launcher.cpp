@@ -91,6 +91,7 @@ class Launch {
   std::unique_ptr<Endpoint> endpoint_;
   bool recorder_is_ready_ = false;
   bool is_announced_ = false;
+  bool is_stopping_ = false;
   Clock::time_point said_waiting_ = Clock::now();
   Clock::time_point looked_for_end_ = Clock::now();
 };
@@ -172,7 +173,7 @@ void Launch::turn(std::chrono::milliseconds wait) {
   }
   std::vector<NodeView> views;
   for (const auto& node : nodes_) views.push_back(node->view());
-  display_.show(views, Clock::now());
+  if (!is_stopping_ || display_.on_terminal()) display_.show(views, Clock::now());
 }
 
 std::string Launch::names_of_nodes_not_ready() const {
@@ -221,6 +222,7 @@ bool Launch::has_failed() const {
 /// SIGINT, five seconds, SIGTERM, five seconds, SIGKILL; a further Ctrl-C goes to the next signal at once.
 void Launch::stop(std::vector<SupervisedNode*> processes) {
   constexpr auto kPatience = std::chrono::seconds(5);
+  is_stopping_ = true;
   for (SupervisedNode* process : processes) process->expect_end();
   const auto is_alive = [](const SupervisedNode* process) { return process->is_alive(); };
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {

@@ -1,0 +1,123 @@
+// nacre replay: a recorded game through one node again, and whether it says the same.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analyser/analyser_core.hpp"
+#include "analyser/works.hpp"
+#include "base/result.hpp"
+#include "command.hpp"
+#include "game/scenario.hpp"
+#include "output.hpp"
+#include "proposal_agent/proposal_core.hpp"
+#include "proposal_agent/selection_work.hpp"
+#include "replay_laboratory.hpp"
+#include "runtime/node_shell.hpp"
+#include "runtime/replay.hpp"
+#include "simulator_farm/farm_core.hpp"
+#include "simulator_farm/simulate_work.hpp"
+#include "store/simulation_cache.hpp"
+#include "validation_agent/validation_core.hpp"
+
+namespace nacre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string run = "logs/latest";
+  std::string node;
+  std::string scenario;
+  bool recompute = false;
+  bool json = false;
+};
+
+const std::vector<std::string> kNodes = {"validation_agent", "proposal_agent", "analyser", "simulator_farm",
+                                         "virtual_lab"};
+
+/// A folder for what recomputed work writes, gone with the object: a replay never touches the run.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "nacre-replay-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw InputError::format("{}: cannot be made", name);
+    path_ = name;
+  }
+  ~Scratch() {
+    std::error_code left_behind;
+    fs::remove_all(path_, left_behind);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// The node as its own program makes it, except that its work writes into the scratch folder and its cache begins
+/// empty.
+runtime::NodeProgram make_node(const std::string& node, const game::Scenario& scenario, const fs::path& scratch) {
+  if (node == "validation_agent") return {.core = validation_agent::make_core(scenario), .work = {}};
+  if (node == "proposal_agent") {
+    return {.core = proposal_agent::make_core(scenario), .work = proposal_agent::work_functions()};
+  }
+  if (node == "analyser") return {.core = analyser::make_core(scenario), .work = analyser::work_functions(scratch)};
+  if (node == "simulator_farm") {
+    return {
+        .core = simulator_farm::make_core(scenario),
+        .work = simulator_farm::work_functions(std::make_shared<store::SimulationCache>(scratch / "simulations.db"))};
+  }
+  return make_laboratory(scenario);
+}
+
+void print_report(const runtime::ReplayReport& report, const Options& options) {
+  if (options.json) {
+    print_json({{"equal", report.equal},
+                {"inputs", report.inputs},
+                {"outputs", report.outputs},
+                {"computes", report.computes},
+                {"recomputed", report.recomputed},
+                {"unfinished", report.unfinished},
+                {"difference", report.difference},
+                {"note", report.note}});
+    return;
+  }
+  fmt::print("{}: {} inputs, {} messages and {} works compared, {} works done again: {}\n", options.node, report.inputs,
+             report.outputs, report.computes, report.recomputed,
+             report.equal ? "the same, byte for byte" : "DIFFERENT");
+  if (!report.difference.empty()) fmt::print("first difference: {}\n", report.difference);
+  if (!report.note.empty()) fmt::print("note: {}\n", report.note);
+}
+
+int replay(const Options& options) {
+  const fs::path path = options.run;
+  const bool is_bus_log = fs::is_regular_file(path);
+  const fs::path folder = is_bus_log ? path.parent_path() : path;
+  const game::Scenario scenario =
+      game::read_scenario(options.scenario.empty() ? folder / "scenario.toml" : fs::path(options.scenario));
+  const Scratch scratch;
+  runtime::NodeProgram program = make_node(options.node, scenario, scratch.path());
+  const runtime::ReplayReport report = is_bus_log
+                                           ? runtime::replay_bus_log(path, options.node, *program.core, program.work)
+                                           : runtime::replay_journal(folder / "nodes" / options.node / "journal.lcm",
+                                                                     *program.core, program.work, options.recompute);
+  print_report(report, options);
+  return report.equal ? 0 : 1;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      add_command(app, action, "replay", "Feed a recorded game to one node again and compare", options, replay);
+  command
+      .add_option("RUN", options->run, "Folder of a run (exact, from the node's journal) or its run.lcm (best effort)")
+      ->capture_default_str();
+  command.add_option("--node", options->node, "Which node")->required()->check(CLI::IsMember(kNodes));
+  command.add_option("--scenario", options->scenario, "Scenario of the run; default: scenario.toml beside the log");
+  command.add_flag("--recompute", options->recompute, "Do the long work again and compare its results too");
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "game/scenario.hpp"
+#include "runtime/node_shell.hpp"
+
+namespace nacre::cli {
+
+/// The virtual laboratory of a scenario, for replay: the only place besides `nacre measure` that knows its truth.
+runtime::NodeProgram make_laboratory(const game::Scenario& scenario);
+
+}  // namespace nacre::cli
