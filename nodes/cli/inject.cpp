@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ namespace nacre::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr const char* kChannel = "MEASUREMENT";
 
 struct Options {
   std::string set;
@@ -50,7 +52,7 @@ runtime::Message message_of(const measurement::SpecimenRecord& specimen, tester:
       measurement.record.toughness_pa = measurement::toughness_of(specimen);
     measurement.record.curve = thinned(specimen.curve, wire::kMaximumCurvePoints);
   }
-  return {"MEASUREMENT", wire::write(measurement)};
+  return {kChannel, wire::write(measurement)};
 }
 
 /// What became of the specimens of a set.
@@ -58,13 +60,16 @@ struct Delivery {
   int accepted = 0;  ///< new to the validation agent
   int repeated = 0;  ///< it had them already
   int unanswered = 0;
+  std::vector<std::string> conflicting;  ///< it has other specimens of these names, which stay
   std::vector<measurement::RejectedRow> rejected;
 };
 
-std::set<std::string> hashes_known(const RunAccess& run) {
-  std::set<std::string> hashes;
-  for (const std::string& payload : received_by_validation_agent(run, "MEASUREMENT")) {
-    hashes.insert(wire::message_hash("MEASUREMENT", payload));
+/// Content hash of the measurement that the validation agent has of each specimen; the first one counts.
+std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
+  std::map<std::string, std::string> hashes;
+  for (const std::string& payload : received_by_validation_agent(run, kChannel)) {
+    const auto measurement = wire::read<wire::Measurement>(payload);
+    if (measurement) hashes.emplace(measurement->record.specimen, wire::message_hash(kChannel, payload));
   }
   return hashes;
 }
@@ -92,8 +97,8 @@ void wait_for_validation_agent(runtime::Endpoint& endpoint, const std::vector<st
 
 void print_delivery(const Delivery& delivery, bool json) {
   if (!json) {
-    fmt::print("{} accepted, {} repeated, {} unanswered, {} rejected\n", delivery.accepted, delivery.repeated,
-               delivery.unanswered, delivery.rejected.size());
+    fmt::print("{} accepted, {} repeated, {} conflicting, {} unanswered, {} rejected\n", delivery.accepted,
+               delivery.repeated, delivery.conflicting.size(), delivery.unanswered, delivery.rejected.size());
     return;
   }
   nlohmann::ordered_json rejected = nlohmann::ordered_json::array();
@@ -102,29 +107,49 @@ void print_delivery(const Delivery& delivery, bool json) {
   }
   print_json({{"accepted", delivery.accepted},
               {"repeated", delivery.repeated},
+              {"conflicting", delivery.conflicting},
               {"unanswered", delivery.unanswered},
               {"rejected", rejected}});
+}
+
+/// Sends what the validation agent does not contradict, and waits for its answers.
+Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, const Options& options) {
+  const std::map<std::string, std::string> known = hashes_by_specimen(run);
+  const auto endpoint = speak(run, "inject");
+  Delivery delivery;
+  delivery.rejected = set.rejected;
+  std::vector<std::string> hashes;
+  std::set<std::string> repeated;
+  for (const measurement::SpecimenRecord& specimen : set.specimens) {
+    const runtime::Message message = message_of(specimen, run.scenario.fidelity);
+    const auto same_name = known.find(specimen.specimen);
+    const bool is_known = same_name != known.end();
+    if (is_known && same_name->second != wire::message_hash(kChannel, message.payload)) {
+      warn(
+          fmt::format("specimen {}: the run has another measurement of this name, which stays; expected a new name, or "
+                      "`nacre review` to judge the old one",
+                      specimen.specimen));
+      delivery.conflicting.push_back(specimen.specimen);
+      continue;
+    }
+    const auto hash = endpoint->offer(message);
+    if (!hash) throw InputError::format("{}: specimen {}: {}", options.set, specimen.specimen, hash.error().message);
+    hashes.push_back(*hash);
+    if (is_known) repeated.insert(*hash);
+  }
+  wait_for_validation_agent(*endpoint, hashes, options.timeout_s);
+  for (const std::string& hash : hashes) {
+    const bool is_answered = endpoint->waiting_for(hash).count("validation_agent") == 0;
+    ++(!is_answered ? delivery.unanswered : repeated.count(hash) > 0 ? delivery.repeated : delivery.accepted);
+  }
+  return delivery;
 }
 
 int inject(const Options& options) {
   const RunAccess run = open_run(options.run);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
-  const std::set<std::string> known = hashes_known(run);
-  const auto endpoint = speak(run, "inject");
-  std::vector<std::string> hashes;
-  for (const measurement::SpecimenRecord& specimen : set.specimens) {
-    const auto hash = endpoint->offer(message_of(specimen, run.scenario.fidelity));
-    if (!hash) throw InputError::format("{}: specimen {}: {}", options.set, specimen.specimen, hash.error().message);
-    hashes.push_back(*hash);
-  }
-  wait_for_validation_agent(*endpoint, hashes, options.timeout_s);
-  Delivery delivery;
-  delivery.rejected = set.rejected;
-  for (const std::string& hash : hashes) {
-    const bool is_answered = endpoint->waiting_for(hash).count("validation_agent") == 0;
-    ++(!is_answered ? delivery.unanswered : known.count(hash) > 0 ? delivery.repeated : delivery.accepted);
-  }
+  const Delivery delivery = send(run, set, options);
   print_delivery(delivery, options.json);
   if (delivery.unanswered > 0) {
     remark(
@@ -132,7 +157,7 @@ int inject(const Options& options) {
                     "same set is safe.",
                     options.timeout_s));
   }
-  return delivery.unanswered > 0 ? 1 : 0;
+  return delivery.unanswered > 0 || !delivery.conflicting.empty() ? 1 : 0;
 }
 
 }  // namespace
