@@ -45,14 +45,18 @@ struct BaseCalibration::State {
     std::optional<RatioSearch> modulus;
     std::optional<double> modulus_prediction_pa;  ///< at modulus->best()
     int modulus_evaluations = 0;
-    std::optional<MaterialFit> toughness;
+    std::vector<MaterialFit> toughness;  ///< one per damping tried; empty when not measured
   };
-  enum class Phase { start, search, confirm, done };
+  /// The start is evaluated; W is searched at one damping after another until one suits all materials; then, at the
+  /// damping that is kept, other moduli are tried for the materials that still miss.
+  enum class Phase { start, dampings, moduli, done };
 
   std::vector<measurement::Replicates> measured;
   CalibrationSettings settings;
   std::array<Material, kMaterials> materials;
   Phase phase = Phase::start;
+  std::vector<double> dampings_per_s;  ///< to be tried, in order
+  std::size_t damping = 0;             ///< the one in use
   std::vector<WantedEvaluation> wanted;
   std::vector<std::vector<Candidate>> candidates;  ///< of each wanted evaluation, one per item
   std::vector<std::optional<std::vector<Prediction>>> told;
@@ -74,6 +78,8 @@ struct BaseCalibration::State {
     before.resize(measured.size());
     after.resize(measured.size());
     result.parameters = centred_start();
+    list_dampings();
+    begin_toughness();
     ask();
   }
 
@@ -82,18 +88,35 @@ struct BaseCalibration::State {
     if (material.item) return;  // measured under several conditions: the first ones count
     material.item = item;
     const measurement::Replicates& base = measured[item];
-    const ParameterSet start = centred_start();
-    const material::ToughnessVector eta = to_vector(start.toughness);
     if (base.modulus_count > 0) {
       const ParameterRange& range = theta_ranges()[at(kE, m)];
       material.modulus.emplace(RatioSearch::Settings{
           .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
     }
-    if (base.toughness_count > 0) {
+  }
+
+  /// Start, the ends of the range above and below it, and what lies between: a specimen that rings is judged broken too
+  /// early, and which damping calms it depends on the material.
+  void list_dampings() {
+    const ParameterRange& range = eta_ranges()[at(kEtaGamma, 0)];
+    const double start = to_vector(centred_start().toughness)[at(kEtaGamma, 0)];
+    for (const double gamma : {start, range.maximum, std::sqrt(start * range.maximum), range.minimum}) {
+      if (std::find(dampings_per_s.begin(), dampings_per_s.end(), gamma) == dampings_per_s.end())
+        dampings_per_s.push_back(gamma);
+    }
+  }
+
+  void begin_toughness() {
+    const material::ToughnessVector eta = to_vector(centred_start().toughness);
+    for (int m = 0; m < kMaterials; ++m) {
+      Material& material = materials[at(0, m)];
+      if (!material.item || measured[*material.item].toughness_count == 0) continue;
+      const measurement::Replicates& base = measured[*material.item];
       const MaterialRanges ranges = {eta_ranges()[at(kE, m)], eta_ranges()[at(kW, m)], eta_ranges()[at(kEtaGamma, 0)]};
       const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE, m)];
-      material.toughness.emplace(base, ranges, MaterialTrial{e_pa, eta[at(kW, m)], eta[at(kEtaGamma, 0)]},
-                                 std::max(1, settings.toughness_budget));
+      const double w = material.toughness.empty() ? eta[at(kW, m)] : material.toughness.back().best().w_j_per_m3;
+      material.toughness.emplace_back(base, ranges, MaterialTrial{e_pa, w, dampings_per_s[damping]},
+                                      std::max(1, settings.toughness_budget));
     }
   }
 
@@ -115,27 +138,63 @@ struct BaseCalibration::State {
     candidates.clear();
     ++batch_number;
     if (phase == Phase::start) want_start();
-    if (phase == Phase::search) want_candidates();
-    if (phase == Phase::confirm) want_confirmation();
+    while (phase == Phase::dampings || phase == Phase::moduli) {
+      want_candidates();
+      if (!wanted.empty() || !next_phase()) break;
+    }
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].id = fmt::format("B{}.{}", batch_number, k);
     told.assign(wanted.size(), std::nullopt);
     if (!wanted.empty()) return;
-    if (phase == Phase::search) {
-      settle();
-      phase = Phase::confirm;
-      ask();
-    } else if (phase == Phase::start) {  // nothing measured
-      phase = Phase::done;
-    } else {
-      phase = Phase::done;
-      conclude();
+    phase = Phase::done;
+    settle();
+    conclude();
+  }
+
+  /// The worst toughness error of the materials at one of the dampings tried.
+  double worst_error(std::size_t index) const {
+    double worst = 0.0;
+    for (const Material& material : materials) {
+      if (!material.toughness.empty()) worst = std::max(worst, material.toughness[index].error());
     }
+    return worst;
+  }
+
+  /// Called when the searches of a phase have ended; false when there is nothing left to try.
+  bool next_phase() {
+    constexpr double kGoodEnough = 0.01;
+    const bool all_met = worst_error(damping) <= kGoodEnough;
+    if (phase == Phase::moduli || all_met) return false;
+    if (damping + 1 < dampings_per_s.size()) {
+      ++damping;
+      begin_toughness();
+      return true;
+    }
+    damping = median_damping();
+    phase = Phase::moduli;
+    for (Material& material : materials) {
+      if (!material.toughness.empty()) material.toughness[damping].allow_other_moduli();
+    }
+    return true;
+  }
+
+  /// Each material's estimate is the damping at which it comes nearest; the median of the three is kept (thesis 3.2).
+  std::size_t median_damping() const {
+    std::vector<std::pair<double, std::size_t>> estimates;
+    for (const Material& material : materials) {
+      if (material.toughness.empty()) continue;
+      const auto nearer = [](const MaterialFit& a, const MaterialFit& b) { return a.error() < b.error(); };
+      const auto best = std::min_element(material.toughness.begin(), material.toughness.end(), nearer);
+      const std::size_t index = static_cast<std::size_t>(best - material.toughness.begin());
+      estimates.emplace_back(dampings_per_s[index], index);
+    }
+    std::sort(estimates.begin(), estimates.end());
+    return estimates[(estimates.size() - 1) / 2].second;
   }
 
   std::vector<std::size_t> items_with(bool modulus) const {
     std::vector<std::size_t> items;
     for (const Material& material : materials) {
-      if (modulus ? material.modulus.has_value() : material.toughness.has_value()) items.push_back(*material.item);
+      if (modulus ? material.modulus.has_value() : !material.toughness.empty()) items.push_back(*material.item);
     }
     return items;
   }
@@ -156,8 +215,9 @@ struct BaseCalibration::State {
       if (material.modulus && material.modulus_evaluations < std::max(1, settings.modulus_budget)) {
         for (const double modulus_pa : material.modulus->ask(settings.batch)) want(base, true, {m, modulus_pa, {}});
       }
-      if (!material.toughness) continue;
-      for (const MaterialTrial& trial : material.toughness->ask(settings.batch)) want(base, false, {m, 0.0, trial});
+      if (material.toughness.empty()) continue;
+      for (const MaterialTrial& trial : material.toughness[damping].ask(settings.batch))
+        want(base, false, {m, 0.0, trial});
     }
   }
 
@@ -170,8 +230,7 @@ struct BaseCalibration::State {
       const auto& others = candidates[k];
       const bool same_material = std::any_of(
           others.begin(), others.end(), [&](const Candidate& other) { return other.material == candidate.material; });
-      const bool same_damping = modulus || wanted[k].parameters.toughness.gamma_per_s == candidate.trial.gamma_per_s;
-      if (!same_material && same_damping) break;
+      if (!same_material) break;
     }
     if (k == wanted.size()) {
       wanted.push_back({"", base, modulus, !modulus, {}});
@@ -192,19 +251,6 @@ struct BaseCalibration::State {
     }
   }
 
-  /// Materials that needed another damping than the median are tested once more with it.
-  void want_confirmation() {
-    WantedEvaluation evaluation{"", result.parameters, false, true, {}};
-    for (const Material& material : materials) {
-      if (!material.toughness) continue;
-      const bool same = material.toughness->best().gamma_per_s == result.parameters.toughness.gamma_per_s;
-      if (!same) evaluation.items.push_back(*material.item);
-    }
-    if (evaluation.items.empty()) return;
-    candidates.emplace_back(evaluation.items.size());
-    wanted.push_back(std::move(evaluation));
-  }
-
   void take(std::size_t index, const std::vector<Prediction>& predictions) {
     assert(index < wanted.size() && predictions.size() == wanted[index].items.size());
     if (told[index]) return;  // a repeat
@@ -214,7 +260,7 @@ struct BaseCalibration::State {
     result.simulations += static_cast<int>(predictions.size());
     if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;
     for (std::size_t k = 0; k < wanted.size(); ++k) hand_over(wanted[k], candidates[k], *told[k]);
-    if (phase == Phase::start) phase = Phase::search;
+    if (phase == Phase::start) phase = Phase::dampings;
     ask();
   }
 
@@ -222,8 +268,8 @@ struct BaseCalibration::State {
                  const std::vector<Prediction>& predictions) {
     for (std::size_t j = 0; j < evaluation.items.size(); ++j) {
       const std::size_t item = evaluation.items[j];
-      if (phase != Phase::search) {
-        Prediction& kept = (phase == Phase::start ? before : after)[item];
+      if (phase == Phase::start) {
+        Prediction& kept = before[item];
         if (evaluation.modulus) kept.modulus_pa = predictions[j].modulus_pa;
         if (evaluation.toughness) {
           kept.toughness_pa = predictions[j].toughness_pa;
@@ -242,33 +288,28 @@ struct BaseCalibration::State {
           material.modulus_prediction_pa = modulus;
         }
       } else {
-        material.toughness->tell(tried[j].trial, predictions[j]);
+        material.toughness[damping].tell(tried[j].trial, predictions[j]);
       }
     }
   }
 
-  /// Puts the best of each material into one set; the damping is the median of the three (thesis 3.2).
+  /// Puts the best of each material into one set.
   void settle() {
     material::ModulusVector theta = to_vector(result.parameters.modulus);
     material::ToughnessVector eta = to_vector(result.parameters.toughness);
-    std::vector<double> dampings;
     for (int m = 0; m < kMaterials; ++m) {
       const Material& material = materials[at(0, m)];
       if (material.modulus && material.modulus->best()) {
         theta[at(kE, m)] = *material.modulus->best();
         after[*material.item].modulus_pa = material.modulus_prediction_pa;
       }
-      if (!material.toughness) continue;
-      const MaterialTrial& best = material.toughness->best();
-      eta[at(kE, m)] = best.e_pa;
-      eta[at(kW, m)] = best.w_j_per_m3;
-      dampings.push_back(best.gamma_per_s);
-      after[*material.item].toughness_pa = material.toughness->best_prediction().toughness_pa;
-      after[*material.item].curve = material.toughness->best_prediction().curve;
-    }
-    if (!dampings.empty()) {
-      std::sort(dampings.begin(), dampings.end());
-      eta[at(kEtaGamma, 0)] = dampings[(dampings.size() - 1) / 2];
+      if (material.toughness.empty()) continue;
+      const MaterialFit& fit = material.toughness[damping];
+      eta[at(kE, m)] = fit.best().e_pa;
+      eta[at(kW, m)] = fit.best().w_j_per_m3;
+      eta[at(kEtaGamma, 0)] = dampings_per_s[damping];
+      after[*material.item].toughness_pa = fit.best_prediction().toughness_pa;
+      after[*material.item].curve = fit.best_prediction().curve;
     }
     result.parameters.modulus = material::modulus_from_vector(theta);
     result.parameters.toughness = material::toughness_from_vector(eta);
@@ -290,11 +331,12 @@ struct BaseCalibration::State {
     double sum = 0.0;
     int count = 0;
     for (const Material& material : materials) {
-      if (!material.toughness) continue;
-      sum += material.toughness->progress();
+      if (material.toughness.empty()) continue;
+      sum += material.toughness[damping].progress();
       ++count;
     }
-    return count == 0 ? 0.0 : sum / count;
+    // How many dampings will be needed is not known: one is the rule.
+    return count == 0 ? 0.0 : (static_cast<double>(damping) + sum / count) / static_cast<double>(damping + 1);
   }
 };
 

@@ -14,12 +14,8 @@ constexpr double kGoodEnough = 0.01;
 constexpr int kMostPeakMatches = 3;
 constexpr double kPeakTolerance = 0.03;
 
-/// Factors on E, then on gamma, tried in turn when W alone cannot meet the toughness.
-struct Stage {
-  double e_factor = 1.0, gamma_factor = 1.0;
-};
-constexpr std::array<Stage, 9> kStages = {
-    {{1.0, 1.0}, {0.7, 1.0}, {1.4, 1.0}, {0.4, 1.0}, {2.5, 1.0}, {1.0, 2.5}, {1.0, 0.4}, {0.5, 4.0}, {2.0, 0.25}}};
+/// Factors on E, tried in turn when W alone cannot meet the toughness.
+constexpr std::array<double, 7> kModulusFactors = {1.0, 0.7, 1.4, 0.4, 2.5, 0.2, 5.0};
 
 double clamped(double value, const material::ParameterRange& range) {
   return std::clamp(value, range.minimum, range.maximum);
@@ -37,12 +33,11 @@ MaterialFit::MaterialFit(const measurement::Replicates& measured, const Material
   start_ = {clamped(start.e_pa, ranges.e), clamped(start.w_j_per_m3, ranges.w),
             clamped(start.gamma_per_s, ranges.gamma)};
   best_ = start_;
-  begin_search(start_.e_pa, start_.gamma_per_s, start_.w_j_per_m3);
+  begin_search(start_.e_pa, start_.w_j_per_m3);
 }
 
-void MaterialFit::begin_search(double e_pa, double gamma_per_s, double first_w) {
+void MaterialFit::begin_search(double e_pa, double first_w) {
   e_pa_ = e_pa;
-  gamma_per_s_ = gamma_per_s;
   search_.emplace(RatioSearch::Settings{
       .lower = ranges_.w.minimum, .upper = ranges_.w.maximum, .first = first_w, .tolerance = kTolerance});
 }
@@ -55,7 +50,7 @@ std::vector<MaterialTrial> MaterialFit::ask(int count) {
       break;
     }
     for (const double w : search_->ask(std::min(count, budget_ - evaluations_))) {
-      trials.push_back({e_pa_, w, gamma_per_s_});
+      trials.push_back({e_pa_, w, start_.gamma_per_s});
     }
     if (trials.empty()) finished_ = search_->met() ? !match_peak() : !next_stage();
   }
@@ -68,20 +63,30 @@ bool MaterialFit::match_peak() {
   const double factor = measured_peak / peak;
   const double e_pa = clamped(e_pa_ * factor * factor, ranges_.e);
   if (std::abs(factor - 1.0) < kPeakTolerance || e_pa == e_pa_) return false;
-  begin_search(e_pa, gamma_per_s_, best_.w_j_per_m3);
+  begin_search(e_pa, best_.w_j_per_m3);
   return true;
 }
 
 bool MaterialFit::next_stage() {
-  if (any_ && relative_error(best_prediction_.toughness_pa, measured_.toughness_pa) <= kGoodEnough) return match_peak();
-  while (++stage_ < kStages.size()) {
-    const double e_pa = clamped(start_.e_pa * kStages[stage_].e_factor, ranges_.e);
-    const double gamma = clamped(start_.gamma_per_s * kStages[stage_].gamma_factor, ranges_.gamma);
-    if (e_pa == e_pa_ && gamma == gamma_per_s_) continue;  // both clamped to where the search was before
-    begin_search(e_pa, gamma, best_.w_j_per_m3);
+  if (met()) return match_peak();
+  while (other_moduli_ && ++stage_ < kModulusFactors.size()) {
+    const double e_pa = clamped(start_.e_pa * kModulusFactors[stage_], ranges_.e);
+    if (e_pa == e_pa_) continue;  // clamped to where the search was before
+    begin_search(e_pa, best_.w_j_per_m3);
     return true;
   }
   return false;
+}
+
+double MaterialFit::error() const { return relative_error(best_prediction_.toughness_pa, measured_.toughness_pa); }
+
+bool MaterialFit::met() const { return any_ && error() <= kGoodEnough; }
+
+void MaterialFit::allow_other_moduli() {
+  if (met()) return;
+  other_moduli_ = true;
+  finished_ = false;
+  budget_ += evaluations_;
 }
 
 void MaterialFit::tell(const MaterialTrial& trial, const Prediction& prediction) {

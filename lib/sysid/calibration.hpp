@@ -115,8 +115,9 @@ class Calibration {
   std::unique_ptr<State> state_;
 };
 
-/// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on;
-/// the median of the three damping estimates is kept. Same protocol as Calibration.
+/// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on,
+/// at a damping that suits all three; when there is none, the median of the three dampings at which each comes nearest
+/// is kept. Same protocol as Calibration; toughness_budget is per material and damping.
 class BaseCalibration {
  public:
   BaseCalibration(std::vector<measurement::Replicates> base_materials, const CalibrationSettings& settings);
