@@ -169,7 +169,7 @@ struct BaseCalibration::State {
       begin_toughness();
       return true;
     }
-    damping = median_damping();
+    damping = fairest_damping();
     phase = Phase::moduli;
     for (Material& material : materials) {
       if (!material.toughness.empty()) material.toughness[damping].allow_other_moduli();
@@ -177,18 +177,14 @@ struct BaseCalibration::State {
     return true;
   }
 
-  /// Each material's estimate is the damping at which it comes nearest; the median of the three is kept (thesis 3.2).
-  std::size_t median_damping() const {
-    std::vector<std::pair<double, std::size_t>> estimates;
-    for (const Material& material : materials) {
-      if (material.toughness.empty()) continue;
-      const auto nearer = [](const MaterialFit& a, const MaterialFit& b) { return a.error() < b.error(); };
-      const auto best = std::min_element(material.toughness.begin(), material.toughness.end(), nearer);
-      const std::size_t index = static_cast<std::size_t>(best - material.toughness.begin());
-      estimates.emplace_back(dampings_per_s[index], index);
+  /// The damping at which the worst material misses least. The thesis keeps the median of three separate estimates,
+  /// which leaves the two other materials with thresholds that were fitted at another damping.
+  std::size_t fairest_damping() const {
+    std::size_t fairest = 0;
+    for (std::size_t k = 1; k < dampings_per_s.size(); ++k) {
+      if (worst_error(k) < worst_error(fairest)) fairest = k;
     }
-    std::sort(estimates.begin(), estimates.end());
-    return estimates[(estimates.size() - 1) / 2].second;
+    return fairest;
   }
 
   std::vector<std::size_t> items_with(bool modulus) const {

@@ -69,6 +69,17 @@ TEST(SmallSet, EveryKindOfRowIsUnderstood) {
   EXPECT_EQ(set.specimens[7].design.name(), "interface");
 }
 
+TEST(ExampleSet, IsReadWithoutComplaint) {
+  const MeasurementSet set = read_measurement_set(fs::path(NACRE_SOURCE_DIR) / "data/examples/round1");
+  EXPECT_TRUE(set.rejected.empty());
+  EXPECT_TRUE(set.warnings.empty());
+  EXPECT_EQ(set.specimens.size(), 18u);
+  const std::vector<Replicates> designs = summarise(set.specimens);
+  ASSERT_EQ(designs.size(), 3u);  // a pattern named by file and by key is one design
+  EXPECT_EQ(designs[0].modulus_count, 3);
+  EXPECT_EQ(designs[2].toughness_count, 2);  // one is not valid
+}
+
 TEST_F(SetOnDisk, OrderOfColumnsMarkAndLineEndingsDoNotMatter) {
   const MeasurementSet set = read(
       "\xEF\xBB\xBF"
