@@ -28,6 +28,16 @@ struct Study {
   double toughness_scatter = 0.05, modulus_scatter = 0.01;
 };
 
+sysid::OfflineSettings offline_settings(const Study& study) {
+  sysid::OfflineSettings settings;
+  settings.calibration.start = material::default_parameters();
+  settings.calibration.modulus_budget = study.modulus_budget;
+  settings.calibration.toughness_budget = study.toughness_budget;
+  if (study.method == "nlopt") settings.calibration.toughness_search = sysid::ToughnessSearch::nlopt;
+  settings.fidelity = tester::fidelity_from_string(study.fidelity).value();
+  return settings;
+}
+
 std::vector<pattern::Design> random_designs(int count, RandomStream random) {
   std::vector<pattern::Design> designs;
   for (const pattern::Pattern& pattern : pattern::stratified_patterns(count, random)) designs.emplace_back(pattern);
@@ -95,15 +105,9 @@ void run(std::uint64_t seed, const Study& study) {
     set.specimens =
         virtual_laboratory::measure(truth, designs, {tester::TestKind::modulus, tester::TestKind::toughness});
   }
-  sysid::OfflineSettings settings{
-      .calibration = {.start = material::default_parameters(),
-                      .modulus_budget = study.modulus_budget,
-                      .toughness_budget = study.toughness_budget,
-                      .toughness_search =
-                          study.method == "nlopt" ? sysid::ToughnessSearch::nlopt : sysid::ToughnessSearch::emulator,
-                      .seed = seed},
-      .fidelity = fidelity,
-      .hold_out = study.held_out};
+  sysid::OfflineSettings settings = offline_settings(study);
+  settings.calibration.seed = seed;
+  settings.hold_out = study.held_out;
   if (!study.start.empty())
     settings.calibration.start = material::read_parameters(study.start, settings.calibration.start);
   const sysid::OfflineCalibration result = sysid::calibrate_offline(set, settings);
@@ -135,10 +139,7 @@ void run(std::uint64_t seed, const Study& study) {
 
 /// Fits a measurement set and prints what was reached.
 void fit_set(const std::string& folder, const Study& study) {
-  sysid::OfflineSettings settings{.calibration = {.start = material::default_parameters(),
-                                                  .modulus_budget = study.modulus_budget,
-                                                  .toughness_budget = study.toughness_budget},
-                                  .fidelity = tester::fidelity_from_string(study.fidelity).value()};
+  const sysid::OfflineSettings settings = offline_settings(study);
   const sysid::OfflineCalibration result =
       sysid::calibrate_offline(measurement::read_measurement_set(folder), settings);
   const sysid::PredictionErrors& errors = result.after_fitted;

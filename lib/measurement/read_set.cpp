@@ -12,25 +12,10 @@
 #include "measurement/measurement.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_files.hpp"
-#include "pattern/layout.hpp"
+#include "measurement/set_row.hpp"
 
 namespace nacre::measurement {
 namespace {
-
-constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
-
-/// The heading: where the known columns stand, and which others there are.
-struct Heading {
-  std::array<std::size_t, kColumnCount> position;
-  std::vector<std::pair<std::size_t, std::string>> others;
-  std::size_t cell_count = 0;
-};
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  return result;
-}
 
 std::string unknown_column(const std::string& table, const CsvCell& cell, const std::string& name) {
   const auto meant = std::find(kColumns.begin(), kColumns.end(), lower_case(name));
@@ -78,197 +63,6 @@ void require_columns(const Heading& heading, const std::string& table, int line)
                              table, line);
   }
 }
-
-/// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
-class RowParser {
- public:
-  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row)
-      : folder_(folder), heading_(heading), row_(row) {}
-
-  tl::expected<SpecimenRecord, RejectedRow> parse() {
-    check_shape();
-    SpecimenRecord record;
-    record.specimen = text(kSpecimen);
-    if (record.specimen.empty()) reject(kSpecimen, "is empty, expected a unique name");
-    record.test = test_kind();
-    record.design = design();
-    record.conditions = conditions();
-    record.batch = text(kBatch);
-    record.print_order = print_order();
-    record.modulus_pa = positive_number(kModulus, "a modulus in Pa");
-    record.toughness_pa = positive_number(kToughness, "a toughness in Pa (J/m3)");
-    record.valid = validity();
-    record.note = text(kNote);
-    record.curve = curve();
-    keep_other_columns(record);
-    check_consistency(record);
-    if (fault_) return tl::unexpected(*fault_);
-    return record;
-  }
-
- private:
-  void reject(std::string column, int line, std::string reason) {
-    if (!fault_) fault_ = RejectedRow{line, std::move(column), std::move(reason)};
-  }
-  void reject(Column column, const std::string& reason) {
-    const std::size_t position = heading_.position[column];
-    const bool there = position < row_.cells.size();
-    const std::string place = there ? fmt::format(" (character {})", row_.cells[position].column) : "";
-    reject(std::string(kColumns[column]), there ? row_.cells[position].line : row_.line, reason + place);
-  }
-
-  void check_shape() {
-    if (!row_.fault.empty()) {
-      reject(column_at(row_.cells.size()), row_.fault_line,
-             fmt::format("{} (character {})", row_.fault, row_.fault_column));
-      return;
-    }
-    std::size_t filled = row_.cells.size();
-    while (filled > heading_.cell_count && trimmed(row_.cells[filled - 1].text).empty()) --filled;
-    if (row_.cells.size() < heading_.cell_count || filled > heading_.cell_count) {
-      reject("", row_.line,
-             fmt::format("has {} cells, expected {} as in the heading", row_.cells.size(), heading_.cell_count));
-    }
-  }
-
-  /// Name of the column that the `count`-th cell belongs to.
-  std::string column_at(std::size_t count) const {
-    for (std::size_t column = 0; column < kColumnCount; ++column) {
-      if (heading_.position[column] + 1 == count) return std::string(kColumns[column]);
-    }
-    for (const auto& [position, name] : heading_.others) {
-      if (position + 1 == count) return name;
-    }
-    return "";
-  }
-
-  std::string text(Column column) const {
-    const std::size_t position = heading_.position[column];
-    return position < row_.cells.size() ? std::string(trimmed(row_.cells[position].text)) : "";
-  }
-
-  std::optional<double> positive_number(Column column, const char* expected) {
-    const std::string cell = text(column);
-    if (cell.empty()) return std::nullopt;
-    const Result<double> value = number_from_text(cell);
-    if (!value) {
-      reject(column, value.error().message);
-    } else if (*value <= 0.0) {
-      reject(column, fmt::format("{} is not positive, expected {}", *value, expected));
-    } else {
-      return *value;
-    }
-    return std::nullopt;
-  }
-
-  tester::TestKind test_kind() {
-    const Result<tester::TestKind> kind = tester::test_kind_from_string(text(kTest));
-    if (!kind) reject(kTest, fmt::format("`{}` is no test, expected modulus, toughness or tensile", text(kTest)));
-    return kind.value_or(tester::TestKind::modulus);
-  }
-
-  tester::TestConditions conditions() {
-    tester::TestConditions result;
-    const std::string orientation = text(kOrientation);
-    const Result<double> degrees = orientation.empty() ? 0.0 : number_from_text(orientation);
-    if (!degrees || (*degrees != 0.0 && *degrees != 90.0)) {
-      reject(kOrientation, fmt::format("`{}`, expected 0 or 90", orientation));
-    } else {
-      result.orientation_deg = *degrees;
-    }
-    result.strain_rate_per_s = positive_number(kStrainRate, "a strain rate in 1/s").value_or(result.strain_rate_per_s);
-    result.thickness_mm = positive_number(kThickness, "a thickness in mm").value_or(result.thickness_mm);
-    return result;
-  }
-
-  int print_order() {
-    const std::string cell = text(kPrintOrder);
-    if (cell.empty()) return 0;
-    const Result<int> order = integer_from_text(cell);
-    if (!order) reject(kPrintOrder, order.error().message);
-    return order.value_or(0);
-  }
-
-  bool validity() {
-    const std::string cell = lower_case(text(kValid));
-    if (cell.empty() || cell == "1" || cell == "true") return true;
-    if (cell != "0" && cell != "false") reject(kValid, fmt::format("`{}`, expected 0, 1, true or false", text(kValid)));
-    return false;
-  }
-
-  pattern::Design design() {
-    const std::string name = text(kPattern);
-    if (name.empty()) {
-      reject(kPattern, "is empty, expected a pattern file, a key, rigid, soft, interface or mix:F");
-      return {};
-    }
-    const Result<pattern::Design> named = pattern::design_from_name(name);
-    if (named) return *named;
-    const Result<std::filesystem::path> path = file_inside(folder_, name);
-    if (!path) {
-      reject(kPattern,
-             fmt::format("{}; expected a key, rigid, soft, interface, mix:F with 0 <= F <= 1, or a file of the set: {}",
-                         named.error().message, path.error().message));
-      return {};
-    }
-    return design_of_file(*path, name);
-  }
-
-  pattern::Design design_of_file(const std::filesystem::path& path, const std::string& name) {
-    try {
-      const Result<pattern::Layout> layout = pattern::layout_from_text(read_file_up_to(path, kMostLayoutBytes), name);
-      if (layout) return *layout;
-      reject(kPattern, layout.error().message);
-    } catch (const InputError& error) {
-      reject(kPattern, error.what());
-    }
-    return {};
-  }
-
-  tester::Curve curve() {
-    const std::string name = text(kCurve);
-    if (name.empty() || fault_) return {};
-    const Result<std::filesystem::path> path = file_inside(folder_, name);
-    if (!path) {
-      reject(kCurve, path.error().message);
-      return {};
-    }
-    Result<tester::Curve> curve = read_curve(*path, name);
-    if (!curve) reject(kCurve, curve.error().message);
-    return std::move(curve).value_or(tester::Curve{});
-  }
-
-  void keep_other_columns(SpecimenRecord& record) const {
-    for (const auto& [position, name] : heading_.others) {
-      if (position >= row_.cells.size() || row_.cells[position].text.empty()) continue;
-      record.other_columns[name] = row_.cells[position].text;
-    }
-  }
-
-  /// Every test needs a value of its own kind; the notched specimen says nothing of the modulus, and a modulus test
-  /// nothing of the toughness.
-  void check_consistency(const SpecimenRecord& record) {
-    if (fault_) return;
-    if (record.test == tester::TestKind::modulus && !modulus_of(record)) {
-      reject(kModulus, "no modulus, expected modulus_pa, or a curve that rises between 0.05 and 0.25 % strain");
-    }
-    if (record.test == tester::TestKind::toughness && !record.toughness_pa) {
-      if (record.curve.empty()) reject(kToughness, "no toughness, expected toughness_pa or a curve");
-      if (!record.curve.empty() && tester::area_under(record.curve) <= 0.0) {
-        reject(kCurve, "the area under the curve is not positive, expected a stress-strain curve to separation");
-      }
-    }
-    if (record.test != tester::TestKind::tensile) return;
-    if (record.curve.empty()) reject(kCurve, "no curve, expected one for a tensile test");
-    if (!record.design.mixture())
-      reject(kPattern, "a tensile coupon is homogeneous, expected rigid, soft, interface or mix:F");
-  }
-
-  const std::filesystem::path& folder_;
-  const Heading& heading_;
-  const CsvRow& row_;
-  std::optional<RejectedRow> fault_;
-};
 
 /// Doubts about a usable row, each as a sentence that begins with its place.
 void collect_warnings(const SpecimenRecord& record, const std::string& place, std::vector<std::string>& warnings) {
@@ -321,10 +115,10 @@ class SetBuilder {
  private:
   void add(const Heading& heading, const CsvRow& row) {
     if (point_count_ > kMostSetPoints) {
-      throw InputError::format("{}:{}: the curves have more than {} points together, expected at most that many", table_,
-                               row.line, kMostSetPoints);
+      throw InputError::format("{}:{}: the curves have more than {} points together, expected at most that many",
+                               table_, row.line, kMostSetPoints);
     }
-    const tl::expected<SpecimenRecord, RejectedRow> record = RowParser(folder_, heading, row).parse();
+    const tl::expected<SpecimenRecord, RejectedRow> record = parse_row(folder_, heading, row);
     if (!record) {
       set_.rejected.push_back(record.error());
       return;

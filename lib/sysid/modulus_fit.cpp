@@ -13,7 +13,7 @@ namespace {
 constexpr double kPull = 0.002;
 constexpr double kDifference = 0.02;      // of a parameter's range; the static tester is smooth
 constexpr double kSmallResidual = 0.01;   // below 1 % a residual counts quadratically, above by its magnitude
-constexpr double kLeastGain = 1e-4;       // relative gain in objective below which the fit has converged
+constexpr double kLeastGain = 1e-3;       // relative gain in objective below which the fit has converged
 constexpr double kSmallestNoise = 0.002;  // of log E, when deviations are told: no data are better
 constexpr double kFailedResidual = 1.0;
 
@@ -190,7 +190,7 @@ class ModulusFit final : public Fit {
     }
   }
 
-  static constexpr double kFirstDamping = 1e-3, kLastDamping = 1e4;
+  static constexpr double kFirstDamping = 1e-3, kLastDamping = 1e2;
 
   FitData data_;
   FitSettings settings_;

@@ -1,0 +1,33 @@
+#pragma once
+// One row of measurements.csv.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/csv.hpp"
+#include "measurement/measurement.hpp"
+#include "measurement/set_columns.hpp"
+
+namespace nacre::measurement {
+
+inline constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
+
+/// The heading: where the known columns stand, and which others there are.
+struct Heading {
+  std::array<std::size_t, kColumnCount> position;
+  std::vector<std::pair<std::size_t, std::string>> others;
+  std::size_t cell_count = 0;
+};
+
+/// ASCII letters in lower case.
+std::string lower_case(std::string_view text);
+
+/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`.
+tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
+                                                    const CsvRow& row);
+
+}  // namespace nacre::measurement
