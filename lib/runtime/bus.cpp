@@ -77,8 +77,11 @@ struct Bus::State {
     if (options.epoch == 0) options.epoch = now_utime();
   }
 
+  static void take(const lcm::ReceiveBuffer* buffer, const std::string& channel, State* state) {
+    if (channel != kSelfTestChannel) state->on_datagram(buffer, channel);
+  }
+
   void on_datagram(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    if (channel == kSelfTestChannel) return;
     Datagram datagram{channel, std::string(static_cast<const char*>(buffer->data), buffer->data_size)};
     if (!options.faults.any()) {
       waiting.push_back(std::move(datagram));
@@ -171,7 +174,9 @@ Result<void> Bus::subscribe(const std::vector<std::string>& channels) {
   for (const std::string& channel : channels) patterns.push_back(escaped(channel));
   if (patterns.empty()) patterns.push_back(".*");
   for (const std::string& pattern : patterns) {
-    lcm::Subscription* subscription = state_->lcm->subscribe(pattern, &State::on_datagram, state_.get());
+    // Not subscribe(&State::on_datagram): g++ 12 miscompiles LCM's call through a member pointer under
+    // -fsanitize=undefined.
+    lcm::Subscription* subscription = state_->lcm->subscribeFunction(pattern, State::take, state_.get());
     if (!subscription) {
       return fail("cannot listen on {}: multicast does not come back to this host (filtered by a firewall?)",
                   state_->options.url);
