@@ -1,0 +1,125 @@
+#include "runtime/live_display.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "runtime/restart_budget.hpp"
+#include "runtime/terminal.hpp"
+
+namespace nacre::runtime {
+namespace {
+
+using std::chrono::seconds;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+NodeView busy_node() {
+  return {.node = "validation_agent",
+          .state = "running",
+          .phase = "calibrating",
+          .round = 2,
+          .progress = 0.5,
+          .eta_s = 83.0,
+          .restarts = 1,
+          .problem = "a datagram was damaged"};
+}
+
+/// What a display writes into memory.
+class Screen {
+ public:
+  std::FILE* stream() { return stream_; }
+  std::string taken() {
+    std::fflush(stream_);
+    std::string text(buffer_, size_);
+    std::rewind(stream_);
+    return text;
+  }
+  ~Screen() {
+    std::fclose(stream_);
+    std::free(buffer_);
+  }
+
+ private:
+  char* buffer_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE* stream_ = open_memstream(&buffer_, &size_);
+};
+
+TEST(Terminal, BarFillsWithProgressAndStaysEmptyWhenItIsUnknown) {
+  EXPECT_EQ(bar(0.0, 4), "[....]");
+  EXPECT_EQ(bar(0.5, 4), "[##..]");
+  EXPECT_EQ(bar(1.0, 4), "[####]");
+  EXPECT_EQ(bar(7.0, 4), "[####]");
+  EXPECT_EQ(bar(-1.0, 4), "[....]");
+  EXPECT_EQ(bar(std::nan(""), 4), "[....]");
+}
+
+TEST(Terminal, TimesAreSaidInTheUnitsOfTheirSize) {
+  EXPECT_EQ(in_words(7.2), "8 s");
+  EXPECT_EQ(in_words(125.0), "2 min 5 s");
+  EXPECT_EQ(in_words(3.0 * 3600 + 12 * 60), "3 h 12 min");
+  EXPECT_EQ(in_words(-1.0), "");
+  EXPECT_EQ(in_words(std::nan("")), "");
+}
+
+TEST(Terminal, LinesAreCutBetweenCharactersAndCarryNoControlCodes) {
+  EXPECT_EQ(fitted("abcdef", 3), "abc");
+  EXPECT_EQ(fitted("\xC3\xA4\xC3\xB6\xC3\xBC", 2), "\xC3\xA4\xC3\xB6");
+  EXPECT_EQ(fitted("a\x1b[2Jb\n", 20), "a [2Jb ");
+}
+
+TEST(LiveDisplay, LineOfANodeSaysRoundProgressTimeLeftAndProblem) {
+  const std::string line = node_line(busy_node(), 200);
+  EXPECT_THAT(line, AllOf(HasSubstr("validation_agent"), HasSubstr("round 2"), HasSubstr("[########........]"),
+                          HasSubstr("50 %"), HasSubstr("calibrating"), HasSubstr("1 min 23 s left"),
+                          HasSubstr("damaged"), HasSubstr("restarted 1 x")));
+  EXPECT_LE(node_line(busy_node(), 60).size(), 60U);
+}
+
+TEST(LiveDisplay, TerminalIsRedrawnInPlaceAndOnlyWhenSomethingChanged) {
+  Screen screen;
+  LiveDisplay display(screen.stream(), 100);
+  display.show({busy_node()}, {});
+  const std::string once = screen.taken();
+  display.show({busy_node()}, {});
+  EXPECT_EQ(screen.taken(), "") << "nothing changed";
+  NodeView later = busy_node();
+  later.progress = 0.75;
+  display.show({later}, {});
+  EXPECT_THAT(screen.taken(), AllOf(HasSubstr("\x1b[1A"), HasSubstr("75 %")));
+  EXPECT_THAT(once, Not(HasSubstr("\x1b")));
+}
+
+TEST(LiveDisplay, FilesGetANodesLineAtMostEveryTenSeconds) {
+  Screen screen;
+  LiveDisplay display(screen.stream(), 0);
+  const LiveDisplay::Clock::time_point start{};
+  NodeView view = busy_node();
+  display.show({view}, start);
+  EXPECT_THAT(screen.taken(), HasSubstr("50 %"));
+  view.progress = 0.6;
+  display.show({view}, start + seconds(9));
+  EXPECT_EQ(screen.taken(), "");
+  display.show({view}, start + seconds(10));
+  EXPECT_THAT(screen.taken(), AllOf(HasSubstr("60 %"), Not(HasSubstr("\x1b"))));
+  display.show({view}, start + seconds(60));
+  EXPECT_EQ(screen.taken(), "") << "nothing changed";
+}
+
+TEST(RestartBudget, AllowsSoManyDeathsPerWindowAndForgetsOldOnes) {
+  RestartBudget budget({.most = 2, .window = seconds(60), .delay = seconds(1)});
+  const RestartBudget::Clock::time_point start{};
+  EXPECT_TRUE(budget.take(start));
+  EXPECT_TRUE(budget.take(start + seconds(10)));
+  EXPECT_FALSE(budget.take(start + seconds(59)));
+  EXPECT_TRUE(budget.take(start + seconds(60))) << "the first one is a minute old";
+  EXPECT_FALSE(budget.take(start + seconds(61)));
+}
+
+}  // namespace
+}  // namespace nacre::runtime
