@@ -10,8 +10,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/random.hpp"
+#include "measurement/measurement.hpp"
+#include "nacre/measurement_t.hpp"
 #include "nacre/parameters_t.hpp"
 #include "played_game.hpp"
 #include "program.hpp"
@@ -73,10 +76,7 @@ class Game : public testing::Test {
     undisturbed_ = std::make_unique<PlayedGame>(short_game_, folder_ / "logs", "undisturbed");
     undisturbed_->play_to_end(kPatienceS);
   }
-  static void TearDownTestSuite() {
-    undisturbed_.reset();
-    if (!testing::UnitTest::GetInstance()->Failed()) fs::remove_all(folder_);
-  }
+  static void TearDownTestSuite() { undisturbed_.reset(); }
   void SetUp() override { ASSERT_EQ(undisturbed_->status(), 0) << undisturbed_->said(); }
 
   static fs::path logs() { return folder_ / "logs"; }
@@ -185,19 +185,145 @@ TEST_F(Game, KillsAndLossesTogetherChangeNothing) {
   expect_undisturbed_course(game.folder());
 }
 
-TEST_F(Game, EndsByEquilibriumBeforeItsRoundLimit) {
-  // A laboratory so noisy that neither growth nor gap can be told from its errors.
-  written(folder_ / "noisy.toml", "seed = 1\nfidelity = \"tiny\"\n[noise]\nmodulus = 0.5\ntoughness = 0.5\n");
+/// The specimens of a round as the undisturbed game's laboratory measured them.
+std::vector<measurement::SpecimenRecord> specimens_of_round(const fs::path& run, int round) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const wire::Measurement& taken : measurements_taken(run)) {
+    if (taken.round == round) specimens.push_back(taken.record);
+  }
+  return specimens;
+}
+
+nlohmann::json injected(const fs::path& set, const std::vector<measurement::SpecimenRecord>& specimens,
+                        const fs::path& run) {
+  measurement::write_measurement_set(set, specimens);
+  const Outcome outcome = run_nacre({"inject", set.string(), "--run", run.string(), "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  return nlohmann::json::parse(outcome.out, nullptr, false);
+}
+
+TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
   std::string text = kShortGame;
-  text.replace(text.find("rounds = 2"), 10, "rounds = 5");
-  text += "\n[laboratory]\nfile = \"noisy.toml\"\n";
-  PlayedGame game(written(folder_ / "noisy_game.toml", text), logs(), "noisy");
+  text += "\n[laboratory]\nvirtual_lab = false\n";
+  PlayedGame game(written(folder_ / "by_hand.toml", text), logs(), "by_hand");
+  const auto ordered = [&](int round) {
+    return on_channels(said_in_game(game.folder()), {"PROPOSAL"}).size() == static_cast<std::size_t>(round);
+  };
+  auto first = specimens_of_round(undisturbed_run(), 1);
+  const auto second = specimens_of_round(undisturbed_run(), 2);
+  ASSERT_GT(first.size(), 4U);
+  ASSERT_FALSE(second.empty());
+  ASSERT_TRUE(game.play_until([&] { return ordered(1); }, kPatienceS)) << game.said();
+  // A part of them in another order, with a broken specimen that somebody tested once more.
+  measurement::SpecimenRecord broken = first.front();
+  broken.specimen += "/broken";
+  broken.valid = false;
+  broken.note = "slipped in the grips";
+  const auto part = injected(folder_ / "part", {first[2], broken, first[0]}, game.folder());
+  EXPECT_EQ(part["accepted"], 3) << part;
+  const auto whole = injected(folder_ / "whole", first, game.folder());
+  EXPECT_EQ(whole["accepted"], first.size() - 2) << whole;
+  EXPECT_EQ(whole["repeated"], 2) << whole;
+  ASSERT_TRUE(game.play_until([&] { return ordered(2); }, kPatienceS)) << game.said();
+  const auto again = injected(folder_ / "whole", first, game.folder());
+  EXPECT_EQ(again["accepted"], 0) << again;
+  EXPECT_EQ(again["repeated"], first.size()) << again;
+  injected(folder_ / "second", second, game.folder());
   ASSERT_TRUE(game.play_to_end(kPatienceS)) << game.said();
   ASSERT_EQ(game.status(), 0) << game.said();
-  const auto rounds = runtime::read_rounds(game.folder());
-  ASSERT_LT(rounds.size(), 6U);
-  EXPECT_TRUE(rounds.back().last);
-  EXPECT_TRUE(rounds.back().equilibrium) << rounds.back().decided_by;
+
+  std::map<std::string, int> times;
+  for (const wire::Measurement& taken : measurements_taken(game.folder())) ++times[taken.record.specimen];
+  EXPECT_EQ(times.size(), first.size() + second.size() + 1);
+  for (const auto& [specimen, count] : times) EXPECT_EQ(count, 1) << specimen;
+  const std::vector<std::string> course = {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER", "ROUND"};
+  EXPECT_THAT(differences(on_channels(said_in_game(undisturbed_run()), course),
+                          on_channels(said_in_game(game.folder()), course)),
+              IsEmpty());
+}
+
+/// Everything that a bus should not hear, a little of it each time.
+class Stranger {
+ public:
+  Stranger(const fs::path& run, const fs::path& other_run) : random_(7, "stranger"), run_(run) {
+    measurement_ = journaled(other_run, "validation_agent", "MEASUREMENT").at(0);
+    for (runtime::LogReader reader(other_run / "run.lcm"); auto record = reader.next();) {
+      other_game_.push_back({record->channel, record->data});
+    }
+  }
+
+  void disturb() {
+    if (!bus_ && !open()) return;
+    constexpr int kAtOnce = 4;
+    for (int i = 0; i < kAtOnce; ++i) {
+      const auto& [channel, bytes] = other_game_[sent_++ % other_game_.size()];
+      bus_->publish_raw(channel, bytes);                             // another run's message
+      bus_->publish_raw(channel, damaged(of_this(bytes, channel)));  // this run's, damaged on its way
+      bus_->publish_raw(channel, noise());
+      bus_->publish_raw("STRANGE", of_this(bytes, channel));
+    }
+    bus_->publish_raw("MEASUREMENT", impossible_measurement());
+    bus_->publish_raw("ROUND", of_this(other_game_.front().bytes, "ROUND"));
+  }
+  std::size_t sent() const { return sent_; }
+
+ private:
+  bool open() {
+    if (!fs::exists(run_ / "manifest.json")) return false;
+    runtime::BusOptions options;
+    const int port = runtime::read_manifest(run_).port;
+    if (port == 0) return false;
+    options.url = runtime::bus_url(port);
+    options.node = "stranger";
+    options.run_id = run_.filename();
+    bus_ = runtime::Bus::open(options).value();
+    return true;
+  }
+  /// A message of the other game as it would come from this one's virtual laboratory, sound to the last byte.
+  std::string of_this(const std::string& bytes, const std::string& channel) {
+    const auto blanked = wire::blank_header(channel, bytes);
+    return wire::stamp_header(channel, blanked ? blanked->payload : bytes, header());
+  }
+  wire::Header header() { return {runtime::now_utime(), "virtual_lab", 1, ++sequence_, run_.filename()}; }
+  std::string damaged(std::string bytes) {
+    bytes[static_cast<std::size_t>(random_.index(static_cast<int>(bytes.size())))] ^=
+        static_cast<char>(1 << random_.index(8));
+    return bytes;
+  }
+  std::string noise() {
+    std::string bytes(static_cast<std::size_t>(random_.index(300)), '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random_.index(256));
+    return bytes;
+  }
+  std::string impossible_measurement() {
+    auto message = wire::decode_safe<measurement_t>(measurement_).value();
+    message.specimen = fmt::format("stranger/{}", sequence_);
+    message.has_modulus = 1;
+    message.modulus_pa = -1e9;
+    return wire::stamp_header("MEASUREMENT", wire::encode(message), header());
+  }
+
+  RandomStream random_;
+  fs::path run_;
+  std::unique_ptr<runtime::Bus> bus_;
+  std::vector<runtime::Datagram> other_game_;
+  std::string measurement_;
+  std::size_t sent_ = 0;
+  std::int64_t sequence_ = 0;
+};
+
+TEST_F(Game, CorruptAndForeignMessagesChangeNothing) {
+  PlayedGame game(short_game_, logs(), "among_strangers");
+  Stranger stranger(game.folder(), undisturbed_run());
+  ASSERT_TRUE(game.play_to_end(kPatienceS, [&] { stranger.disturb(); })) << game.said();
+  ASSERT_EQ(game.status(), 0) << game.said();
+  expect_undisturbed_course(game.folder());
+  for (const wire::Measurement& taken : measurements_taken(game.folder())) {
+    EXPECT_THAT(taken.record.specimen, testing::Not(HasSubstr("stranger")));
+  }
+  EXPECT_GT(stranger.sent(), 100U);
+  EXPECT_THAT(game.said(), AllOf(HasSubstr("of run \"undisturbed\""), HasSubstr("it is no round_summary_t")));
+  EXPECT_THAT(game.said(), HasSubstr("a message on MEASUREMENT from virtual_lab dropped")) << "an impossible value";
 }
 
 TEST_F(Game, ReplayOfEveryNodeSaysTheSame) { expect_replays(undisturbed_run()); }

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kTurnS = 0.02;
 
-const std::vector<std::string> kComparedChannels = {"PARAMETERS", "GAMUT",     "PROPOSAL", "TEST_ORDER",
+const std::vector<std::string> kComparedChannels = {"PARAMETERS",  "GAMUT",     "PROPOSAL", "TEST_ORDER",
                                                     "MEASUREMENT", "DIAGNOSIS", "ROUND"};
 
 /// The environment is the children's too.
@@ -54,8 +54,8 @@ std::string in_words(const SaidOnce& message, int times) {
 PlayedGame::PlayedGame(const fs::path& scenario, const fs::path& logs, const std::string& name,
                        const std::string& faults)
     : folder_(logs / name),
-      process_(with_faults(faults, {program("nacre"), "launch", scenario.string(), "--logs", logs.string(), "--run",
-                                    name})) {
+      process_(with_faults(faults,
+                           {program("nacre"), "launch", scenario.string(), "--logs", logs.string(), "--run", name})) {
   ::unsetenv("NACRE_FAULTS");
 }
 

@@ -29,7 +29,8 @@ class PlayedGame {
   /// Plays until `condition` holds; false when the game or timeout_s is over first.
   bool play_until(const std::function<bool()>& condition, double timeout_s);
   /// Plays to the end, with `every_turn` called some 50 times a second; false when timeout_s is over first.
-  bool play_to_end(double timeout_s, const std::function<void()>& every_turn = [] {});
+  bool play_to_end(
+      double timeout_s, const std::function<void()>& every_turn = [] {});
 
   bool is_over() { return process_.poll_end().has_value(); }
   /// Of a game that is over: exit status, or 128 + signal.

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 #include <gtest/gtest.h>
+
+#include "base/result.hpp"
 
 namespace nacre {
 namespace {
@@ -27,6 +30,31 @@ void read_output(runtime::ChildProcess& process, std::string& said) {
   for (const std::string& line : process.read_lines()) said += line + "\n";
 }
 
+/// Where this process keeps its files, gone with it when all went well. Process numbers would not do: every isolated
+/// test is number 1 of its own namespace, and all of them share the disk.
+class TestFolder {
+ public:
+  TestFolder() {
+    std::string name = testing::TempDir() + "nacre_XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) throw InputError::format("{}: cannot be made", name);
+    path_ = name;
+  }
+  ~TestFolder() {
+    if (testing::UnitTest::GetInstance()->Failed()) return;
+    std::error_code left_behind;
+    fs::remove_all(path_, left_behind);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+const fs::path& test_folder() {
+  static const TestFolder folder;
+  return folder.path();
+}
+
 std::string content(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -35,7 +63,7 @@ std::string content(const fs::path& file) {
 }  // namespace
 
 fs::path fresh_folder(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("nacre_" + std::to_string(::getpid())) / name;
+  const fs::path folder = test_folder() / name;
   fs::remove_all(folder);
   fs::create_directories(folder);
   return folder;
@@ -45,8 +73,7 @@ std::string program(const std::string& name) { return std::string(NACRE_BINARY_D
 
 Outcome run_nacre(const std::vector<std::string>& arguments, double timeout_s) {
   static int counter = 0;
-  const fs::path errors =
-      fs::path(testing::TempDir()) / ("nacre_err_" + std::to_string(::getpid()) + "_" + std::to_string(++counter));
+  const fs::path errors = test_folder() / ("standard_error_" + std::to_string(++counter));
   std::vector<std::string> command = {"/bin/sh", "-c", "exec 2>\"$0\"; exec \"$@\"", errors.string(), program("nacre")};
   command.insert(command.end(), arguments.begin(), arguments.end());
   Outcome outcome;
