@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -177,6 +178,9 @@ class NodeShell {
     if (channel == "ACK") return handle_ack(received);
     const wire::Channel& known = *wire::find_channel(channel);
     if (!wire::is_meant_for(known, received.message.payload, options_.node)) return;
+    if (channel == "SIMULATED" && !asked_.count(wire::request_id_of(channel, received.message.payload))) {
+      return;  // a node that lost its journal has yet to ask this again: the answer is repeated until then
+    }
     const std::string hash = wire::message_hash(channel, received.message.payload);
     if (!inbox_.is_new(hash)) {
       ++inbox_.duplicates;
@@ -215,8 +219,8 @@ class NodeShell {
   /// A requester that lost its journal asks again what was answered already.
   void repeat_answers(const Received& received) {
     if (received.message.channel != "SIMULATE") return;
-    const auto request = wire::decode_safe<simulate_request_t>(received.message.payload);
-    if (request) outbox_.answer_again(request->request_id, received.header.node, received.header.epoch);
+    const std::string request_id = wire::request_id_of("SIMULATE", received.message.payload);
+    outbox_.answer_again(request_id, received.header.node, received.header.epoch);
   }
 
   void take_result(FinishedWork finished) {
@@ -267,6 +271,7 @@ class NodeShell {
   void offer(const Message& message) {
     const wire::Channel* channel = wire::find_channel(message.channel);
     if (!channel) return;
+    if (message.channel == "SIMULATE") asked_.insert(wire::request_id_of(message.channel, message.payload));
     outbox_.offer(wire::message_hash(message.channel, message.payload), message,
                   wire::receivers_of(*channel, message.payload, options_.participants, options_.node));
   }
@@ -324,6 +329,7 @@ class NodeShell {
   Outbox outbox_;
   Inbox inbox_;
   WorkPool pool_;
+  std::set<std::string> asked_;  ///< ids of our own requests
   Eta eta_;
   std::string last_problem_;
   bool heard_itself_ = false;

@@ -2,25 +2,15 @@
 
 #include <algorithm>
 
-#include "wire/codec.hpp"
+#include "wire/channels.hpp"
 
 namespace nacre::runtime {
-namespace {
-
-/// The request that an answer belongs to; empty for other messages.
-std::string request_of(const Message& message) {
-  if (message.channel != "SIMULATED") return {};
-  const Result<simulate_result_t> answer = wire::decode_safe<simulate_result_t>(message.payload);
-  return answer ? answer->request_id : std::string();
-}
-
-}  // namespace
 
 void Outbox::offer(const std::string& hash, Message message, const std::vector<std::string>& receivers) {
   const auto [position, is_new] = entries_.try_emplace(hash);
   if (!is_new) return;
   Entry& entry = position->second;
-  entry.request_id = request_of(message);
+  if (message.channel == "SIMULATED") entry.request_id = wire::request_id_of(message.channel, message.payload);
   entry.message = std::move(message);
   entry.order = next_order_++;
   entry.receivers = receivers;

@@ -84,8 +84,7 @@ bool listens(const Channel& channel, std::string_view node) {
 
 bool is_meant_for(const Channel& channel, std::string_view payload, std::string_view node) {
   if (!contains(channel.receivers, kRequester)) return listens(channel, node);
-  const Result<simulate_result_t> answer = decode_safe<simulate_result_t>(payload);
-  return answer && requester_of(answer->request_id) == node;
+  return requester_of(request_id_of(channel.name, payload)) == node;
 }
 
 std::vector<std::string> receivers_of(const Channel& channel, std::string_view payload,
@@ -104,6 +103,17 @@ Result<void> check_outgoing(std::string_view channel, std::string_view payload) 
     return fail("a message of {} bytes on {}, at most {}", payload.size(), channel, kMaximumBlankPayload);
   }
   return known->validate(payload);
+}
+
+std::string request_id_of(std::string_view channel, std::string_view payload) {
+  if (channel == "SIMULATE") {
+    const Result<simulate_request_t> request = decode_safe<simulate_request_t>(payload);
+    if (request) return request->request_id;
+  } else if (channel == "SIMULATED") {
+    const Result<simulate_result_t> answer = decode_safe<simulate_result_t>(payload);
+    if (answer) return answer->request_id;
+  }
+  return {};
 }
 
 std::string_view requester_of(std::string_view request_id) {

@@ -49,6 +49,9 @@ bool is_meant_for(const Channel& channel, std::string_view payload, std::string_
 /// Whether a message may be sent: the channel exists, the payload is valid and leaves room for the header.
 Result<void> check_outgoing(std::string_view channel, std::string_view payload);
 
+/// The request that a SIMULATE or SIMULATED message belongs to; empty for other channels.
+std::string request_id_of(std::string_view channel, std::string_view payload);
+
 /// The name before the first '/' of a request id; empty when there is none.
 std::string_view requester_of(std::string_view request_id);
 
