@@ -142,6 +142,10 @@ Diagnosis diagnose_modulus(const std::vector<measurement::SpecimenRecord>& speci
   if (observations.size() < kLeastGroups) {
     throw InputError::format("a diagnosis of the modulus needs at least {} designs with a valid modulus, there are {}", kLeastGroups, observations.size());
   }
+  if (settings.bootstraps * settings.name_level < 2.0) {
+    throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}", settings.bootstraps, settings.name_level,
+                             std::ceil(2.0 / settings.name_level));
+  }
   const ModulusModel model(observations.groups, settings.fidelity);
   const Evidence evidence = gather_evidence(model, observations, settings);
   const Decision decision = decide(evidence);

@@ -94,7 +94,7 @@ struct Diagnosis {
 struct DiagnosisSettings {
   material::ParameterSet start;  ///< where the base fit begins
   tester::Fidelity fidelity = tester::Fidelity::full;
-  int bootstraps = 2000;
+  int bootstraps = 2000;             ///< at least 2 / name_level: fewer could never reach the level
   std::uint64_t seed = 1;
   double numerics_sd_log_modulus = 0.0;  ///< from data/numerics_floor.toml
   double name_level = 0.003;         ///< family-wise level of a name
@@ -104,7 +104,7 @@ struct DiagnosisSettings {
 };
 
 /// Diagnoses the modulus side of a set of specimens. Throws InputError when fewer than eight groups of specimens have a valid
-/// modulus (six base parameters are refitted).
+/// modulus (six base parameters are refitted), or when there are too few bootstraps for the level of a name.
 Diagnosis diagnose_modulus(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
 /// Reads the standard deviation of log E that two numerics leave after a base refit, for a fidelity. Throws InputError.

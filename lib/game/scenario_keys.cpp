@@ -235,7 +235,7 @@ std::vector<ScenarioKey> make_remaining_keys() {
            at(diagnosis, &DiagnosisSettings::enabled)),
       whole_number<int>("diagnosis", "discrimination_orders", "extra specimens a round that tell rival causes apart", 0,
                         20, at(diagnosis, &DiagnosisSettings::discrimination_orders)),
-      whole_number<int>("diagnosis", "bootstraps", "resamplings behind the decision threshold", 100, 1'000'000,
+      whole_number<int>("diagnosis", "bootstraps", "resamplings behind the decision threshold", 1000, 1'000'000,
                         at(diagnosis, &DiagnosisSettings::bootstraps)),
       flag("laboratory", "virtual_lab", "true: the virtual laboratory measures; false: a person does (nacre inject)",
            at(laboratory, &LaboratorySettings::virtual_lab)),

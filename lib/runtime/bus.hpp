@@ -1,5 +1,5 @@
 #pragma once
-// The only place that touches lcm::LCM: what the library gets wrong (lcm.md) is dealt with here once.
+// The only place that touches lcm::LCM: what the library gets wrong is dealt with here once.
 
 #include <cstdint>
 #include <functional>

@@ -173,4 +173,13 @@ void RunDatabase::project(const std::string& channel, const std::string& payload
   }
 }
 
+void RunDatabase::checkpoint() {
+  const std::lock_guard lock(mutex_);
+  try {
+    database_->exec("PRAGMA wal_checkpoint(TRUNCATE)");
+  } catch (const SQLite::Exception& error) {
+    refuse(path_, error.what());
+  }
+}
+
 }  // namespace nacre::store

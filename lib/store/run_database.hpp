@@ -23,6 +23,9 @@ class RunDatabase {
   /// payloads that do not decode, are ignored. Throws InputError when the file cannot be written.
   void project(const std::string& channel, const std::string& payload);
 
+  /// Moves everything into the one file, so that a copy of it alone is whole.
+  void checkpoint();
+
  private:
   std::filesystem::path path_;
   std::mutex mutex_;

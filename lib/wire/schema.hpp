@@ -13,7 +13,7 @@
 
 namespace nacre::wire {
 
-/// No message is longer, so that each is one datagram (lcm.md: fragments multiply loss).
+/// No message is longer, so that each is one datagram (fragments multiply loss).
 inline constexpr std::size_t kMaximumPayload = 60'000;
 /// Longest message without its header: leaves room for the names in it.
 inline constexpr std::size_t kMaximumBlankPayload = kMaximumPayload - 500;

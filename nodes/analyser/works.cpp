@@ -29,7 +29,8 @@ std::map<std::string, runtime::WorkFunction> work_functions(const std::filesyste
        }},
       {"diagnose", diagnose_work},
       {"report",
-       [run_dir](const std::string& round) -> std::string {
+       [database, run_dir](const std::string& round) -> std::string {
+         database->checkpoint();
          write_file_atomically(run_dir / "report.html",
                                render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
          return fmt::format("round {}: report.html written", round);

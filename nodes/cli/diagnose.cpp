@@ -95,7 +95,7 @@ void add_diagnose(CLI::App& app, Action& action) {
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
   command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor, "What two numerics of one truth differ by (data/numerics_floor.toml)");
-  command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")->check(CLI::Range(100, 1'000'000))->capture_default_str();
+  command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")->check(CLI::Range(1000, 1'000'000))->capture_default_str();
   command.add_option("--seed", options->seed, "Of the resampling")->capture_default_str();
   command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");
   command.add_option("--measured", options->measured, "Column of measured values in --table")->needs("--table");
