@@ -119,20 +119,12 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
   };
   add_if_varying(directions, "rigid fraction", over_groups([](const Observation& g) { return g.design.rigid_fraction(); }));
   add_if_varying(directions, "stiffness level", predicted);
-  add_if_varying(directions, "homogeneous coupons", over_groups([](const Observation& g) { return g.design.layout() ? 0.0 : 1.0; }));
   add_if_varying(directions, "orientation", over_groups([](const Observation& g) { return g.conditions.orientation_deg; }));
   add_if_varying(directions, "strain rate", over_groups([](const Observation& g) { return std::log(g.conditions.strain_rate_per_s); }));
   add_if_varying(directions, "thickness", over_groups([](const Observation& g) { return g.conditions.thickness_mm; }));
   add_if_varying(directions, "print order", over_groups([](const Observation& g) { return g.print_order; }));
   for (const Feature& feature : layout_features()) {
-    // A homogeneous coupon has no layout features: it takes the mean over the layouts, so that it carries no contrast.
-    double mean = 0.0;
-    int layouts = 0;
-    for (const Observation& g : observations.groups) {
-      if (g.design.layout()) mean += feature.of(*g.design.layout()), ++layouts;
-    }
-    if (layouts > 0) mean /= layouts;
-    add_if_varying(directions, feature.name, over_groups([&](const Observation& g) { return g.design.layout() ? feature.of(*g.design.layout()) : mean; }));
+    add_if_varying(directions, feature.name, over_groups([&](const Observation& g) { return feature.of(*g.design.layout()); }));
   }
   return directions;
 }

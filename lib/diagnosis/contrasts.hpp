@@ -15,7 +15,7 @@ struct ContrastDirection {
 };
 
 /// All contrasts that vary over these specimens: rigid fraction, interface length along and across the load, run length of either
-/// phase, corner contacts, percolation of the rigid phase, homogeneous coupons, orientation, rate, thickness, print order and
+/// phase, corner contacts, percolation of the rigid phase, orientation, rate, thickness, print order and
 /// stiffness level (`predicted`, log E of the base fit).
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted);
 

@@ -9,8 +9,7 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Specimens that could be made, as groups without a measurement. Homogeneous coupons have no interfaces to mix or turn, but
-/// stand closest to the machine.
+/// Specimens that could be made, as groups without a measurement.
 std::vector<Observation> possible_specimens(const Observations& observations) {
   std::set<std::string> taken;
   const auto name_of = [](const pattern::Design& design, double orientation) { return design.name() + (orientation == 90.0 ? "/90" : "/0"); };
@@ -24,14 +23,13 @@ std::vector<Observation> possible_specimens(const Observations& observations) {
     possible.push_back(specimen);
   };
   for (const Observation& g : observations.groups) {
-    if (g.design.layout()) offer(g.design, g.conditions.orientation_deg == 0.0 ? 90.0 : 0.0);
+    offer(g.design, g.conditions.orientation_deg == 0.0 ? 90.0 : 0.0);
   }
   for (const int period : {1, 2, 5}) {
     offer(pattern::checkerboard(period), 0.0);
     offer(pattern::laminate(pattern::LayerDirection::along_x, period, period), 0.0);
     offer(pattern::laminate(pattern::LayerDirection::along_y, period, period), 0.0);
   }
-  for (const double fraction : {0.5, 0.75, 1.0}) offer(pattern::Mixture{fraction}, 0.0);
   return possible;
 }
 
@@ -66,14 +64,13 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
   std::vector<material::ParameterSet> sets;
   for (const Fit& model : models) sets.push_back(model.parameters);
   const Eigen::MatrixXd predicted = ModulusModel(specimens, fidelity).predict(sets);
+  const double variance = observations.replicate_sd * observations.replicate_sd / replicates + observations.numerics_sd * observations.numerics_sd;
   struct Ranked {
     Separation separation;
     std::size_t specimen = 0;
   };
   std::vector<Ranked> ranked;
   for (std::size_t i = 0; i < specimens.size(); ++i) {
-    const double floor = specimens[i].design.layout() ? observations.numerics_sd : 0.0;
-    const double variance = observations.replicate_sd * observations.replicate_sd / replicates + floor * floor;
     ranked.push_back({best_separation(predicted.row(static_cast<Eigen::Index>(i)), variance), i});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.separation.score > b.separation.score; });

@@ -48,11 +48,7 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
   const Eigen::MatrixXd covariance = observations.covariance();
   // Folds of whole designs, dealt by a seeded shuffle.
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
-  std::vector<Eigen::Index> always;  // homogeneous coupons are no patterns: they stay in every training set
-  for (int i = 0; i < observations.size(); ++i) {
-    const pattern::Design& design = observations.groups[static_cast<std::size_t>(i)].design;
-    (design.layout() ? rows_of[design.name()] : always).push_back(i);
-  }
+  for (int i = 0; i < observations.size(); ++i) rows_of[observations.groups[static_cast<std::size_t>(i)].design.name()].push_back(i);
   std::vector<std::vector<Eigen::Index>> designs;
   for (const auto& [name, rows] : rows_of) designs.push_back(rows);
   RandomStream random(seed, "gain/folds");
@@ -60,7 +56,7 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
 
   std::vector<DesignErrors> errors(designs.size());
   for (int fold = 0; fold < kFolds; ++fold) {
-    std::vector<Eigen::Index> train = always;
+    std::vector<Eigen::Index> train;
     for (std::size_t d = 0; d < designs.size(); ++d) {
       if (static_cast<int>(d) % kFolds != fold) train.insert(train.end(), designs[d].begin(), designs[d].end());
     }

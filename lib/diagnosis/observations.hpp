@@ -44,7 +44,7 @@ struct Observations {
   Eigen::MatrixXd covariance() const { return covariance(replicate_sd * replicate_sd); }
 };
 
-/// Groups the valid specimens that have a modulus.
+/// Groups the valid specimens of layouts that have a modulus; homogeneous coupons are left out.
 Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd);
 
 }  // namespace nacre::diagnosis

@@ -27,7 +27,7 @@ constexpr int kPatterns = 14;
 constexpr int kTwins = 6;
 constexpr int kReplicates = 4;
 
-/// Which specimens a trial prints: random patterns over the strata, rotated twins of the first, checkerboards, three mixtures.
+/// Which specimens a trial prints: random patterns over the strata, rotated twins of the first, checkerboards.
 std::vector<virtual_laboratory::Question> trial_questions(std::uint64_t seed) {
   RandomStream random(seed, "blind trial patterns");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kPatterns, random);
@@ -41,7 +41,6 @@ std::vector<virtual_laboratory::Question> trial_questions(std::uint64_t seed) {
   for (const pattern::Pattern& each : patterns) add(each, 0.0);
   for (int i = 0; i < kTwins; ++i) add(patterns[static_cast<std::size_t>(i)], 90.0);
   for (const int period : {2, 5}) add(pattern::checkerboard(period), 0.0);
-  for (const double fraction : {0.5, 0.75, 1.0}) add(pattern::Mixture{fraction}, 0.0);
   return questions;
 }
 

@@ -43,7 +43,6 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
     test(patterns[i], 0.0);
     if (static_cast<int>(i) < set.twins) test(patterns[i], 90.0);
   }
-  for (const double fraction : {0.5, 0.75, 1.0}) test(pattern::Mixture{fraction}, 0.0);
   return specimens;
 }
 
