@@ -1,5 +1,5 @@
 #pragma once
-// gamut.csv: index,pattern,rigid_fraction,modulus_pa,toughness_pa in order of evaluation (design, formats).
+// gamut.csv: index,pattern,rigid_fraction,modulus_pa,toughness_pa in order of evaluation (docs/FORMATS.md).
 
 #include <filesystem>
 #include <span>

@@ -41,7 +41,7 @@ class Layout {
 
 /// A layout that is invariant under reflections and 90-degree rotations (thesis 2.1): 55 free bits.
 /// For r = 0..9, c = r..9 of the upper-left quarter, in that order, bit b = 0..54 is pixel (r, c), bit 0 least
-/// significant (design, formats).
+/// significant (docs/FORMATS.md).
 class Pattern {
  public:
   Pattern() = default;

@@ -1,6 +1,6 @@
 #pragma once
 // The validation agent's decisions: it has proposals measured, calibrates the model on everything measured so far, and
-// says when the game is over (design, section 4; thesis 2.3.2 and 3.2).
+// says when the game is over (docs/ARCHITECTURE.md; thesis 2.3.2 and 3.2).
 
 #include <map>
 #include <memory>

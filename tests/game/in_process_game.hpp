@@ -50,7 +50,7 @@ class InProcessGame {
   }
   std::vector<std::string> payloads(const std::string& channel) const;
 
-  /// Channels and contents that equal games share (design, section 3).
+  /// Channels and contents that equal games share (docs/ARCHITECTURE.md).
   std::set<std::pair<std::string, std::string>> essence() const;
 
   /// Ids of all long work asked for by `node`, with repeats.
