@@ -10,6 +10,9 @@ namespace {
 
 /// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
 constexpr double kAssumedReplicateSd = 0.02;
+/// Replicates that agree better than a testing machine reads say nothing about scatter; exactly equal ones would leave a singular
+/// covariance.
+constexpr double kLeastReplicateSd = 1e-4;
 
 using GroupKey = std::tuple<std::string, double, double, double>;
 
@@ -73,7 +76,8 @@ Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& spec
     for (const auto& [name, specimen] : named) replicates.push_back(specimen);
     observations.groups.push_back(mean_of(replicates, squares, observations.replicate_dof));
   }
-  observations.replicate_sd = observations.replicate_dof > 0 ? std::sqrt(squares / observations.replicate_dof) : kAssumedReplicateSd;
+  const double measured_sd = observations.replicate_dof > 0 ? std::sqrt(squares / observations.replicate_dof) : kAssumedReplicateSd;
+  observations.replicate_sd = std::max(measured_sd, kLeastReplicateSd);
   return observations;
 }
 

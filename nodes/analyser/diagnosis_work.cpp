@@ -94,10 +94,14 @@ std::string diagnose_work(const std::string& spec) {
   settings.bootstraps = task.bootstraps;
   settings.seed = task.seed;
   settings.numerics_sd_log_modulus = task.numerics_sd_log_modulus;
+  const std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   try {
-    return wire::encode(message_of(diagnosis::diagnose_modulus(specimens_of(task), settings), task.request.round));
+    return wire::encode(message_of(diagnosis::diagnose_modulus(specimens, settings), task.request.round));
   } catch (const InputError& error) {
     return wire::encode(undecided(task.request.round, error.what()));
+  } catch (const std::runtime_error& error) {
+    // Measurements come from people: a fit that breaks on them must not end the game, which waits for this answer.
+    return wire::encode(undecided(task.request.round, fmt::format("the diagnosis broke off: {}", error.what())));
   }
 }
 
