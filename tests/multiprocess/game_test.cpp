@@ -58,7 +58,7 @@ mixtures = [0.5]
 
 [diagnosis]
 discrimination_orders = 0
-bootstraps = 100
+bootstraps = 1000
 )";
 
 fs::path written(const fs::path& file, const std::string& text) {
@@ -185,6 +185,24 @@ TEST_F(Game, KillsAndLossesTogetherChangeNothing) {
   expect_undisturbed_course(game.folder());
 }
 
+TEST_F(Game, EverythingKilledAtOnceIsResumedWithTheSameGame) {
+  const auto whole = journal_bytes(undisturbed_run(), "validation_agent");
+  std::unique_ptr<PlayedGame> game = std::make_unique<PlayedGame>(short_game_, logs(), "resumed");
+  for (const double share : {0.2, 0.7}) {
+    const fs::path run = game->folder();
+    const auto has_come_so_far = [&] {
+      return static_cast<double>(journal_bytes(run, "validation_agent")) >= share * static_cast<double>(whole);
+    };
+    ASSERT_TRUE(game->play_until(has_come_so_far, kPatienceS)) << game->said();
+    game->kill_everything();
+    game = std::make_unique<PlayedGame>(run);
+  }
+  ASSERT_TRUE(game->play_to_end(kPatienceS)) << game->said();
+  ASSERT_EQ(game->status(), 0) << game->said();
+  expect_undisturbed_course(game->folder());
+  expect_replays(game->folder());
+}
+
 /// The specimens of a round as the undisturbed game's laboratory measured them.
 std::vector<measurement::SpecimenRecord> specimens_of_round(const fs::path& run, int round) {
   std::vector<measurement::SpecimenRecord> specimens;
@@ -240,6 +258,63 @@ TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
   EXPECT_THAT(differences(on_channels(said_in_game(undisturbed_run()), course),
                           on_channels(said_in_game(game.folder()), course)),
               IsEmpty());
+}
+
+/// A person who measures whatever is ordered: one design whose specimens scatter so much that neither growth nor gap
+/// can be told from the error of its mean, and nothing else of any worth.
+class ScatteredLaboratory {
+ public:
+  ScatteredLaboratory(const fs::path& folder, const fs::path& run) : folder_(folder), run_(run) {}
+
+  void measure_what_is_ordered() {
+    std::vector<measurement::SpecimenRecord> specimens;
+    const std::string orders = std::string(runtime::kOutPrefix) + "TEST_ORDER";
+    for (const std::string& payload : journaled(run_, "validation_agent", orders)) {
+      const auto order = wire::read<wire::TestOrder>(payload).value();
+      if (!answered_.insert(order.order_id).second) continue;
+      if (scattered_.empty() && order.design.layout() != nullptr) scattered_ = order.design.name();
+      for (int k = 1; k <= order.replicates; ++k) specimens.push_back(specimen(order, k));
+    }
+    if (!specimens.empty()) injected(folder_ / fmt::format("scattered_{}", ++sets_), specimens, run_);
+  }
+
+ private:
+  measurement::SpecimenRecord specimen(const wire::TestOrder& order, int number) const {
+    measurement::SpecimenRecord record;
+    record.specimen = fmt::format("{}/{}", order.order_id, number);
+    record.design = order.design;
+    record.test = order.test;
+    record.conditions = order.conditions;
+    const bool is_scattered = order.design.name() == scattered_;
+    if (order.test == tester::TestKind::modulus) {
+      record.modulus_pa = is_scattered ? 1e9 : 2e8;
+    } else {
+      record.toughness_pa = is_scattered && number % 2 == 0 ? 3e6 : 2e4;
+    }
+    return record;
+  }
+
+  fs::path folder_;
+  fs::path run_;
+  std::set<std::string> answered_;  // orders
+  std::string scattered_;           // the design
+  int sets_ = 0;
+};
+
+TEST_F(Game, EndsByEquilibriumBeforeItsRoundLimit) {
+  std::string text = kShortGame;
+  text.replace(text.find("rounds = 2"), 10, "rounds = 5");
+  text += "\n[laboratory]\nvirtual_lab = false\n";
+  PlayedGame game(written(folder_ / "scattered.toml", text), logs(), "scattered");
+  ScatteredLaboratory laboratory(folder_, game.folder());
+  ASSERT_TRUE(game.play_to_end(kPatienceS, [&] { laboratory.measure_what_is_ordered(); })) << game.said();
+  ASSERT_EQ(game.status(), 0) << game.said();
+  const auto rounds = runtime::read_rounds(game.folder());
+  ASSERT_EQ(rounds.size(), 4U) << rounds.back().decided_by;
+  for (const auto& round : rounds) {
+    EXPECT_EQ(round.last, round.round == 3);
+    EXPECT_EQ(round.equilibrium, round.round == 3) << round.decided_by;
+  }
 }
 
 /// Everything that a bus should not hear, a little of it each time.

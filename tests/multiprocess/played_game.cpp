@@ -59,6 +59,9 @@ PlayedGame::PlayedGame(const fs::path& scenario, const fs::path& logs, const std
   ::unsetenv("NACRE_FAULTS");
 }
 
+PlayedGame::PlayedGame(const fs::path& run)
+    : folder_(run), process_({program("nacre"), "launch", "--resume", run.string()}) {}
+
 void PlayedGame::play_on() { wait_until_said(process_, "\n\n\n", said_, kTurnS); }
 
 bool PlayedGame::play_until(const std::function<bool()>& condition, double timeout_s) {
@@ -79,6 +82,13 @@ bool PlayedGame::play_to_end(double timeout_s, const std::function<void()>& ever
       timeout_s);
   play_on();
   return ended;
+}
+
+void PlayedGame::kill_everything() {
+  constexpr double kPatienceS = 10.0;
+  ::kill(process_.pid(), SIGKILL);
+  wait_for_end(process_, said_, kPatienceS);
+  becomes_true([&] { return processes_with(folder_.string()).empty(); }, kPatienceS);
 }
 
 int PlayedGame::status() {

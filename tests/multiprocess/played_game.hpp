@@ -24,6 +24,9 @@ class PlayedGame {
   PlayedGame(const std::filesystem::path& scenario, const std::filesystem::path& logs, const std::string& name,
              const std::string& faults = "");
 
+  /// `nacre launch --resume` of a game that was stopped.
+  explicit PlayedGame(const std::filesystem::path& run);
+
   /// Plays on for about 20 ms, keeping what the launcher says.
   void play_on();
   /// Plays until `condition` holds; false when the game or timeout_s is over first.
@@ -31,6 +34,9 @@ class PlayedGame {
   /// Plays to the end, with `every_turn` called some 50 times a second; false when timeout_s is over first.
   bool play_to_end(
       double timeout_s, const std::function<void()>& every_turn = [] {});
+
+  /// SIGKILL for the launcher, which takes every node with it.
+  void kill_everything();
 
   bool is_over() { return process_.poll_end().has_value(); }
   /// Of a game that is over: exit status, or 128 + signal.
