@@ -47,9 +47,8 @@ struct BaseCalibration::State {
     int modulus_evaluations = 0;
     std::vector<MaterialFit> toughness;  ///< one per damping tried; empty when not measured
   };
-  /// The start is evaluated; W is searched at one damping after another until one suits all materials; then, at the
-  /// damping that is kept, other moduli are tried for the materials that still miss.
-  enum class Phase { start, dampings, moduli, done };
+  /// The start is evaluated; then every material is fitted at one damping after another until one suits them all.
+  enum class Phase { start, dampings, done };
 
   std::vector<measurement::Replicates> measured;
   CalibrationSettings settings;
@@ -138,9 +137,9 @@ struct BaseCalibration::State {
     candidates.clear();
     ++batch_number;
     if (phase == Phase::start) want_start();
-    while (phase == Phase::dampings || phase == Phase::moduli) {
+    while (phase == Phase::dampings) {
       want_candidates();
-      if (!wanted.empty() || !next_phase()) break;
+      if (!wanted.empty() || !next_damping()) break;
     }
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k].id = fmt::format("B{}.{}", batch_number, k);
     told.assign(wanted.size(), std::nullopt);
@@ -159,22 +158,17 @@ struct BaseCalibration::State {
     return worst;
   }
 
-  /// Called when the searches of a phase have ended; false when there is nothing left to try.
-  bool next_phase() {
+  /// Called when the fits at one damping have ended; false when there is nothing left to try.
+  bool next_damping() {
     constexpr double kGoodEnough = 0.01;
-    const bool all_met = worst_error(damping) <= kGoodEnough;
-    if (phase == Phase::moduli || all_met) return false;
+    if (worst_error(damping) <= kGoodEnough) return false;
     if (damping + 1 < dampings_per_s.size()) {
       ++damping;
       begin_toughness();
       return true;
     }
     damping = fairest_damping();
-    phase = Phase::moduli;
-    for (Material& material : materials) {
-      if (!material.toughness.empty()) material.toughness[damping].allow_other_moduli();
-    }
-    return true;
+    return false;
   }
 
   /// The damping at which the worst material misses least. The thesis keeps the median of three separate estimates,

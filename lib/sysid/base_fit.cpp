@@ -69,7 +69,7 @@ bool MaterialFit::match_peak() {
 
 bool MaterialFit::next_stage() {
   if (met()) return match_peak();
-  while (other_moduli_ && ++stage_ < kModulusFactors.size()) {
+  while (++stage_ < kModulusFactors.size()) {
     const double e_pa = clamped(start_.e_pa * kModulusFactors[stage_], ranges_.e);
     if (e_pa == e_pa_) continue;  // clamped to where the search was before
     begin_search(e_pa, best_.w_j_per_m3);
@@ -81,13 +81,6 @@ bool MaterialFit::next_stage() {
 double MaterialFit::error() const { return relative_error(best_prediction_.toughness_pa, measured_.toughness_pa); }
 
 bool MaterialFit::met() const { return any_ && error() <= kGoodEnough; }
-
-void MaterialFit::allow_other_moduli() {
-  if (met()) return;
-  other_moduli_ = true;
-  finished_ = false;
-  budget_ += evaluations_;
-}
 
 void MaterialFit::tell(const MaterialTrial& trial, const Prediction& prediction) {
   ++evaluations_;

@@ -18,10 +18,10 @@ struct MaterialRanges {
   material::ParameterRange e, w, gamma;
 };
 
-/// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the
-/// measured modulus as nearly as its range allows, and W is searched until the toughness is met; only after
-/// allow_other_moduli() other E are tried. Where a curve was measured, E moves once the toughness is met so that the
-/// peak stress agrees too: at the same W, toughness hardly depends on E while stress grows with its square root.
+/// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the measured
+/// modulus as nearly as its range allows, and W is searched until the toughness is met; only when no W meets it other E are tried.
+/// Where a curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W, toughness
+/// hardly depends on E while stress grows with its square root.
 class MaterialFit {
  public:
   MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges, const MaterialTrial& start,
@@ -32,8 +32,6 @@ class MaterialFit {
   /// Within 1 % of the measured toughness.
   bool met() const;
   double error() const;
-  /// Goes on with other moduli, with as many evaluations again; nothing when the toughness is met already.
-  void allow_other_moduli();
   double progress() const;
   const MaterialTrial& best() const { return best_; }
   const Prediction& best_prediction() const { return best_prediction_; }
@@ -52,7 +50,7 @@ class MaterialFit {
   double e_pa_ = 0.0;  ///< of the search in progress
   std::size_t stage_ = 0;
   int peak_matches_ = 0;
-  bool any_ = false, finished_ = false, other_moduli_ = false;
+  bool any_ = false, finished_ = false;
   MaterialTrial best_;
   Prediction best_prediction_;
   double best_misfit_ = 0.0;

@@ -4,8 +4,8 @@
 
 namespace nacre::sysid {
 
-/// Spearman's rank correlation, ties sharing their mean rank; 0 below three pairs or when one side does not vary. Both sides of the
-/// same length.
+/// Spearman's rank correlation, ties sharing their mean rank; 0 below three pairs or when one side does not vary. Both
+/// sides of the same length.
 double rank_correlation(std::span<const double> a, std::span<const double> b);
 
 }  // namespace nacre::sysid
