@@ -4,7 +4,7 @@
 #include <nlopt.hpp>
 
 #include "sysid/emulator.hpp"
-#include "sysid/fit.hpp"
+#include "sysid/recorded_fit.hpp"
 #include "sysid/warped_objective.hpp"
 
 namespace nacre::sysid {
@@ -25,11 +25,10 @@ constexpr int kSearchEvaluations = 600;
 constexpr int kMoveCount = 7;
 using Move = std::array<double, kMoveCount>;
 
-class EmulatorFit final : public Fit {
+class EmulatorFit final : public RecordedFit {
  public:
   EmulatorFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others)
-      : data_(std::move(data)),
-        settings_(settings),
+      : RecordedFit(std::move(data), settings, kPull),
         spans_(std::move(spans)),
         others_(std::move(others)),
         emulator_(spans_, data_.measured.size()),
@@ -46,8 +45,7 @@ class EmulatorFit final : public Fit {
     const double before = starting ? 0.0 : cost(trials_[best_]);
     for (std::size_t k = 0; k < asked_.size(); ++k) {
       const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
-      trials_.push_back({asked_[k], std::move(predictions[k]), objective});
-      if (cost(trials_.back()) < cost(trials_[best_])) best_ = trials_.size() - 1;
+      record(asked_[k], std::move(predictions[k]), objective);
     }
     asked_.clear();
     if (starting) return;
@@ -55,19 +53,11 @@ class EmulatorFit final : public Fit {
     radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : 0.5 * radius_;
   }
 
-  double progress() const override {
-    return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
-  }
-  const Trial& first() const override { return trials_.front(); }
-  const Trial& best() const override { return trials_[best_]; }
-  const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<double> deviations() const override {
     return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/false);
   }
 
  private:
-  double cost(const Trial& trial) const { return trial.objective + pull_to_start(trial.point, settings_.start, kPull); }
-
   std::vector<Point> propose() {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));
     if (count <= 0 || radius_ < kSmallestRadius) return {};
@@ -107,7 +97,7 @@ class EmulatorFit final : public Fit {
   double predicted_cost(const Move& move, double curiosity) {
     const Point point = moved(move);
     emulator_.predict(point, changes_);
-    const double cost = predicted_(changes_) + pull_to_start(point, settings_.start, kPull);
+    const double cost = predicted_(changes_) + pull_on(point);
     return curiosity > 0.0 ? cost - curiosity * emulator_.deviation(point) : cost;
   }
 
@@ -164,18 +154,12 @@ class EmulatorFit final : public Fit {
     return asked.fit->predicted_cost(copy, asked.curiosity);
   }
 
-  FitData data_;
-  FitSettings settings_;
   std::vector<double> spans_;
   std::vector<Point> others_;
   FeatureEmulator emulator_;
   WarpedObjective predicted_;
   std::vector<FeatureChange> changes_;
-  std::vector<Trial> trials_;
-  std::vector<Point> asked_;
-  std::size_t best_ = 0;
   double radius_ = kFirstRadius;
-  bool finished_ = false;
 };
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sysid/fit.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/recorded_fit.hpp"
 #include "sysid/spread.hpp"
 
 namespace nacre::sysid {
@@ -17,9 +17,9 @@ constexpr double kLeastGain = 1e-3;       // relative gain in objective below wh
 constexpr double kSmallestNoise = 0.002;  // of log E, when deviations are told: no data are better
 constexpr double kFailedResidual = 1.0;
 
-class ModulusFit final : public Fit {
+class ModulusFit final : public RecordedFit {
  public:
-  ModulusFit(FitData data, const FitSettings& settings) : data_(std::move(data)), settings_(settings) {}
+  ModulusFit(FitData data, const FitSettings& settings) : RecordedFit(std::move(data), settings, kPull) {}
 
   std::vector<Point> ask() override {
     if (asked_.empty() && !finished_) asked_ = propose();
@@ -38,12 +38,6 @@ class ModulusFit final : public Fit {
     }
   }
 
-  double progress() const override {
-    return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
-  }
-  const Trial& first() const override { return trials_.front(); }
-  const Trial& best() const override { return trials_[best_]; }
-  const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<double> deviations() const override {
     if (jacobian_.size() == 0) return std::vector<double>(settings_.start.size(), kUnknownDeviation);
     return parameter_deviations(jacobian_, residuals(trials_[best_]),
@@ -54,12 +48,9 @@ class ModulusFit final : public Fit {
  private:
   int dimension() const { return static_cast<int>(settings_.start.size()); }
   int budget_left() const { return settings_.budget - static_cast<int>(trials_.size()); }
-  double cost(const Trial& trial) const { return trial.objective + pull_to_start(trial.point, settings_.start, kPull); }
-
   void add_trial(const Point& point, std::vector<Prediction> predictions) {
     const double objective = modulus_objective(data_.measured, data_.weights, predictions);
-    trials_.push_back({point, std::move(predictions), objective});
-    if (cost(trials_.back()) < cost(trials_[best_])) best_ = trials_.size() - 1;
+    record(point, std::move(predictions), objective);
   }
 
   std::vector<Point> propose() {
@@ -192,18 +183,12 @@ class ModulusFit final : public Fit {
 
   static constexpr double kFirstDamping = 1e-3, kLastDamping = 1e2;
 
-  FitData data_;
-  FitSettings settings_;
-  std::vector<Trial> trials_;
-  std::vector<Point> asked_;
-  std::size_t best_ = 0;
   std::size_t centre_ = 0;
   Eigen::MatrixXd jacobian_;
   Eigen::VectorXd residual_;
   double damping_ = kFirstDamping;
   double start_cost_ = 0.0;
   bool differencing_ = true;
-  bool finished_ = false;
 };
 
 }  // namespace

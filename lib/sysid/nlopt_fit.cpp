@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "sysid/emulator.hpp"
-#include "sysid/fit.hpp"
+#include "sysid/recorded_fit.hpp"
 #include "sysid/warped_objective.hpp"
 
 namespace nacre::sysid {
@@ -12,10 +12,10 @@ constexpr double kPull = 0.01;       // cost of moving every parameter across it
 constexpr double kScaleReach = 2.3;  // natural logarithm of ten
 constexpr int kScaleSteps = 25;
 
-class NloptFit final : public Fit {
+class NloptFit final : public RecordedFit {
  public:
   NloptFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others)
-      : data_(std::move(data)), settings_(settings), spans_(std::move(spans)), others_(std::move(others)) {}
+      : RecordedFit(std::move(data), settings, kPull), spans_(std::move(spans)), others_(std::move(others)) {}
 
   std::vector<Point> ask() override {
     if (!asked_.empty() || finished_) return asked_;
@@ -37,27 +37,18 @@ class NloptFit final : public Fit {
     std::vector<std::optional<double>> costs;
     for (std::size_t k = 0; k < asked_.size(); ++k) {
       const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
-      trials_.push_back({asked_[k], std::move(predictions[k]), objective});
+      record(asked_[k], std::move(predictions[k]), objective);
       costs.push_back(cost(trials_.back()));
-      if (cost(trials_.back()) < cost(trials_[best_])) best_ = trials_.size() - 1;
     }
     asked_.clear();
     if (optimizer_) optimizer_->tell(costs);
   }
 
-  double progress() const override {
-    return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
-  }
-  const Trial& first() const override { return trials_.front(); }
-  const Trial& best() const override { return trials_[best_]; }
-  const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<double> deviations() const override {
     return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/true);
   }
 
  private:
-  double cost(const Trial& trial) const { return trial.objective + pull_to_start(trial.point, settings_.start, kPull); }
-
   void begin_search() {
     optimize::BatchOptimizerSettings settings;
     settings.dimension = kEtaCount;
@@ -87,7 +78,7 @@ class NloptFit final : public Fit {
         point[kW0 + m] = std::clamp(point[kW0 + m] + energies / spans_[kW0 + m], 0.0, 1.0);
       }
       emulator.predict(point, changes);
-      const double here = predicted(changes) + pull_to_start(point, settings_.start, kPull);
+      const double here = predicted(changes) + pull_on(point);
       if (here < smallest) {
         smallest = here;
         best_point = std::move(point);
@@ -96,15 +87,9 @@ class NloptFit final : public Fit {
     return best_point;
   }
 
-  FitData data_;
-  FitSettings settings_;
   std::vector<double> spans_;
   std::vector<Point> others_;
   std::unique_ptr<optimize::BatchOptimizer> optimizer_;
-  std::vector<Trial> trials_;
-  std::vector<Point> asked_;
-  std::size_t best_ = 0;
-  bool finished_ = false;
 };
 
 }  // namespace

@@ -1,0 +1,45 @@
+#pragma once
+// What every fit keeps: what it was asked to fit, all trials, the best of them by objective plus pull to the start.
+
+#include <algorithm>
+#include <utility>
+
+#include "sysid/fit.hpp"
+
+namespace nacre::sysid {
+
+class RecordedFit : public Fit {
+ public:
+  double progress() const final {
+    return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
+  }
+  const Trial& first() const final { return trials_.front(); }
+  const Trial& best() const final { return trials_[best_]; }
+  const std::vector<Trial>& trials() const final { return trials_; }
+
+ protected:
+  /// `pull` is the cost of moving every parameter across its whole range.
+  RecordedFit(FitData data, const FitSettings& settings, double pull)
+      : data_(std::move(data)), settings_(settings), pull_(pull) {}
+
+  /// The part of the cost that no simulation tells.
+  double pull_on(const Point& point) const { return pull_to_start(point, settings_.start, pull_); }
+  double cost(const Trial& trial) const { return trial.objective + pull_on(trial.point); }
+
+  void record(const Point& point, std::vector<Prediction> predictions, double objective) {
+    trials_.push_back({point, std::move(predictions), objective});
+    if (cost(trials_.back()) < cost(trials_[best_])) best_ = trials_.size() - 1;
+  }
+
+  FitData data_;
+  FitSettings settings_;
+  std::vector<Trial> trials_;
+  std::vector<Point> asked_;  ///< points asked for and not answered yet
+  std::size_t best_ = 0;
+  bool finished_ = false;
+
+ private:
+  double pull_;
+};
+
+}  // namespace nacre::sysid
