@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
+
+#include "base/result.hpp"
 
 namespace nacre::optimize {
 
@@ -22,6 +25,13 @@ struct BatchOptimizerSettings {
   int batch = 3;   ///< points asked for at once
   std::uint64_t seed = 1;
   std::vector<Point> starts;  ///< points to begin with, best guess first (may be empty)
+  /// Evaluations after the best one before the search gives up, when `least_gain` of the best value was not gained; 0:
+  /// never. Never a time: the same values told give the same points on any machine.
+  int patience = 0;
+  double least_gain = 1e-3;
+  double value_deviation =
+      0.0;               ///< known standard deviation of a value: repeatability of the testers, scatter of replicates
+  int first_points = 0;  ///< space-filling points after the starts, of methods that have a model; 0: 2 dimension + 1
 };
 
 /// Deterministic: the points asked for depend on the settings and the values told so far only.
@@ -34,6 +44,9 @@ class BatchOptimizer {
   virtual void tell(const std::vector<std::optional<double>>& values) = 0;
   /// Best evaluation so far; nothing before the first success.
   virtual std::optional<Evaluation> best() const = 0;
+  /// Goes on where a search with the same settings stopped: `told` is everything that one was told, in order, in whole
+  /// batches. Call it first. Throws InputError when these settings would not have asked for those points.
+  virtual void resume(const std::vector<Evaluation>& told);
 };
 
 /// Local searches of NLopt (BOBYQA and Nelder-Mead in turn): first the starts, then a search from the best of them; one
@@ -43,5 +56,23 @@ class BatchOptimizer {
 /// The whole budget is used and no point is asked for twice. Failed evaluations count, and are worse than all others to
 /// the search. Throws InputError for settings out of range.
 std::unique_ptr<BatchOptimizer> make_nlopt_optimizer(const BatchOptimizerSettings& settings);
+
+/// Batch Bayesian optimisation: a Gaussian process (Matern-5/2, one length scale per dimension, learnt noise beside the
+/// known), expected improvement below the smallest posterior mean, batches by local penalisation, Sobol points after
+/// the starts. Failed evaluations count as the worst value seen. Throws InputError for settings out of range.
+std::unique_ptr<BatchOptimizer> make_bayesian_optimizer(const BatchOptimizerSettings& settings);
+
+/// The rivals, all behind the same seam.
+enum class Algorithm {
+  bayesian,      ///< make_bayesian_optimizer
+  trust_region,  ///< make_nlopt_optimizer: BOBYQA's quadratic models, with Nelder-Mead in turn
+  random,        ///< uniform in the cube
+  direct_l,      ///< NLopt's DIRECT-L
+  crs2,          ///< NLopt's controlled random search with local mutation
+  cma_es,        ///< covariance matrix adaptation, restarted with twice the population when it has collapsed
+};
+std::string_view to_string(Algorithm algorithm);
+Result<Algorithm> algorithm_from_string(std::string_view name);
+std::unique_ptr<BatchOptimizer> make_optimizer(Algorithm algorithm, const BatchOptimizerSettings& settings);
 
 }  // namespace nacre::optimize

@@ -32,7 +32,7 @@ double recorded_value(const Point& point, Point& /*gradient*/, void* data) {
 std::optional<Point> next_unknown(const LocalSearch& search, const KnownValues& known) {
   static std::mutex random_state;
   const std::lock_guard lock(random_state);
-  nlopt::srand(1);
+  nlopt::srand(static_cast<unsigned long>(search.seed));
   nlopt::opt optimizer(search.algorithm, static_cast<unsigned>(search.start.size()));
   Replay replay{known, optimizer, std::nullopt};
   optimizer.set_min_objective(recorded_value, &replay);

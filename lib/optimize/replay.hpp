@@ -18,6 +18,7 @@ struct LocalSearch {
   double step = 0.2;            ///< initial step in every coordinate
   double smallest_step = 0.01;  ///< the search ends when its steps fall below this
   int maximum_evaluations = 1000;
+  std::uint64_t seed = 1;  ///< of NLopt's random numbers, for the algorithms that draw any
 };
 
 /// Value of a point, if it has one.

@@ -1,0 +1,113 @@
+#include "optimize/recorded_optimizer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace nacre::optimize {
+
+void check_settings(BatchOptimizerSettings& settings) {
+  const auto at_least_one = [](std::string_view key, int value) {
+    if (value < 1) throw InputError::format("optimiser: {} = {}, expected at least 1", key, value);
+  };
+  at_least_one("dimension", settings.dimension);
+  at_least_one("batch", settings.batch);
+  for (Point& start : settings.starts) {
+    if (static_cast<int>(start.size()) != settings.dimension) {
+      throw InputError::format("optimiser: a start has {} coordinates, expected {}", start.size(), settings.dimension);
+    }
+    for (double& coordinate : start) {
+      if (!std::isfinite(coordinate)) throw InputError("optimiser: a start has a coordinate that is no number");
+      coordinate = std::clamp(coordinate, 0.0, 1.0);
+    }
+  }
+}
+
+RecordedOptimizer::RecordedOptimizer(const BatchOptimizerSettings& settings) : settings_(settings) {
+  check_settings(settings_);
+}
+
+std::vector<Point> RecordedOptimizer::ask() {
+  assert(asked_.empty() && "ask() before the last batch was told");
+  const int count = std::min(settings_.batch, settings_.budget - told_count());
+  if (count <= 0 || gave_up()) return {};
+  while (next_start_ < settings_.starts.size() && static_cast<int>(asked_.size()) < count) {
+    asked_.push_back(settings_.starts[next_start_++]);
+  }
+  const int more = count - static_cast<int>(asked_.size());
+  if (more > 0) {
+    for (Point& point : propose(more)) asked_.push_back(std::move(point));
+  }
+  return asked_;
+}
+
+void RecordedOptimizer::tell(const std::vector<std::optional<double>>& values) {
+  assert(!asked_.empty() && "tell() without a batch that was asked for");
+  assert(values.size() == asked_.size() && "tell() must answer the whole batch");
+  for (std::size_t i = 0; i < asked_.size(); ++i) keep({std::move(asked_[i]), values[i]});
+  asked_.clear();
+  look_for_gain();
+  told();
+}
+
+void RecordedOptimizer::keep(Evaluation evaluation) {
+  assert(!evaluation.value || std::isfinite(*evaluation.value));
+  if (evaluation.value && (!best_ || *evaluation.value < *best_->value)) best_ = evaluation;
+  evaluations_.push_back(std::move(evaluation));
+}
+
+void RecordedOptimizer::look_for_gain() {
+  if (!best_) return;
+  if (milestone_at_ > 0 && *best_->value >= milestone_ - settings_.least_gain * std::abs(milestone_)) return;
+  milestone_ = *best_->value;
+  milestone_at_ = told_count();
+}
+
+void RecordedOptimizer::restore(const std::vector<Evaluation>& told) {
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (static_cast<int>(told[i].point.size()) != settings_.dimension) {
+      throw InputError::format("optimiser: evaluation {} has {} coordinates, expected {}", i, told[i].point.size(),
+                               settings_.dimension);
+    }
+    keep(told[i]);
+    if ((i + 1) % static_cast<std::size_t>(settings_.batch) == 0 || i + 1 == told.size()) look_for_gain();
+  }
+  next_start_ = std::min(told.size(), settings_.starts.size());
+}
+
+void BatchOptimizer::resume(const std::vector<Evaluation>& told) {
+  for (std::size_t done = 0; done < told.size();) {
+    const std::vector<Point> points = ask();
+    std::vector<std::optional<double>> values;
+    for (const Point& point : points) {
+      if (done == told.size() || told[done].point != point) {
+        throw InputError::format(
+            "optimiser: evaluation {} is not what these settings ask for; it comes from another search", done);
+      }
+      values.push_back(told[done++].value);
+    }
+    if (points.empty())
+      throw InputError::format("optimiser: {} evaluations, but these settings end after {}", told.size(), done);
+    tell(values);
+  }
+}
+
+bool RecordedOptimizer::gave_up() const {
+  return settings_.patience > 0 && told_count() - milestone_at_ >= settings_.patience;
+}
+
+std::vector<double> RecordedOptimizer::values() const {
+  double worst = 0.0;
+  bool any = false;
+  for (const Evaluation& evaluation : evaluations_) {
+    if (!evaluation.value) continue;
+    worst = any ? std::max(worst, *evaluation.value) : *evaluation.value;
+    any = true;
+  }
+  const double spread = any ? worst - *best_->value : 0.0;
+  std::vector<double> result;
+  for (const Evaluation& evaluation : evaluations_) result.push_back(evaluation.value.value_or(worst + 0.1 * spread));
+  return result;
+}
+
+}  // namespace nacre::optimize

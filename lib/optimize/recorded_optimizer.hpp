@@ -1,0 +1,45 @@
+#pragma once
+// What every optimiser of this module keeps: its settings, everything told, the best of it, and when to give up.
+
+#include "optimize/batch_optimizer.hpp"
+
+namespace nacre::optimize {
+
+/// Throws InputError when dimension, batch or a start is out of range; clamps the starts to the cube.
+void check_settings(BatchOptimizerSettings& settings);
+
+class RecordedOptimizer : public BatchOptimizer {
+ public:
+  explicit RecordedOptimizer(const BatchOptimizerSettings& settings);
+  std::vector<Point> ask() final;
+  void tell(const std::vector<std::optional<double>>& values) final;
+  std::optional<Evaluation> best() const final { return best_; }
+
+ protected:
+  /// `count` points more, after the starts have been asked for; fewer when nothing more can be gained.
+  virtual std::vector<Point> propose(int count) = 0;
+  /// Called when the values of a batch are recorded.
+  virtual void told() {}
+
+  /// Takes up what an earlier search was told without asking for it again.
+  void restore(const std::vector<Evaluation>& told);
+  int told_count() const { return static_cast<int>(evaluations_.size()); }
+  /// Values of all evaluations; a failure counts as somewhat worse than the worst success.
+  std::vector<double> values() const;
+
+  BatchOptimizerSettings settings_;
+  std::vector<Evaluation> evaluations_;
+  std::vector<Point> asked_;  ///< not answered yet
+
+ private:
+  bool gave_up() const;
+  void keep(Evaluation evaluation);
+  void look_for_gain();
+
+  std::optional<Evaluation> best_;
+  double milestone_ = 0.0;  ///< the value from which the last gain that counts was made
+  int milestone_at_ = 0;
+  std::size_t next_start_ = 0;
+};
+
+}  // namespace nacre::optimize

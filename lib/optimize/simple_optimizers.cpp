@@ -1,0 +1,136 @@
+// Rivals that need little more than NLopt or dice.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "optimize/recorded_optimizer.hpp"
+#include "optimize/replay.hpp"
+#include "optimize/rivals.hpp"
+#include "optimize/sobol.hpp"
+
+namespace nacre::optimize {
+namespace {
+
+class RandomSearch final : public RecordedOptimizer {
+ public:
+  explicit RandomSearch(const BatchOptimizerSettings& settings)
+      : RecordedOptimizer(settings), random_(settings.seed, "optimize/random") {}
+
+ private:
+  std::vector<Point> propose(int count) override {
+    std::vector<Point> points(static_cast<std::size_t>(count), Point(static_cast<std::size_t>(settings_.dimension)));
+    for (Point& point : points) {
+      for (double& coordinate : point) coordinate = random_.uniform();
+    }
+    return points;
+  }
+
+  RandomStream random_;
+};
+
+/// One run of a global algorithm of NLopt, replayed; a batch is filled by what it would want if the points before were
+/// as good as their nearest neighbours. Where that leads nowhere new, the batch is smaller.
+class ReplayedSearch final : public RecordedOptimizer {
+ public:
+  ReplayedSearch(nlopt::algorithm algorithm, const BatchOptimizerSettings& settings) : RecordedOptimizer(settings) {
+    const Point middle(static_cast<std::size_t>(settings_.dimension), 0.5);
+    search_ = {.algorithm = algorithm,
+               .start = settings_.starts.empty() ? middle : settings_.starts.front(),
+               .step = 0.2,
+               .smallest_step = 0.0,
+               .maximum_evaluations = 10 * settings.budget + 100,
+               .seed = settings.seed};
+  }
+
+ private:
+  std::vector<Point> propose(int count) override {
+    std::vector<Point> points;
+    const std::vector<double> value = values();
+    const auto known = [&](const Point& point) -> std::optional<double> {
+      for (std::size_t i = 0; i < evaluations_.size(); ++i) {
+        if (evaluations_[i].point == point) return value[i];
+      }
+      const auto pending = [&](const std::vector<Point>& others) {
+        return std::find(others.begin(), others.end(), point) != others.end();
+      };
+      if (pending(points) || pending(asked_)) return nearest(point, value);
+      return std::nullopt;
+    };
+    while (static_cast<int>(points.size()) < count) {
+      const std::optional<Point> point = next_unknown(search_, known);
+      if (!point) break;
+      points.push_back(*point);
+    }
+    return points;
+  }
+
+  double nearest(const Point& point, const std::vector<double>& value) const {
+    double nearest = HUGE_VAL, result = 0.0;
+    for (std::size_t i = 0; i < evaluations_.size(); ++i) {
+      double square = 0.0;
+      for (std::size_t k = 0; k < point.size(); ++k) square += std::pow(point[k] - evaluations_[i].point[k], 2);
+      if (square < nearest) nearest = square, result = value[i];
+    }
+    return result;
+  }
+
+  LocalSearch search_;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchOptimizer> make_random_search(const BatchOptimizerSettings& settings) {
+  return std::make_unique<RandomSearch>(settings);
+}
+
+std::unique_ptr<BatchOptimizer> make_replayed_search(nlopt::algorithm algorithm,
+                                                     const BatchOptimizerSettings& settings) {
+  return std::make_unique<ReplayedSearch>(algorithm, settings);
+}
+
+namespace {
+
+struct NamedAlgorithm {
+  Algorithm algorithm;
+  std::string_view name;
+};
+constexpr NamedAlgorithm kNames[] = {{Algorithm::bayesian, "bayesian"}, {Algorithm::trust_region, "trust_region"},
+                                     {Algorithm::random, "random"},     {Algorithm::direct_l, "direct_l"},
+                                     {Algorithm::crs2, "crs2"},         {Algorithm::cma_es, "cma_es"}};
+
+}  // namespace
+
+std::string_view to_string(Algorithm algorithm) {
+  for (const NamedAlgorithm& entry : kNames) {
+    if (entry.algorithm == algorithm) return entry.name;
+  }
+  return "unknown";
+}
+
+Result<Algorithm> algorithm_from_string(std::string_view name) {
+  for (const NamedAlgorithm& entry : kNames) {
+    if (entry.name == name) return entry.algorithm;
+  }
+  return fail("\"{}\" is no algorithm, expected bayesian, trust_region, random, direct_l, crs2 or cma_es", name);
+}
+
+std::unique_ptr<BatchOptimizer> make_optimizer(Algorithm algorithm, const BatchOptimizerSettings& settings) {
+  switch (algorithm) {
+    case Algorithm::bayesian:
+      return make_bayesian_optimizer(settings);
+    case Algorithm::random:
+      return make_random_search(settings);
+    case Algorithm::direct_l:
+      return make_replayed_search(nlopt::GN_DIRECT_L, settings);
+    case Algorithm::crs2:
+      return make_replayed_search(nlopt::GN_CRS2_LM, settings);
+    case Algorithm::cma_es:
+      return make_cma_es(settings);
+    case Algorithm::trust_region:
+      break;
+  }
+  return make_nlopt_optimizer(settings);
+}
+
+}  // namespace nacre::optimize
