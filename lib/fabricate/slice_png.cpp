@@ -1,0 +1,134 @@
+// libpng, in the corner where its long jumps cannot skip a destructor.
+
+#include <png.h>
+#include <zlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "fabricate/slices.hpp"
+
+namespace nacre::fabricate {
+namespace {
+
+// Nothing (support or air) in light blue, soft black, rigid white: told apart in any viewer.
+constexpr std::array<png_color, 3> kPalette = {png_color{170, 200, 235}, png_color{20, 20, 20},
+                                               png_color{245, 245, 245}};
+
+struct Fault {
+  std::array<char, 128> text{};
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+  auto* fault = static_cast<Fault*>(png_get_error_ptr(png));
+  std::strncpy(fault->text.data(), message, fault->text.size() - 1);
+  png_longjmp(png, 1);
+}
+void on_warning(png_structp, png_const_charp) {}
+
+void append(png_structp png, png_bytep bytes, std::size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), count);
+}
+void flush(png_structp) {}
+
+png_uint_32 per_metre(int dpi) { return static_cast<png_uint_32>(std::lround(dpi / 25.4e-3)); }
+
+/// Writes into `out`, which the caller owns; false when libpng gave up.
+bool encode(png_structp png, png_infop info, const Slice& slice, const Printer& printer, bool is_noise,
+            std::string* out) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_write_fn(png, out, append, flush);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(slice.columns), static_cast<png_uint_32>(slice.rows), 8,
+               PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_PLTE(png, info, kPalette.data(), static_cast<int>(kPalette.size()));
+  png_set_pHYs(png, info, per_metre(printer.dpi_x), per_metre(printer.dpi_y), PNG_RESOLUTION_METER);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_compression_level(png, is_noise ? 1 : 6);
+  if (is_noise) png_set_compression_strategy(png, Z_HUFFMAN_ONLY);
+  png_write_info(png, info);
+  for (int row = 0; row < slice.rows; ++row) {
+    png_write_row(png, reinterpret_cast<png_const_bytep>(slice.droplets.data()) + std::size_t(row) * slice.columns);
+  }
+  png_write_end(png, info);
+  return true;
+}
+
+/// What is still to be read of a file.
+struct Source {
+  const char* at;
+  std::size_t left;
+};
+
+void take(png_structp png, png_bytep bytes, std::size_t count) {
+  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (count > source->left) png_error(png, "the file ends early");
+  std::memcpy(bytes, source->at, count);
+  source->at += count;
+  source->left -= count;
+}
+
+bool decode_head(png_structp png, png_infop info, Source* source, Slice* slice) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_read_fn(png, source, take);
+  png_read_info(png, info);
+  if (png_get_color_type(png, info) != PNG_COLOR_TYPE_PALETTE) png_error(png, "not indexed");
+  png_set_packing(png);
+  slice->columns = static_cast<int>(png_get_image_width(png, info));
+  slice->rows = static_cast<int>(png_get_image_height(png, info));
+  return true;
+}
+
+bool decode_rows(png_structp png, Slice* slice) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  for (int row = 0; row < slice->rows; ++row) {
+    png_read_row(png, reinterpret_cast<png_bytep>(slice->droplets.data()) + std::size_t(row) * slice->columns, nullptr);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string to_png(const Slice& slice, const Printer& printer, bool is_noise) {
+  Fault fault;
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
+  png_infop info = png_create_info_struct(png);
+  const bool written = encode(png, info, slice, printer, is_noise, &bytes);
+  png_destroy_write_struct(&png, &info);
+  if (!written) throw InputError::format("a slice cannot be written as PNG: {}", fault.text.data());
+  return bytes;
+}
+
+Slice read_slice(const std::filesystem::path& path) {
+  constexpr int kLongestSide = 1 << 17;
+  const std::string file = read_file(path);
+  Source source{file.data(), file.size()};
+  Fault fault;
+  Slice slice;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
+  png_infop info = png_create_info_struct(png);
+  bool read = decode_head(png, info, &source, &slice);
+  if (read && (slice.columns > kLongestSide || slice.rows > kLongestSide)) {
+    std::strncpy(fault.text.data(), "more than 131072 droplets along a side", fault.text.size() - 1);
+    read = false;
+  }
+  if (read) {
+    slice.droplets.resize(static_cast<std::size_t>(slice.columns) * static_cast<std::size_t>(slice.rows));
+    read = decode_rows(png, &slice);
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!read)
+    throw InputError::format("{}: no readable slice: {}; expected an indexed PNG", path.string(), fault.text.data());
+  for (const Droplet droplet : slice.droplets) {
+    if (droplet > Droplet::rigid) {
+      throw InputError::format("{}: index {} in the picture, expected 0 none, 1 soft or 2 rigid", path.string(),
+                               static_cast<int>(droplet));
+    }
+  }
+  return slice;
+}
+
+}  // namespace nacre::fabricate

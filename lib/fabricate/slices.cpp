@@ -1,0 +1,89 @@
+#include "fabricate/slices.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <mutex>
+
+#include "base/files.hpp"
+#include "base/hash.hpp"
+#include "base/parallel.hpp"
+#include "base/result.hpp"
+
+namespace nacre::fabricate {
+namespace {
+
+bool is_slice_name(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return dot >= 4 && dot != std::string::npos && name.substr(dot) == ".png" &&
+         name.find_first_not_of("0123456789") == dot;
+}
+
+void empty_folder_of_slices(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw InputError::format("{}: cannot be made: {}", folder.string(), failure.message());
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (is_slice_name(entry.path().filename().string())) old.push_back(entry.path());
+  }
+  for (const auto& path : old) std::filesystem::remove(path, failure);
+}
+
+/// Plainly: thousands of slices need no sync to disk each, the build sheet that vouches for them comes last.
+void write_plainly(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw InputError::format("{}: cannot be written: {}", path.string(), std::strerror(errno));
+}
+
+}  // namespace
+
+std::string slice_name(int layer) { return fmt::format("{:04}.png", layer); }
+
+void write_slices(const DropletPlan& plan, const Printer& printer, const std::filesystem::path& folder,
+                  const std::function<void(int)>& done) {
+  empty_folder_of_slices(folder);
+  const bool alike = plan.layers_are_alike();
+  const std::string common = alike ? to_png(plan.slice(0), printer, false) : "";
+  std::mutex reporting;
+  int written = 0;
+  parallel_for(plan.layers(), [&](int layer) {
+    write_plainly(folder / slice_name(layer), alike ? common : to_png(plan.slice(layer), printer, true));
+    const std::lock_guard lock(reporting);
+    ++written;
+    if (done) done(written);
+  });
+}
+
+StackCount count_slices(const std::filesystem::path& folder) {
+  StackCount stack;
+  std::string last_bytes_hash;
+  while (std::filesystem::exists(folder / slice_name(stack.layers))) {
+    const std::filesystem::path path = folder / slice_name(stack.layers);
+    // The same file again holds the same droplets.
+    std::string bytes_hash = content_hash(read_file(path));
+    if (bytes_hash == last_bytes_hash) {
+      stack.by_layer.push_back(stack.by_layer.back());
+    } else {
+      const Slice slice = read_slice(path);
+      if (stack.layers > 0 && (slice.columns != stack.columns || slice.rows != stack.rows)) {
+        throw InputError::format("{}: {} x {} droplets, expected {} x {} as in the slices below", path.string(),
+                                 slice.columns, slice.rows, stack.columns, stack.rows);
+      }
+      stack.columns = slice.columns;
+      stack.rows = slice.rows;
+      stack.by_layer.push_back(count_droplets(slice));
+    }
+    last_bytes_hash = std::move(bytes_hash);
+    for (std::size_t i = 0; i < stack.total.size(); ++i) stack.total[i] += stack.by_layer.back()[i];
+    ++stack.layers;
+  }
+  if (stack.layers == 0) throw InputError::format("{}: holds no slices, expected 0000.png and so on", folder.string());
+  return stack;
+}
+
+}  // namespace nacre::fabricate
