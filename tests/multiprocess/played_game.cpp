@@ -67,7 +67,7 @@ void PlayedGame::play_on() { wait_until_said(process_, "\n\n\n", said_, kTurnS);
 bool PlayedGame::play_until(const std::function<bool()>& condition, double timeout_s) {
   const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
   while (!condition()) {
-    if (is_over() || Clock::now() > end) return false;
+    if (is_over() || Clock::now() > end) return condition();  // it may have come true with the end
     play_on();
   }
   return true;

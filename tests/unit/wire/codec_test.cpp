@@ -1,5 +1,6 @@
 #include "wire/codec.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -8,10 +9,13 @@
 #include "base/random.hpp"
 #include "samples.hpp"
 #include "wire/channels.hpp"
+#include "wire/from_json.hpp"
 #include "wire/header.hpp"
 
 namespace nacre::wire {
 namespace {
+
+using testing::HasSubstr;
 
 /// Caps the address space while it lives, so that a decoder which believes a hostile length fails the test.
 class MemoryCap {
@@ -118,6 +122,34 @@ TEST(Schema, FollowsTheGeneratedTypes) {
   }
   EXPECT_EQ((*to_json("simulate_request_t", write(samples::request())))["designs"][1], "mix:0.65");
   EXPECT_FALSE(to_json("no_such_t", "12345678"));
+}
+
+TEST(Json, MakesTheSameMessageAgainToTheLastBit) {
+  for (const auto& [name, payload] : samples::payloads()) {
+    const std::string_view type = find_channel(name)->type;
+    const std::string text = to_json(type, payload)->dump();
+    const auto again = from_json(type, nlohmann::ordered_json::parse(text));
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(*again, payload) << name;
+  }
+}
+
+TEST(Json, ThatIsNoMessageIsRefusedWithItsMember) {
+  const auto message = *to_json("proposal_t", write(samples::proposal()));
+  const auto refusal = [&](const char* pointer, const nlohmann::ordered_json& value) {
+    nlohmann::ordered_json wrong = message;
+    wrong[nlohmann::ordered_json::json_pointer(pointer)] = value;
+    const auto refused = from_json("proposal_t", wrong);
+    return refused ? std::string() : refused.error().message;
+  };
+  EXPECT_EQ(refusal("/round", message["round"]), "");
+  EXPECT_THAT(refusal("/round", 1.5), HasSubstr("round: expected a whole number"));
+  EXPECT_THAT(refusal("/round", std::int64_t{1} << 40), HasSubstr("round: expected a whole number from -2147483648"));
+  EXPECT_THAT(refusal("/designs/0/modulus_pa", "much"), HasSubstr("designs[0].modulus_pa: expected a number"));
+  EXPECT_THAT(refusal("/designs/0/design", std::string(3, '\0')), HasSubstr("designs[0].design: expected a text"));
+  EXPECT_THAT(refusal("/designs", nlohmann::ordered_json::array()), HasSubstr("designs: expected an array of"));
+  EXPECT_THAT(refusal("/strange", 1), HasSubstr("members"));
+  EXPECT_FALSE(from_json("no_such_t", message));
 }
 
 TEST(Schema, NamesTheFirstFieldThatDiffers) {

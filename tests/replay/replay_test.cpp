@@ -1,0 +1,113 @@
+// Golden games: every node still says what it said when the game was written down, to the last bit.
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "golden_game.hpp"
+#include "program.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+
+const fs::path kGames = fs::path(NACRE_SOURCE_DIR) / "tests/replay/games";
+
+nlohmann::json replayed(const fs::path& run, const std::string& node) {
+  const Outcome replay = run_nacre({"replay", run.string(), "--node", node, "--json"});
+  const auto report = nlohmann::json::parse(replay.out, nullptr, false);
+  if (report.is_discarded()) return {{"equal", false}, {"difference", replay.err}};
+  return report;
+}
+
+class GoldenGame : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override { run_ = fresh_folder(GetParam()); }
+  static fs::path game() { return kGames / GetParam(); }
+  fs::path run_;
+};
+
+TEST_P(GoldenGame, IsSaidAgainByEveryNode) {
+  golden::unpack_golden_game(game(), run_);
+  const std::vector<std::string> nodes = golden::nodes_of(run_);
+  EXPECT_THAT(nodes, IsSupersetOf({"validation_agent", "proposal_agent", "analyser"}));
+  for (const std::string& node : nodes) {
+    const auto report = replayed(run_, node);
+    EXPECT_TRUE(report["equal"]) << node << ": " << report["difference"].get<std::string>()
+                                 << "\nIf this change is meant, record the games again: tests/replay/README.md.";
+    EXPECT_GT(report["inputs"], 2) << node;
+    EXPECT_GT(report["outputs"].get<int>() + report["computes"].get<int>(), 2) << node;
+    EXPECT_EQ(report["unfinished"], 0) << node;
+  }
+}
+
+/// The first number behind `key` in a line, made another one.
+std::string with_another(const std::string& line, const std::string& key) {
+  const std::regex number("(\"" + key + "\":)(-?[0-9.e+-]+)");
+  std::smatch found;
+  if (!std::regex_search(line, found, number)) throw InputError("no " + key + " in " + line);
+  return found.prefix().str() + found[1].str() + fmt::format("{}", 1.5 * std::stod(found[2].str()) + 1.0) +
+         found.suffix().str();
+}
+
+/// A golden game's lines with one changed: the first that contains `mark`.
+void alter(const fs::path& file, const std::string& mark, const std::string& key) {
+  std::istringstream lines(read_file(file));
+  std::string altered;
+  bool is_altered = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool meant = !is_altered && line.find(mark) != std::string::npos;
+    altered += (meant ? with_another(line, key) : line) + "\n";
+    is_altered = is_altered || meant;
+  }
+  ASSERT_TRUE(is_altered) << mark;
+  write_file_atomically(file, altered);
+}
+
+struct Alteration {
+  std::string on;    // channel of the message that is changed
+  std::string key;   // its member
+  std::string node;  // who says it
+};
+
+TEST_P(GoldenGame, WithAnAlteredFieldIsNoticedAndTheFieldNamed) {
+  const Alteration alterations[] = {{"ROUND", "signed_gap", "validation_agent"},
+                                    {"GAMUT", "round", "proposal_agent"},
+                                    {"SIMULATED", "modulus_pa", "simulator_farm"}};
+  golden::unpack_golden_game(game(), run_);
+  for (const Alteration& alteration : alterations) {
+    if (!fs::exists(run_ / "nodes" / alteration.node)) continue;
+    const fs::path copy = fresh_folder("altered"), run = fresh_folder("altered_run");
+    fs::copy(game(), copy, fs::copy_options::recursive);
+    alter(copy / "game.jsonl", "\"on\":\"" + alteration.on + "\"", alteration.key);
+    golden::unpack_golden_game(copy, run);
+    const auto report = replayed(run, alteration.node);
+    EXPECT_FALSE(report["equal"]) << alteration.on;
+    EXPECT_THAT(report["difference"].get<std::string>(), AllOf(HasSubstr(alteration.on), HasSubstr(alteration.key)));
+  }
+}
+
+TEST_P(GoldenGame, WrittenDownAgainIsTheSameText) {
+  golden::unpack_golden_game(game(), run_);
+  const fs::path again = fresh_folder("again");
+  golden::write_golden_game(run_, again);
+  EXPECT_TRUE(read_file(again / "game.jsonl") == read_file(game() / "game.jsonl"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Games, GoldenGame, testing::Values("laboratory", "person"),
+                         [](const auto& game) { return std::string(game.param); });
+
+}  // namespace
+}  // namespace nacre
