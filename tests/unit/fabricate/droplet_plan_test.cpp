@@ -221,9 +221,9 @@ TEST(DropletPlan, EngineeringStaysWithThePrintersAxes) {
     const Slice slice = plan.slice(0);
     const bool turned = orientation == 90.0;
     int compared = 0;
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < 500; ++k) {
       // A droplet at an interface, and the next one across the alternation.
-      const int row = turned ? 400 + k : plan.y().begin_of(5), column = turned ? plan.x().begin_of(5) : 100 + k;
+      const int row = turned ? 400 + k : plan.y().begin_of(5), column = turned ? plan.x().begin_of(5) : k;
       if (plan.area(column, row) != (turned ? Area::type_1 : Area::type_2)) continue;
       const int next_row = turned ? row + 1 : row, next_column = turned ? column : column + 1;
       if (plan.area(next_column, next_row) != plan.area(column, row)) continue;
