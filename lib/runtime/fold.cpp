@@ -3,23 +3,15 @@
 #include <iterator>
 #include <utility>
 
+#include "runtime/content_difference.hpp"
 #include "runtime/journal.hpp"
-#include "wire/channels.hpp"
 #include "wire/header.hpp"
-#include "wire/schema.hpp"
 
 namespace nacre::runtime {
 namespace {
 
 std::string place(const LogRecord& record) {
   return fmt::format("record {} (byte {}, {})", record.number, record.offset, record.channel);
-}
-
-/// What differs between two payloads of a channel, field by field where the type is known.
-std::string difference(const std::string& channel, const std::string& recorded, const std::string& now) {
-  const wire::Channel* known = wire::find_channel(channel);
-  if (!known) return "the bytes differ";
-  return wire::first_difference(known->type, recorded, now).value_or("the bytes differ");
 }
 
 Result<std::vector<std::string>> fields_of(const LogRecord& record, std::size_t count) {
@@ -79,7 +71,7 @@ Result<void> Fold::output(const LogRecord& record) {
   expected_messages_.pop_front();
   if (now.channel != channel) return fail("{}: the core now says {} instead", place(record), now.channel);
   if (now.payload != record.data) {
-    return fail("{}: recorded against now: {}", place(record), difference(channel, record.data, now.payload));
+    return fail("{}: recorded against now: {}", place(record), content_difference(record.data, now.payload));
   }
   ++outputs;
   if (on_output) on_output(now);
@@ -96,7 +88,10 @@ Result<void> Fold::compute(const LogRecord& record) {
   expected_computes_.pop_front();
   if (!(now == recorded)) {
     return fail("{}: recorded the work {} ({}), now {} ({}){}", place(record), recorded.id, recorded.kind, now.id,
-                now.kind, now.id == recorded.id && now.kind == recorded.kind ? " with another spec" : "");
+                now.kind,
+                now.id == recorded.id && now.kind == recorded.kind
+                    ? ", whose spec differs: " + content_difference(recorded.spec, now.spec)
+                    : "");
   }
   ++computes;
   asked_index_[now.id] = asked_.size();

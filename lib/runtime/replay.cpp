@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/result.hpp"
+#include "runtime/content_difference.hpp"
 #include "runtime/fold.hpp"
 #include "runtime/journal.hpp"
 #include "wire/channels.hpp"
@@ -29,10 +30,8 @@ Result<void> compare_work(const std::map<std::string, WorkFunction>& work, const
   const Result<std::string> now = do_work(work, compute);
   if (!now) return tl::unexpected(now.error());
   if (*now == recorded) return {};
-  std::size_t at = 0;
-  while (at < now->size() && at < recorded.size() && (*now)[at] == recorded[at]) ++at;
-  return fail("the result of work {} ({}) differs from byte {} on ({} bytes recorded, {} now)", compute.id,
-              compute.kind, at, recorded.size(), now->size());
+  return fail("the result of work {} ({}) differs, recorded against now: {}", compute.id, compute.kind,
+              content_difference(recorded, *now));
 }
 
 /// What is played from a bus log: the core's side of the game.
