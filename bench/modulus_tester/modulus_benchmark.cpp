@@ -1,7 +1,12 @@
 // Time of one modulus on one thread, and of its parts.
 
+#include <memory>
+#include <vector>
+
 #include <benchmark/benchmark.h>
 
+#include "fem/element.hpp"
+#include "fem/frontal_cholesky.hpp"
 #include "fem/static_solver.hpp"
 #include "tester/assembly.hpp"
 #include "tester/tester.hpp"
@@ -31,6 +36,43 @@ void assembly(benchmark::State& state) {
         tester::assemble(simulation.design, simulation.parameters, {}, tester::AssemblyTarget::modulus, 2, 1));
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond);
+
+/// The factorisation of the full specimen by itself, held as in the tester but for one unknown.
+struct Factorisation {
+  Factorisation() {
+    const tester::Simulation simulation = published(tester::Fidelity::full);
+    const fem::Grid grid =
+        tester::assemble(simulation.design, simulation.parameters, {}, tester::AssemblyTarget::modulus, 2, 1);
+    held.assign(static_cast<std::size_t>(2 * (grid.columns + 1) * (grid.rows + 1)), 0);
+    for (int column = 0; column <= grid.columns; ++column)
+      held[static_cast<std::size_t>(2 * column + 1)] =
+          held[static_cast<std::size_t>(2 * (grid.rows * (grid.columns + 1) + column) + 1)] = 1;
+    held[0] = 1;
+    lame = fem::lame_of(grid);
+    cholesky =
+        std::make_unique<fem::FrontalCholesky>(std::make_shared<const fem::DissectionPlan>(fem::dissect(grid, held)));
+    cholesky->factorise(lame);
+  }
+  std::vector<char> held;
+  std::vector<material::Lame> lame;
+  std::unique_ptr<fem::FrontalCholesky> cholesky;
+};
+
+void factorise(benchmark::State& state) {
+  Factorisation factorisation;
+  for (auto _ : state) benchmark::DoNotOptimize(factorisation.cholesky->factorise(factorisation.lame));
+}
+BENCHMARK(factorise)->Unit(benchmark::kMicrosecond);
+
+void solve(benchmark::State& state) {
+  Factorisation factorisation;
+  std::vector<double> x(factorisation.held.size(), 1.0);
+  for (auto _ : state) {
+    factorisation.cholesky->solve(x);
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(solve)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace nacre

@@ -9,7 +9,7 @@ namespace nacre::fem {
 namespace {
 
 /// Blocks are not cut further once they have this many elements: smaller ones need fewer operations but more fronts.
-constexpr int kSmallestBlock = 12;
+constexpr int kSmallestBlock = 20;
 
 /// Elements [left, right) x [bottom, top).
 struct Rectangle {
@@ -19,8 +19,24 @@ struct Rectangle {
 
 class Dissector {
  public:
-  Dissector(const Grid& grid, const std::vector<char>& held)
-      : grid_(grid), held_(held), place_(held.size(), std::int16_t{-1}) {}
+  Dissector(const Grid& grid, const std::vector<char>& held) : grid_(grid), held_(held), row_(held.size(), kNoRow) {
+    dissect({.left = 0, .right = grid.columns, .bottom = 0, .top = grid.rows});
+    plan.unknowns = static_cast<int>(held.size());
+    // From the whole grid down, so that every border follows the rows it goes to and is moved in few long runs.
+    for (std::size_t k = plan.blocks.size(); k-- > 0;) {
+      DissectionBlock& block = plan.blocks[k];
+      number_rows(block);
+      if (block.halves[0] < 0)
+        place_elements(rectangles_[k], block);
+      else
+        for (std::size_t half = 0; half < 2; ++half) place_border(half, block);
+    }
+  }
+
+  DissectionPlan plan;
+
+ private:
+  static constexpr std::int16_t kNoRow = -1;
 
   /// Index of the block of that rectangle.
   int dissect(const Rectangle& r) {
@@ -32,14 +48,11 @@ class Dissector {
       block.halves = {dissect(first), dissect(second)};
       join_borders(r, block);
     }
-    assign_places(r, block);
     plan.blocks.push_back(std::move(block));
+    rectangles_.push_back(r);
     return static_cast<int>(plan.blocks.size()) - 1;
   }
 
-  DissectionPlan plan;
-
- private:
   static std::pair<Rectangle, Rectangle> halved(const Rectangle& r) {
     const int width = r.right - r.left, height = r.top - r.bottom;
     Rectangle first = r, second = r;
@@ -81,17 +94,24 @@ class Dissector {
     for (const int unknown : unknowns) add_unknown(r, unknown, block);
   }
 
-  void assign_places(const Rectangle& r, DissectionBlock& block) {
-    assert(block.front_size() < INT16_MAX);
+  void number_rows(const DissectionBlock& block) {
     std::int16_t next = 0;
-    for (const std::vector<int>* unknowns : {&block.pivots, &block.border})
-      for (const int unknown : *unknowns) place_[static_cast<std::size_t>(unknown)] = next++;
-    if (block.halves[0] < 0) {
-      place_elements(r, block);
-    } else {
-      for (std::size_t half = 0; half < 2; ++half)
-        for (const int unknown : plan.blocks[static_cast<std::size_t>(block.halves[half])].border)
-          block.half_places[half].push_back(place_[static_cast<std::size_t>(unknown)]);
+    for (const int unknown : block.pivots) row_[static_cast<std::size_t>(unknown)] = next++;
+    const int pivot_rows = padded_front_rows(block.pivot_count());
+    assert(pivot_rows + block.border_count() < INT16_MAX);
+    next = static_cast<std::int16_t>(pivot_rows);
+    for (const int unknown : block.border) row_[static_cast<std::size_t>(unknown)] = next++;
+  }
+
+  void place_border(std::size_t half, DissectionBlock& block) {
+    const auto row = [this](int unknown) { return row_[static_cast<std::size_t>(unknown)]; };
+    std::vector<int>& border = plan.blocks[static_cast<std::size_t>(block.halves[half])].border;
+    std::sort(border.begin(), border.end(), [&](int a, int b) { return row(a) < row(b); });
+    std::vector<BorderRun>& runs = block.half_runs[half];
+    for (std::size_t i = 0; i < border.size(); ++i) {
+      if (runs.empty() || runs.back().row + runs.back().count != row(border[i]))
+        runs.push_back({.from = static_cast<std::int16_t>(i), .row = row(border[i]), .count = 0});
+      ++runs.back().count;
     }
   }
 
@@ -100,29 +120,27 @@ class Dissector {
       for (int column = r.left; column < r.right; ++column) {
         if (grid_.phase[static_cast<std::size_t>(grid_.index(row, column))] == Phase::empty) continue;
         const auto nodes = element_nodes(grid_, row, column);
-        std::array<std::int16_t, 8> places;
+        std::array<std::int16_t, 8> rows;
         for (std::size_t a = 0; a < 8; ++a) {
           const auto unknown = static_cast<std::size_t>(2 * nodes[a / 2]) + a % 2;
-          places[a] = held_[unknown] ? std::int16_t{-1} : place_[unknown];
+          rows[a] = held_[unknown] ? kNoRow : row_[unknown];
         }
         block.elements.push_back(grid_.index(row, column));
-        block.element_places.push_back(places);
+        block.element_rows.push_back(rows);
       }
   }
 
   const Grid& grid_;
   const std::vector<char>& held_;
-  std::vector<std::int16_t> place_;  ///< in the front of the block at hand
+  std::vector<Rectangle> rectangles_;
+  std::vector<std::int16_t> row_;  ///< in the front of the block at hand
 };
 
 }  // namespace
 
 DissectionPlan dissect(const Grid& grid, const std::vector<char>& held) {
   assert(held.size() == static_cast<std::size_t>(2 * (grid.columns + 1) * (grid.rows + 1)));
-  Dissector dissector(grid, held);
-  dissector.dissect({.left = 0, .right = grid.columns, .bottom = 0, .top = grid.rows});
-  dissector.plan.unknowns = static_cast<int>(held.size());
-  return std::move(dissector.plan);
+  return Dissector(grid, held).plan;
 }
 
 }  // namespace nacre::fem

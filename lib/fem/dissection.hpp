@@ -8,22 +8,24 @@
 #include <cstdint>
 #include <vector>
 
+#include "fem/frontal_kernel.hpp"
 #include "fem/grid.hpp"
 
 namespace nacre::fem {
 
-/// One block of elements. Its front is a dense symmetric matrix over `pivots`, then `border`.
+/// One block of elements. Its front is a dense symmetric matrix over `pivots`, then `border`, padded as FrontView says.
 struct DissectionBlock {
   std::vector<int> pivots;  ///< unknowns eliminated here, 2 node + direction
-  std::vector<int> border;  ///< unknowns that the block shares with the rest of the grid
-  /// Of the smallest blocks: their elements, and the place in the front of each of an element's eight unknowns (-1
-  /// held).
+  std::vector<int>
+      border;  ///< unknowns that the block shares with the rest of the grid, in the order of the whole's rows
+  /// Of the smallest blocks: their elements, and the row of the front of each of an element's eight unknowns (-1 held).
   std::vector<int> elements;
-  std::vector<std::array<std::int16_t, 8>> element_places;
-  /// Of the others: the two halves, and the place in the front of each unknown of the half's border.
+  std::vector<std::array<std::int16_t, 8>> element_rows;
+  /// Of the others: the two halves, and where their borders go.
   std::array<int, 2> halves = {-1, -1};
-  std::array<std::vector<std::int16_t>, 2> half_places;
-  int front_size() const { return static_cast<int>(pivots.size() + border.size()); }
+  std::array<std::vector<BorderRun>, 2> half_runs;
+  int pivot_count() const { return static_cast<int>(pivots.size()); }
+  int border_count() const { return static_cast<int>(border.size()); }
 };
 
 /// The blocks in the order of elimination: halves before the whole, the whole grid last.

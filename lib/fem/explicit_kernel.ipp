@@ -18,7 +18,7 @@
 
 namespace nacre::fem::NACRE_SIMD {
 
-#include "fem/explicit_simd.hpp"
+#include "fem/simd_packs.hpp"
 
 /// Abscissa of the first Gauss point on the unit interval, (1 - 1/sqrt 3) / 2.
 inline constexpr double kGauss = 0.21132486540518711775;
@@ -310,33 +310,65 @@ void zero_row(Real* row, int columns) {
   for (int i = 0; i <= columns; i += kLanes<Real>) store(row + i, Pack<Real>{});
 }
 
+/// Before the sweep: nothing comes from below the bottom row of nodes.
+template <class Real>
+void start_sweep(const ExplicitState<Real>& s) {
+  Real* const carried[] = {s.row.upper_x, s.row.upper_y, s.row.below_x, s.row.below_y};
+  for (Real* row : carried) zero_row(row, s.columns);
+}
+
+/// After the last row of elements: none stands above the top row of nodes.
+template <class Real>
+void end_sweep(const ExplicitState<Real>& s) {
+  const ExplicitRows<Real>& r = s.row;
+  Real* const above[] = {r.left_x, r.right_x, r.left_y, r.right_y};
+  for (Real* row : above) zero_row(row, s.columns);
+  for (int i = 0; i <= s.columns; i += kLanes<Real>) {
+    store(r.horizontal_x + i, load(r.upper_x + i));
+    store(r.horizontal_y + i, load(r.upper_y + i));
+  }
+}
+
 template <class Real, bool Ledger>
 void advance(ExplicitState<Real>& s) {
   const FlushToZero flush;
-  const ExplicitRows<Real>& r = s.row;
   s.failed_count = 0;
   s.damping_work = 0.0;
-  Real* const carried[] = {r.upper_x, r.upper_y, r.below_x, r.below_y};
-  for (Real* row : carried) zero_row(row, s.columns);
+  start_sweep(s);
   for (int row = 0; row < s.rows; ++row) {
     if (element_row(s, row)) list_failed(s, row);
     if (row == 0) {
       accelerate_row<Real, true>(s, 0);
-      s.bottom_force = ordered_sum(r.below_y, s.columns);
+      s.bottom_force = ordered_sum(s.row.below_y, s.columns);
     } else {
       accelerate_row<Real, false>(s, row);
     }
     if (row < 2) sum_row(s, row);
     if (row > 0) finish_row<Real, Ledger>(s, row - 1);
   }
-  // The upper grip: no element row above it.
-  s.top_force = ordered_sum(r.below_y, s.columns);
-  Real* const above[] = {r.left_x, r.right_x, r.left_y, r.right_y};
-  for (Real* row : above) zero_row(row, s.columns);
-  for (int i = 0; i <= s.columns; i += kLanes<Real>) store(r.horizontal_x + i, load(r.upper_x + i));
+  s.top_force = ordered_sum(s.row.below_y, s.columns);
+  end_sweep(s);
   accelerate_row<Real, true>(s, s.rows);
   finish_row<Real, Ledger>(s, s.rows - 1);
   finish_row<Real, Ledger>(s, s.rows);
+}
+
+template <class Real>
+void internal_forces(ExplicitState<Real>& s) {
+  const FlushToZero flush;
+  start_sweep(s);
+  for (int row = 0; row <= s.rows; ++row) {
+    zero_row(s.vx + row * s.stride, s.columns);
+    zero_row(s.vy + row * s.stride, s.columns);
+    if (row < s.rows) {
+      element_row(s, row);
+    } else {
+      s.top_force = ordered_sum(s.row.below_y, s.columns);
+      end_sweep(s);
+    }
+    accelerate_row<Real, false>(s, row);
+    if (row == 0) s.bottom_force = ordered_sum(s.row.below_y, s.columns);
+  }
 }
 
 template <class Real>
@@ -361,7 +393,8 @@ int first_inverted(const ExplicitState<Real>& s) {
   return -1;
 }
 
-extern const ExplicitKernel<float> kSingle = {advance<float, false>, advance<float, true>, first_inverted<float>};
-extern const ExplicitKernel<double> kDouble = {advance<double, false>, advance<double, true>, first_inverted<double>};
+extern const ExplicitKernel<float> kSingle = {advance<float, false>, advance<float, true>, first_inverted<float>, internal_forces<float>};
+extern const ExplicitKernel<double> kDouble = {advance<double, false>, advance<double, true>, first_inverted<double>,
+                                               internal_forces<double>};
 
 }  // namespace nacre::fem::NACRE_SIMD

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <new>
 
 #include "material/neo_hookean.hpp"
 
@@ -12,9 +11,6 @@ namespace nacre::fem {
 namespace {
 
 constexpr int kCheckInterval = 64;
-constexpr std::size_t kAlignment = 64;
-
-int padded(int count) { return (count + kRowPadding - 1) / kRowPadding * kRowPadding; }
 
 /// Lame parameters of an element of the grid.
 material::Lame lame_of(const Grid& grid, int element) {
@@ -43,76 +39,18 @@ double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3) {
   return std::sqrt(stiffest / density_kg_per_m3);
 }
 
-/// One aligned block for all arrays of a solver, handed out in order and zero at first.
-template <class Real>
-struct ExplicitSolver<Real>::Storage {
-  explicit Storage(std::size_t numbers, int elements)
-      : block(static_cast<Real*>(::operator new[](numbers * sizeof(Real), std::align_val_t{kAlignment}))),
-        size(numbers),
-        failed(static_cast<std::size_t>(elements)) {
-    std::fill_n(block, size, Real{0});
-  }
-  ~Storage() { ::operator delete[](block, std::align_val_t{kAlignment}); }
-  Storage(const Storage&) = delete;
-  Storage& operator=(const Storage&) = delete;
-
-  /// `count` numbers with `front` before them.
-  Real* take(std::size_t count, std::size_t front = 0) {
-    Real* start = block + used + front;
-    used += front + count;
-    assert(used <= size);
-    return start;
-  }
-
-  Real* block;
-  std::size_t size, used = 0;
-  std::vector<std::int32_t> failed;
-};
-
 template <class Real>
 ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& settings)
-    : grid_(grid), settings_(settings) {
+    : grid_(grid), settings_(settings), storage_(grid.columns, grid.rows, settings.keep_ledger) {
   const SimdLevel level = settings.simd.value_or(best_simd_level());
   assert(has_simd_level(level));
-  const auto choose = [&]<class Single>(const ExplicitKernel<Single>* a, const ExplicitKernel<Single>* b,
-                                        const ExplicitKernel<Single>* c) {
-    return level == SimdLevel::avx512 ? c : level == SimdLevel::avx2 ? b : a;
-  };
-  if constexpr (sizeof(Real) == sizeof(float)) {
-    kernel_ = choose(&baseline::kSingle, &avx2::kSingle, &avx512::kSingle);
-  } else {
-    kernel_ = choose(&baseline::kDouble, &avx2::kDouble, &avx512::kDouble);
-  }
-  state_.columns = grid.columns;
-  state_.rows = grid.rows;
-  state_.stride = padded(grid.columns + 1) + kRowPadding;
-  state_.element_stride = padded(grid.columns);
-  const std::size_t nodes = static_cast<std::size_t>(grid.rows + 1) * state_.stride + kRowPadding;
-  const std::size_t elements = static_cast<std::size_t>(grid.rows) * state_.element_stride;
-  constexpr std::size_t kRowCount = 20;
-  const std::size_t fields = settings.keep_ledger ? 6 : 4;
-  const std::size_t row = static_cast<std::size_t>(state_.stride) + kRowPadding;
-  storage_ = std::make_unique<Storage>(fields * nodes + 3 * elements + kRowCount * row, grid.element_count());
-  for (Real** field : {&state_.qx, &state_.qy, &state_.vx, &state_.vy})
-    *field = storage_->take(nodes - kRowPadding, kRowPadding);
-  for (Real** field : {&state_.mu, &state_.lambda, &state_.threshold}) *field = storage_->take(elements);
-  ExplicitRows<Real>& r = state_.row;
-  for (Real** field : {&r.horizontal_x, &r.horizontal_y, &r.upper_x, &r.upper_y, &r.left_x, &r.left_y, &r.right_x,
-                       &r.right_y, &r.below_x, &r.below_y, &r.excess, &r.sum_x[0], &r.sum_x[1], &r.sum_x[2],
-                       &r.sum_y[0], &r.sum_y[1], &r.sum_y[2], &r.weight})
-    *field = storage_->take(row - kRowPadding, kRowPadding);
-  if (settings.keep_ledger) {
-    state_.ledger = {.last_vx = storage_->take(nodes - kRowPadding, kRowPadding),
-                     .last_vy = storage_->take(nodes - kRowPadding, kRowPadding),
-                     .before_x = storage_->take(row - kRowPadding, kRowPadding),
-                     .before_y = storage_->take(row - kRowPadding, kRowPadding)};
-  }
+  kernel_ = &explicit_kernel<Real>(level);
+  state_ = storage_.state();
   const double alpha = settings.gamma_per_s * settings.time_step_s;
-  std::fill_n(r.weight + 1, grid.columns - 1, static_cast<Real>(alpha));
+  std::fill_n(state_.row.weight + 1, grid.columns - 1, static_cast<Real>(alpha));
   state_.damping = settings.damping;
   state_.decay = static_cast<Real>(std::exp(-alpha));
   state_.grip_step = settings.strain_rate_per_s * settings.time_step_s * grid.rows;
-  state_.failed = storage_->failed.data();
   fill_elements();
   if (settings.keep_ledger) {
     ledger_.initial_kinetic = kinetic_energy();

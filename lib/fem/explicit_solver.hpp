@@ -6,27 +6,16 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "base/result.hpp"
-#include "fem/explicit_state.hpp"
+#include "fem/explicit_storage.hpp"
 #include "fem/grid.hpp"
+#include "fem/simd_level.hpp"
 
 namespace nacre::fem {
-
-/// Instruction sets the kernel is compiled for. All give the same bits; they differ in speed alone.
-enum class SimdLevel { baseline, avx2, avx512 };
-std::string_view to_string(SimdLevel level);
-
-/// The widest level this processor has; the environment variable NACRE_SIMD = baseline | avx2 | avx512 forces a lower
-/// one.
-SimdLevel best_simd_level();
-
-/// Whether this processor can run `level`.
-bool has_simd_level(SimdLevel level);
 
 /// Speed of the fastest elastic wave in any element that is not empty, sqrt((lambda + 2 mu) / rho), m/s.
 double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3);
@@ -116,11 +105,10 @@ class ExplicitSolver {
   double smallest_volume_ratio(int element) const;
   std::size_t node_offset(int node) const;
 
-  struct Storage;
   Grid grid_;
   ExplicitSettings settings_;
   const ExplicitKernel<Real>* kernel_ = nullptr;
-  std::unique_ptr<Storage> storage_;
+  ExplicitStorage<Real> storage_;
   ExplicitState<Real> state_{};
   std::int64_t steps_ = 0;
   EnergyLedger ledger_;

@@ -16,6 +16,8 @@
 
 #include <cstdint>
 
+#include "fem/simd_level.hpp"
+
 namespace nacre::fem {
 
 enum class Damping {
@@ -76,7 +78,14 @@ struct ExplicitKernel {
   void (*advance_with_ledger)(ExplicitState<Real>&);
   /// First element that is not empty and has J <= 0 or not a number at a quadrature point; -1 when there is none.
   int (*first_inverted)(const ExplicitState<Real>&);
+  /// Forces of the elements on all nodes, -dW/dq, into vx and vy; the reactions. With mu and lambda of a quarter of
+  /// those of the material these are per h and unit thickness.
+  void (*internal_forces)(ExplicitState<Real>&);
 };
+
+/// The kernel for an instruction set that this processor has.
+template <class Real>
+const ExplicitKernel<Real>& explicit_kernel(SimdLevel level);
 
 namespace baseline {
 extern const ExplicitKernel<float> kSingle;

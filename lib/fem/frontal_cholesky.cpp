@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
-
 #include "fem/element.hpp"
 
 namespace nacre::fem {
@@ -19,114 +17,108 @@ double stiffest(const std::vector<material::Lame>& lame) {
   return largest;
 }
 
+/// Where the update of each block is kept: two places per depth.
+std::vector<std::size_t> update_places(const std::vector<DissectionBlock>& blocks) {
+  std::vector<std::size_t> place(blocks.size(), 0);
+  for (std::size_t k = blocks.size(); k-- > 0;)
+    if (blocks[k].halves[0] >= 0)
+      for (std::size_t half = 0; half < 2; ++half)
+        place[static_cast<std::size_t>(blocks[k].halves[half])] = 2 * (place[k] / 2 + 1) + half;
+  return place;
+}
+
 }  // namespace
 
-FrontalCholesky::FrontalCholesky(std::shared_ptr<const DissectionPlan> plan) : plan_(std::move(plan)) {
-  std::size_t total = 0;
+FrontalCholesky::FrontalCholesky(std::shared_ptr<const DissectionPlan> plan, SimdLevel level)
+    : plan_(std::move(plan)), kernel_(frontal_kernel(level)) {
+  lay_out();
+}
+
+void FrontalCholesky::lay_out() {
+  const std::vector<DissectionBlock>& blocks = plan_->blocks;
+  const std::vector<std::size_t> place = update_places(blocks);
+  std::vector<std::size_t> place_size(*std::max_element(place.begin(), place.end()) + 1, 0), factor_start;
+  std::size_t factor_size = 0, pivots = 0;
   int largest = 0;
-  for (const DissectionBlock& block : plan_->blocks) {
-    start_.push_back(total);
-    total += static_cast<std::size_t>(block.front_size()) * static_cast<std::size_t>(block.front_size());
-    largest = std::max(largest, block.front_size());
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    FrontView front{};
+    front.pivots = blocks[k].pivot_count();
+    front.pivot_rows = padded_front_rows(front.pivots);
+    front.border = blocks[k].border_count();
+    front.border_rows = padded_front_rows(front.border);
+    fronts_.push_back(front);
+    factor_start.push_back(factor_size);
+    factor_size += static_cast<std::size_t>(front.stride() * front.pivots);
+    pivots += blocks[k].pivots.size();
+    place_size[place[k]] = std::max(place_size[place[k]], static_cast<std::size_t>(front.border_rows * front.border));
+    largest = std::max(largest, front.stride());
   }
-  storage_.resize(total);
-  local_.resize(largest);
+  std::vector<std::size_t> place_start(place_size.size(), 0);
+  for (std::size_t i = 1; i < place_size.size(); ++i) place_start[i] = place_start[i - 1] + place_size[i - 1];
+  factors_.resize(factor_size / kFrontPadding);
+  updates_.resize((place_start.back() + place_size.back()) / kFrontPadding);
+  local_.resize(static_cast<std::size_t>(largest) / kFrontPadding);
+  inverses_.resize(pivots);
+  std::size_t pivot = 0;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    fronts_[k].factor = numbers(factors_) + factor_start[k];
+    fronts_[k].update = numbers(updates_) + place_start[place[k]];
+    fronts_[k].inverse = inverses_.data() + pivot;
+    pivot += blocks[k].pivots.size();
+  }
 }
 
-FrontalCholesky::Front FrontalCholesky::front(std::size_t block) {
-  const int size = plan_->blocks[block].front_size();
-  return {storage_.data() + start_[block], size, size};
-}
-
-void FrontalCholesky::assemble_elements(const DissectionBlock& block, const std::vector<material::Lame>& lame,
-                                        Front& target) {
+void FrontalCholesky::assemble(std::size_t k, const std::vector<material::Lame>& lame) {
+  const DissectionBlock& block = plan_->blocks[k];
+  const FrontView& front = fronts_[k];
+  std::fill_n(front.factor, front.stride() * front.pivots, 0.0);
+  std::fill_n(front.update, front.border_rows * front.border, 0.0);
   const UnitStiffness& unit = unit_stiffness();
-  for (std::size_t k = 0; k < block.elements.size(); ++k) {
-    const material::Lame& constants = lame[static_cast<std::size_t>(block.elements[k])];
-    const ElementMatrix stiffness = constants.mu_pa * unit.shear + constants.lambda_pa * unit.bulk;
-    const std::array<std::int16_t, 8>& places = block.element_places[k];
-    for (std::size_t b = 0; b < 8; ++b)
-      for (std::size_t a = 0; a < 8; ++a)
-        if (places[b] >= 0 && places[a] >= places[b])
-          target(places[a], places[b]) += stiffness(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  for (std::size_t e = 0; e < block.elements.size(); ++e) {
+    const material::Lame& constants = lame[static_cast<std::size_t>(block.elements[e])];
+    kernel_.add_element(front, {block.element_rows[e].data(), constants.mu_pa, constants.lambda_pa}, unit.shear.data(),
+                        unit.bulk.data());
   }
-}
-
-void FrontalCholesky::add_half(const DissectionBlock& block, std::size_t half, Front& target) {
-  const auto index = static_cast<std::size_t>(block.halves[half]);
-  const auto source = front(index);
-  const auto first = static_cast<Eigen::Index>(plan_->blocks[index].pivots.size());
-  const std::vector<std::int16_t>& places = block.half_places[half];
-  const auto count = static_cast<Eigen::Index>(places.size());
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const std::int16_t column = places[static_cast<std::size_t>(j)];
-    for (Eigen::Index i = j; i < count; ++i) {
-      const std::int16_t row = places[static_cast<std::size_t>(i)];
-      target(std::max(row, column), std::min(row, column)) += source(first + i, first + j);
-    }
-  }
+  for (std::size_t half = 0; half < 2 && block.halves[half] >= 0; ++half)
+    kernel_.add_half(front, fronts_[static_cast<std::size_t>(block.halves[half])], block.half_runs[half].data(),
+                     static_cast<int>(block.half_runs[half].size()));
 }
 
 bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame) {
   const double smallest_pivot = kSmallestPivot * stiffest(lame);
-  for (std::size_t k = 0; k < plan_->blocks.size(); ++k) {
-    const DissectionBlock& block = plan_->blocks[k];
-    Front matrix = front(k);
-    matrix.setZero();
-    if (block.halves[0] < 0) {
-      assemble_elements(block, lame, matrix);
-    } else {
-      add_half(block, 0, matrix);
-      add_half(block, 1, matrix);
-    }
-    const auto pivots = static_cast<Eigen::Index>(block.pivots.size()),
-               border = static_cast<Eigen::Index>(block.border.size());
-    if (pivots == 0) continue;
-    Eigen::Ref<Eigen::MatrixXd> corner = matrix.topLeftCorner(pivots, pivots);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(corner);
-    if (in_place.info() != Eigen::Success || corner.diagonal().array().square().minCoeff() < smallest_pivot)
-      return false;
-    if (border == 0) continue;
-    auto side = matrix.bottomLeftCorner(border, pivots);
-    corner.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(side);
-    matrix.bottomRightCorner(border, border).selfadjointView<Eigen::Lower>().rankUpdate(side, -1.0);
+  for (std::size_t k = 0; k < fronts_.size(); ++k) {
+    assemble(k, lame);
+    if (!kernel_.eliminate(fronts_[k], smallest_pivot)) return false;
   }
   return true;
 }
 
 void FrontalCholesky::solve(std::vector<double>& x) {
-  const auto blocks = plan_->blocks.size();
-  for (std::size_t k = 0; k < blocks; ++k) {
+  double* const local = numbers(local_);
+  const auto gather = [&](const std::vector<int>& unknowns, double* to) {
+    for (std::size_t i = 0; i < unknowns.size(); ++i) to[i] = x[static_cast<std::size_t>(unknowns[i])];
+  };
+  const auto scatter = [&](const std::vector<int>& unknowns, const double* from) {
+    for (std::size_t i = 0; i < unknowns.size(); ++i) x[static_cast<std::size_t>(unknowns[i])] = from[i];
+  };
+  for (std::size_t k = 0; k < fronts_.size(); ++k) {
     const DissectionBlock& block = plan_->blocks[k];
-    const Front matrix = front(k);
-    const auto pivots = static_cast<Eigen::Index>(block.pivots.size()),
-               border = static_cast<Eigen::Index>(block.border.size());
-    auto head = local_.head(pivots);
-    for (Eigen::Index i = 0; i < pivots; ++i)
-      head[i] = x[static_cast<std::size_t>(block.pivots[static_cast<std::size_t>(i)])];
-    matrix.topLeftCorner(pivots, pivots).triangularView<Eigen::Lower>().solveInPlace(head);
-    for (Eigen::Index i = 0; i < pivots; ++i)
-      x[static_cast<std::size_t>(block.pivots[static_cast<std::size_t>(i)])] = head[i];
-    auto tail = local_.segment(pivots, border);
-    tail.noalias() = matrix.bottomLeftCorner(border, pivots) * head;
-    for (Eigen::Index i = 0; i < border; ++i)
-      x[static_cast<std::size_t>(block.border[static_cast<std::size_t>(i)])] -= tail[i];
+    const FrontView& front = fronts_[k];
+    std::fill_n(local, front.stride(), 0.0);
+    gather(block.pivots, local);
+    gather(block.border, local + front.pivot_rows);
+    kernel_.forward(front, local);
+    scatter(block.pivots, local);
+    scatter(block.border, local + front.pivot_rows);
   }
-  for (std::size_t k = blocks; k-- > 0;) {
+  for (std::size_t k = fronts_.size(); k-- > 0;) {
     const DissectionBlock& block = plan_->blocks[k];
-    const Front matrix = front(k);
-    const auto pivots = static_cast<Eigen::Index>(block.pivots.size()),
-               border = static_cast<Eigen::Index>(block.border.size());
-    auto head = local_.head(pivots);
-    auto tail = local_.segment(pivots, border);
-    for (Eigen::Index i = 0; i < pivots; ++i)
-      head[i] = x[static_cast<std::size_t>(block.pivots[static_cast<std::size_t>(i)])];
-    for (Eigen::Index i = 0; i < border; ++i)
-      tail[i] = x[static_cast<std::size_t>(block.border[static_cast<std::size_t>(i)])];
-    head.noalias() -= matrix.bottomLeftCorner(border, pivots).transpose() * tail;
-    matrix.topLeftCorner(pivots, pivots).triangularView<Eigen::Lower>().transpose().solveInPlace(head);
-    for (Eigen::Index i = 0; i < pivots; ++i)
-      x[static_cast<std::size_t>(block.pivots[static_cast<std::size_t>(i)])] = head[i];
+    const FrontView& front = fronts_[k];
+    std::fill_n(local, front.stride(), 0.0);
+    gather(block.pivots, local);
+    gather(block.border, local + front.pivot_rows);
+    kernel_.backward(front, local);
+    scatter(block.pivots, local);
   }
 }
 

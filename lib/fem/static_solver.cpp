@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "fem/element.hpp"
+#include "fem/explicit_storage.hpp"
 #include "fem/frontal_cholesky.hpp"
 
 namespace nacre::fem {
@@ -36,52 +38,66 @@ std::vector<char> held_unknowns(const Grid& grid) {
   return held;
 }
 
-/// The factorisation that this thread used last: searches and calibrations solve one shape of grid thousands of times,
-/// and planning and touching fresh memory would cost as much as the arithmetic.
-FrontalCholesky& factorisation_for(const Grid& grid, const std::vector<char>& held) {
-  struct Last {
-    std::vector<char> held;
-    int columns = 0;
-    bool whole = false;
-    std::unique_ptr<FrontalCholesky> factorisation;
-  };
-  thread_local Last last;
+/// What this thread used last: searches and calibrations solve one shape of grid thousands of times, and planning and
+/// touching fresh memory would cost as much as the arithmetic.
+struct Workspace {
+  std::vector<char> held;
+  int columns = 0, rows = 0;
+  bool whole = false;
+  std::unique_ptr<FrontalCholesky> factorisation;
+  std::unique_ptr<ExplicitStorage<double>> storage;
+};
+
+Workspace& workspace_for(const Grid& grid, std::vector<char> held) {
+  thread_local Workspace last;
   const bool whole = std::find(grid.phase.begin(), grid.phase.end(), Phase::empty) == grid.phase.end();
   const bool same = last.factorisation && whole && last.whole && last.columns == grid.columns && last.held == held;
-  if (!same)
-    last = {.held = held,
+  if (!same) {
+    auto plan = std::make_shared<const DissectionPlan>(dissect(grid, held));
+    last = {.held = std::move(held),
             .columns = grid.columns,
+            .rows = grid.rows,
             .whole = whole,
-            .factorisation =
-                std::make_unique<FrontalCholesky>(std::make_shared<const DissectionPlan>(dissect(grid, held)))};
-  return *last.factorisation;
+            .factorisation = std::make_unique<FrontalCholesky>(std::move(plan)),
+            .storage = std::make_unique<ExplicitStorage<double>>(grid.columns, grid.rows, false)};
+  }
+  return last;
 }
 
-/// Forces of all elements on their nodes, 2 per node. False when an element is turned inside out.
-bool nodal_forces(const Grid& grid, const std::vector<material::Lame>& lame, const std::vector<double>& displacement,
-                  std::vector<double>& force) {
-  force.assign(displacement.size(), 0.0);
-  ElementVector local, local_force;
+/// The grid at rest on the linear profile (every row of nodes moves up in proportion to its height), from which the
+/// displacements of the explicit kernel are counted. Its forces are then in Pa, per element size and unit thickness.
+ExplicitState<double> stretched(const Grid& grid, const std::vector<material::Lame>& lame, double strain,
+                                const ExplicitStorage<double>& storage) {
+  ExplicitState<double> state = storage.state();
+  const auto nodes = static_cast<std::size_t>((grid.rows + 1) * state.stride);
+  std::fill_n(state.qx, nodes, 0.0);
+  std::fill_n(state.qy, nodes, 0.0);
+  std::fill_n(state.threshold, static_cast<std::size_t>(grid.rows * state.element_stride),
+              std::numeric_limits<double>::infinity());
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      const auto e = static_cast<std::size_t>(grid.index(row, column));
-      if (grid.phase[e] == Phase::empty) continue;
-      const auto nodes = element_nodes(grid, row, column);
-      for (int a = 0; a < 8; ++a)
-        local[a] = displacement[static_cast<std::size_t>(2 * nodes[static_cast<std::size_t>(a / 2)] + a % 2)];
-      if (!internal_force(local, lame[e], local_force)) return false;
-      for (int a = 0; a < 8; ++a)
-        force[static_cast<std::size_t>(2 * nodes[static_cast<std::size_t>(a / 2)] + a % 2)] += local_force[a];
+      const material::Lame& constants = lame[static_cast<std::size_t>(grid.index(row, column))];
+      state.mu[row * state.element_stride + column] = kGaussWeight * constants.mu_pa;
+      state.lambda[row * state.element_stride + column] = kGaussWeight * constants.lambda_pa;
     }
-  return true;
+  state.strain = strain;
+  return state;
 }
 
-/// Sum of the vertical forces on a row of nodes over the number of columns: force / (width h) = Pa.
-double row_stress(const Grid& grid, const std::vector<double>& force, int node_row) {
-  double sum = 0.0;
-  for (int column = 0; column <= grid.columns; ++column)
-    sum += force[static_cast<std::size_t>(2 * (node_row * (grid.columns + 1) + column) + 1)];
-  return sum / grid.columns;
+/// Calls visit(unknown, place in the state's arrays, direction) for every unknown.
+template <class Visit>
+void for_every_unknown(const Grid& grid, int stride, const Visit& visit) {
+  std::size_t unknown = 0;
+  for (int row = 0; row <= grid.rows; ++row)
+    for (int column = 0; column <= grid.columns; ++column)
+      for (int direction = 0; direction < 2; ++direction) visit(unknown++, row * stride + column, direction);
+}
+
+/// Forces on all unknowns in their order.
+void forces_of(const Grid& grid, const ExplicitState<double>& state, std::vector<double>& force) {
+  for_every_unknown(grid, state.stride, [&](std::size_t unknown, int at, int direction) {
+    force[unknown] = direction == 0 ? state.vx[at] : state.vy[at];
+  });
 }
 
 /// Norm of the forces on free unknowns, and of the reactions.
@@ -96,22 +112,16 @@ Balance balance_of(const std::vector<char>& held, const std::vector<double>& for
   return {.free = std::sqrt(free_square), .held = std::sqrt(held_square)};
 }
 
-/// The linear profile: every row of nodes moves up in proportion to its height.
-std::vector<double> stretched(const Grid& grid, double strain) {
-  std::vector<double> displacement;
-  for (int row = 0; row <= grid.rows; ++row)
-    for (int column = 0; column <= grid.columns; ++column) displacement.insert(displacement.end(), {0.0, strain * row});
-  return displacement;
-}
-
-/// Corrects the displacement until the forces balance; leaves the forces of the last state in `force`.
-Result<void> balance(const Grid& grid, const std::vector<material::Lame>& lame, const std::vector<char>& held,
-                     FrontalCholesky& stiffness, StaticSolution& solution, std::vector<double>& force) {
-  std::vector<double> step;
+/// Corrects the displacement until the forces balance; leaves the reactions of the last state in `state`.
+Result<void> balance(const Grid& grid, Workspace& workspace, ExplicitState<double>& state, StaticSolution& solution) {
+  const ExplicitKernel<double>& kernel = explicit_kernel<double>(best_simd_level());
+  const std::vector<char>& held = workspace.held;
+  std::vector<double> force(held.size());
   double previous = 1.0;
   for (;; ++solution.corrections) {
-    if (!nodal_forces(grid, lame, solution.displacement, force))
-      return fail("static solver: an element is turned inside out");
+    if (kernel.first_inverted(state) >= 0) return fail("static solver: an element is turned inside out");
+    kernel.internal_forces(state);
+    forces_of(grid, state, force);
     const Balance forces = balance_of(held, force);
     solution.relative_residual = forces.held > 0.0 ? forces.free / forces.held : forces.free;
     if (solution.relative_residual < kTolerance) return {};
@@ -120,11 +130,20 @@ Result<void> balance(const Grid& grid, const std::vector<material::Lame>& lame, 
     if (!std::isfinite(solution.relative_residual) || solution.corrections == kMaximumCorrections)
       return fail("static solver: relative residual {} after {} corrections", solution.relative_residual,
                   solution.corrections);
-    step = force;
-    stiffness.solve(step);
-    for (std::size_t i = 0; i < step.size(); ++i)
-      if (!held[i]) solution.displacement[i] -= step[i];
+    workspace.factorisation->solve(force);
+    for_every_unknown(grid, state.stride, [&](std::size_t unknown, int at, int direction) {
+      if (!held[unknown]) (direction == 0 ? state.qx : state.qy)[at] += force[unknown];
+    });
   }
+}
+
+/// Displacements in the laboratory frame.
+std::vector<double> displacements(const Grid& grid, const ExplicitState<double>& state) {
+  std::vector<double> result(static_cast<std::size_t>(2 * (grid.columns + 1) * (grid.rows + 1)));
+  for_every_unknown(grid, state.stride, [&](std::size_t unknown, int at, int direction) {
+    result[unknown] = direction == 0 ? state.qx[at] : state.qy[at] + state.strain * (at / state.stride);
+  });
+  return result;
 }
 
 }  // namespace
@@ -132,17 +151,15 @@ Result<void> balance(const Grid& grid, const std::vector<material::Lame>& lame, 
 Result<StaticSolution> pull(const Grid& grid, double strain) {
   if (!(std::abs(strain) <= 0.5)) return fail("static solver: strain {} is outside -0.5 to 0.5", strain);
   const std::vector<material::Lame> lame = lame_of(grid);
-  const std::vector<char> held = held_unknowns(grid);
-  FrontalCholesky& stiffness = factorisation_for(grid, held);
-  if (!stiffness.factorise(lame)) return fail("static solver: a part of the grid is held by nothing");
+  Workspace& workspace = workspace_for(grid, held_unknowns(grid));
+  if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is held by nothing");
 
   StaticSolution solution;
-  solution.displacement = stretched(grid, strain);
-  std::vector<double> force;
-  if (const Result<void> done = balance(grid, lame, held, stiffness, solution, force); !done)
-    return tl::unexpected(done.error());
-  solution.top_stress_pa = row_stress(grid, force, grid.rows);
-  solution.bottom_stress_pa = -row_stress(grid, force, 0);
+  ExplicitState<double> state = stretched(grid, lame, strain, *workspace.storage);
+  if (const Result<void> done = balance(grid, workspace, state, solution); !done) return tl::unexpected(done.error());
+  solution.displacement = displacements(grid, state);
+  solution.top_stress_pa = state.top_force / grid.columns;
+  solution.bottom_stress_pa = state.bottom_force / grid.columns;
   return solution;
 }
 

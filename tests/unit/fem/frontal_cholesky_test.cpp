@@ -73,6 +73,24 @@ TEST(FrontalCholesky, SolvesWhatTheElementsSay) {
   }
 }
 
+TEST(FrontalCholesky, InstructionSetsGiveTheSameBits) {
+  const Grid grid = random_grid(24, 31);
+  const std::vector<char> held = bottom_held(grid);
+  const auto plan = std::make_shared<const DissectionPlan>(dissect(grid, held));
+  RandomStream random(3, "frontal_cholesky_test");
+  std::vector<double> load(held.size());
+  for (double& force : load) force = random.uniform(-1.0, 1.0);
+  std::vector<std::vector<double>> solutions;
+  for (const SimdLevel level : {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!has_simd_level(level)) continue;
+    FrontalCholesky factorisation(plan, level);
+    ASSERT_TRUE(factorisation.factorise(lame_of(grid)));
+    solutions.push_back(load);
+    factorisation.solve(solutions.back());
+    EXPECT_EQ(solutions.back(), solutions.front()) << to_string(level);
+  }
+}
+
 TEST(FrontalCholesky, RefusesWhatCanMoveFreely) {
   Grid grid = uniform_grid(8, 8);
   for (int column = 0; column < 8; ++column)

@@ -1,4 +1,4 @@
-// Packs of numbers for the explicit kernel: GCC vector types plus the few operations that need an instruction of their
+// Packs of numbers for the kernels: GCC vector types plus the few operations that need an instruction of their
 // own. Included once per instruction set, inside namespace nacre::fem::NACRE_SIMD. No include guard on purpose.
 //
 // Every operation rounds the same way at every width, so results do not depend on the instruction set. The fused
@@ -49,7 +49,7 @@ NACRE_INLINE void store(Real* to, Pack<Real> pack) {
 }
 template <class Real>
 NACRE_INLINE Pack<Real> broadcast(Real value) {
-  return Pack<Real>{} + value;
+  return value - Pack<Real>{};
 }
 
 /// Absolute value.

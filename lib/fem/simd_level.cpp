@@ -1,6 +1,6 @@
-#include <cstdlib>
+#include "fem/simd_level.hpp"
 
-#include "fem/explicit_solver.hpp"
+#include <cstdlib>
 
 namespace nacre::fem {
 
