@@ -5,16 +5,11 @@
 namespace nacre::tester {
 
 SpecimenUnits toughness_units(Fidelity fidelity) {
-  switch (fidelity) {
-    case Fidelity::tiny:
-      return {1, 1};
-    case Fidelity::preview:
-      return {3, 2};
-    case Fidelity::full:
-      break;
-  }
+  if (fidelity == Fidelity::tiny) return {1, 1};
   return {thesis::kToughnessUnitsX, thesis::kToughnessUnitsY};
 }
+
+double loading_rate_scale(Fidelity fidelity) { return fidelity == Fidelity::preview ? 2.0 : 1.0; }
 
 SpecimenUnits modulus_units(Fidelity fidelity) {
   if (fidelity == Fidelity::tiny) return {1, 1};

@@ -1,5 +1,5 @@
 #pragma once
-// How large the specimens of each fidelity are. Testers and virtual laboratory measure the same geometry.
+// What distinguishes the fidelities: size and loading rate of the specimens. Testers and virtual laboratory share both.
 
 #include "tester/tester.hpp"
 
@@ -11,8 +11,12 @@ struct SpecimenUnits {
   int y = 0;
 };
 
-/// The notched specimen: 5 x 4 in full (Figure 2-5A), 3 x 2 in preview, one in tiny.
+/// The notched specimen: 5 x 4 in full and in preview (Figure 2-5A), one in tiny.
 SpecimenUnits toughness_units(Fidelity fidelity);
+
+/// Factor on the strain rate of the fracture test (20 /s, 2.3.1): 2 in preview, else 1. A faster pull ranks designs far
+/// better than a smaller specimen that costs the same (docs/studies/fidelity.md).
+double loading_rate_scale(Fidelity fidelity);
 
 /// The modulus specimen: 2 x 1 (Figure 2-5B), one in tiny.
 SpecimenUnits modulus_units(Fidelity fidelity);

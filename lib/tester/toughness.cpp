@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "tester/assembly.hpp"
+#include "tester/fidelity.hpp"
 #include "tester/fracture_record.hpp"
 #include "tester/fracture_test.hpp"
 #include "tester/notch.hpp"
@@ -108,12 +109,13 @@ FractureTest fracture_test(const Simulation& simulation, const Numerics& numeric
   const bool pure_soft = simulation.design.rigid_fraction() == 0.0;
   const double gamma_per_s = simulation.parameters.toughness.gamma_per_s;
   const bool capped = simulation.fidelity == Fidelity::full && !pure_soft;
-  test.settings = {.density_kg_per_m3 = thesis::kDensity,
-                   .time_step_s = time_step_s(test.grid, gamma_per_s, capped) * numerics.time_step_scale,
-                   .strain_rate_per_s = thesis::kSimulatedStrainRate * numerics.rate_scale,
-                   .damping = fem::Damping::smoothing,
-                   .gamma_per_s = gamma_per_s,
-                   .simd = {}};
+  test.settings = {
+      .density_kg_per_m3 = thesis::kDensity,
+      .time_step_s = time_step_s(test.grid, gamma_per_s, capped) * numerics.time_step_scale,
+      .strain_rate_per_s = thesis::kSimulatedStrainRate * loading_rate_scale(simulation.fidelity) * numerics.rate_scale,
+      .damping = fem::Damping::smoothing,
+      .gamma_per_s = gamma_per_s,
+      .simd = {}};
   test.strain_limit = pure_soft ? thesis::kSoftStrainLimit : thesis::kStrainLimit;
   test.limit_is_no_failure = pure_soft;
   const double sample_strain = kSampleStrain * test.strain_limit / thesis::kStrainLimit / numerics.recording_scale;

@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "material/neo_hookean.hpp"
+#include "tester/fidelity.hpp"
 #include "thesis/constants.hpp"
 #include "virtual_lab/fracture_bench.hpp"
 #include "virtual_lab/modulus_bench.hpp"
@@ -39,6 +40,7 @@ Result<Response> respond_toughness(const Truth& truth, const Question& question)
   const Raster raster = fracture_raster(truth, question.design, question.conditions.orientation_deg, size);
   const Result<PulledSpecimen> pulled = pull_to_separation(
       raster, {.gamma_per_s = truth.toughness.gamma_per_s,
+               .strain_rate_per_s = thesis::kSimulatedStrainRate * tester::loading_rate_scale(question.fidelity),
                .strain_limit = raster.all_soft ? thesis::kSoftStrainLimit.value : thesis::kStrainLimit.value});
   if (!pulled) return fail("fracture bench: {}", pulled.error().message);
   return Response{
