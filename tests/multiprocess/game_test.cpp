@@ -10,13 +10,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "base/random.hpp"
-#include "measurement/measurement.hpp"
 #include "nacre/measurement_t.hpp"
 #include "nacre/parameters_t.hpp"
-#include "played_game.hpp"
+#include "persons_game.hpp"
 #include "program.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/journal.hpp"
@@ -212,14 +210,6 @@ std::vector<measurement::SpecimenRecord> specimens_of_round(const fs::path& run,
   return specimens;
 }
 
-nlohmann::json injected(const fs::path& set, const std::vector<measurement::SpecimenRecord>& specimens,
-                        const fs::path& run) {
-  measurement::write_measurement_set(set, specimens);
-  const Outcome outcome = run_nacre({"inject", set.string(), "--run", run.string(), "--json"});
-  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  return nlohmann::json::parse(outcome.out, nullptr, false);
-}
-
 TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
   std::string text = kShortGame;
   text += "\n[laboratory]\nvirtual_lab = false\n";
@@ -237,16 +227,16 @@ TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
   broken.specimen += "/broken";
   broken.valid = false;
   broken.note = "slipped in the grips";
-  const auto part = injected(folder_ / "part", {first[2], broken, first[0]}, game.folder());
+  const auto part = inject(folder_ / "part", {first[2], broken, first[0]}, game.folder());
   EXPECT_EQ(part["accepted"], 3) << part;
-  const auto whole = injected(folder_ / "whole", first, game.folder());
+  const auto whole = inject(folder_ / "whole", first, game.folder());
   EXPECT_EQ(whole["accepted"], first.size() - 2) << whole;
   EXPECT_EQ(whole["repeated"], 2) << whole;
   ASSERT_TRUE(game.play_until([&] { return ordered(2); }, kPatienceS)) << game.said();
-  const auto again = injected(folder_ / "whole", first, game.folder());
+  const auto again = inject(folder_ / "whole", first, game.folder());
   EXPECT_EQ(again["accepted"], 0) << again;
   EXPECT_EQ(again["repeated"], first.size()) << again;
-  injected(folder_ / "second", second, game.folder());
+  inject(folder_ / "second", second, game.folder());
   ASSERT_TRUE(game.play_to_end(kPatienceS)) << game.said();
   ASSERT_EQ(game.status(), 0) << game.said();
 
@@ -275,7 +265,7 @@ class ScatteredLaboratory {
       if (scattered_.empty() && order.design.layout() != nullptr) scattered_ = order.design.name();
       for (int k = 1; k <= order.replicates; ++k) specimens.push_back(specimen(order, k));
     }
-    if (!specimens.empty()) injected(folder_ / fmt::format("scattered_{}", ++sets_), specimens, run_);
+    if (!specimens.empty()) inject(folder_ / fmt::format("scattered_{}", ++sets_), specimens, run_);
   }
 
  private:

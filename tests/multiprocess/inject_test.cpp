@@ -1,129 +1,172 @@
-// A game without the virtual laboratory: the nodes are the real ones, a person brings the measurements.
+// Games without the virtual laboratory: the nodes are the real ones, a person brings the measurements and decides.
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "persons_game.hpp"
 #include "program.hpp"
+#include "store/run_record.hpp"
 
 namespace nacre {
 namespace {
 
-namespace fs = std::filesystem;
+using measurement::SpecimenRecord;
+using tester::TestKind;
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kScenario = R"(rounds = 1
+fidelity = "tiny"
+[diagnosis]
+enabled = false
+[proposal]
+samples = 16
+seeds = 1
+population = 6
+designs = 2
+[validation]
+random_patterns = 1
+replicates = 2
+mixtures = []
+calibration_evaluations = 3
+modulus_evaluations = 12
+)";
 
 class InjectedGame : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::ofstream(folder_ / "person.toml") << "name = \"person\"\nrounds = 1\nfidelity = \"tiny\"\n"
-                                              "[proposal]\nsamples = 8\nseeds = 1\npopulation = 4\ndesigns = 1\n"
-                                              "[validation]\nrandom_patterns = 2\nreplicates = 1\nmixtures = []\n"
-                                              "calibration_evaluations = 3\nmodulus_evaluations = 12\n"
-                                              "[diagnosis]\nenabled = false\n[laboratory]\nvirtual_lab = false\n";
-    std::ofstream(folder_ / "lab.toml") << "seed = 5\nfidelity = \"tiny\"\nreplicates = 1\n";
-    launch_ = std::make_unique<runtime::ChildProcess>(
-        std::vector<std::string>{program("nacre"), "launch", (folder_ / "person.toml").string(), "--logs",
-                                 (folder_ / "logs").string(), "--run", "game"});
+  void launch(const std::string& name, const std::string& more = "") {
+    static const std::filesystem::path folder = fresh_folder("games");  // one for all: they share the farm's cache
+    person_ = std::make_unique<PersonsGame>(folder, name, kScenario + more);
   }
   void TearDown() override {
-    if (launch_) ::kill(launch_->pid(), SIGINT);
-    if (launch_) wait_for_end(*launch_, said_, 20.0);
-    if (HasFailure()) std::fputs(said_.c_str(), stderr);
+    if (HasFailure() && person_) std::fputs(person_->game().said().c_str(), stderr);
   }
 
-  fs::path run() const { return folder_ / "logs" / "game"; }
-  /// Messages of one channel in the validation agent's journal.
-  std::vector<nlohmann::json> journal(const std::string& channel) const {
-    const fs::path file = run() / "nodes" / "validation_agent" / "journal.lcm";
-    std::vector<nlohmann::json> messages;
-    if (!fs::exists(file)) return messages;
-    std::istringstream lines(run_nacre({"echo", channel, "--log", file.string()}).out);
-    for (std::string line; std::getline(lines, line);) messages.push_back(nlohmann::json::parse(line)["message"]);
-    return messages;
-  }
-  /// What the agent has ordered: design and test, each as a specimen would be measured.
-  std::set<std::string> ordered_designs() const {
-    std::set<std::string> designs;
-    for (const auto& order : journal("TEST_ORDER")) designs.insert(order["design"].get<std::string>());
-    return designs;
-  }
-  void measure(const std::string& set, const std::set<std::string>& designs) const {
-    std::vector<std::string> arguments = {"measure", "--lab", (folder_ / "lab.toml").string(), "--out",
-                                          (folder_ / set).string()};
-    arguments.insert(arguments.end(), designs.begin(), designs.end());
-    const Outcome outcome = run_nacre(arguments, 120.0);
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-  }
-  /// A set with the first specimens of another.
-  void copy_part(const std::string& from, const std::string& to, int specimens) const {
-    fs::create_directories(folder_ / to);
-    fs::copy(folder_ / from, folder_ / to, fs::copy_options::recursive);
-    std::ifstream whole(folder_ / from / "measurements.csv");
-    std::ofstream part(folder_ / to / "measurements.csv");
-    std::string line;
-    for (int i = 0; i <= specimens && std::getline(whole, line); ++i) part << line << "\n";
-  }
-  static void replace_in(const fs::path& file, const std::string& old_text, const std::string& new_text) {
-    std::ifstream in(file);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    const std::size_t place = text.find(old_text);
-    ASSERT_NE(place, std::string::npos) << text;
-    std::ofstream(file) << text.replace(place, old_text.size(), new_text);
-  }
-  nlohmann::json inject(const std::string& set, int expected_status = 0) const {
-    const Outcome outcome = run_nacre({"inject", (folder_ / set).string(), "--run", run().string(), "--json"}, 120.0);
-    EXPECT_EQ(outcome.status, expected_status) << outcome.err;
-    return nlohmann::json::parse(outcome.out);
-  }
-
-  fs::path folder_;
-  std::unique_ptr<runtime::ChildProcess> launch_;
-  std::string said_;
+  std::unique_ptr<PersonsGame> person_;
 };
 
 TEST_F(InjectedGame, GoesOnWithWhatAPersonMeasuresAndTakesEverySpecimenOnce) {
-  ASSERT_TRUE(wait_until_said(*launch_, "round 0: gap", said_, 180.0));
-  ASSERT_TRUE(becomes_true([&] { return ordered_designs().size() >= 3; }, 60.0)) << "orders of round 1";
-  const std::set<std::string> designs = ordered_designs();
-  measure("whole", designs);
-  copy_part("whole", "part", 2);
-  EXPECT_EQ(inject("part")["accepted"], 2);
-  copy_part("whole", "changed", 1);
-  replace_in(folder_ / "changed" / "measurements.csv", ",batch-1,", ",batch-9,");
-  EXPECT_EQ(inject("changed", 1)["conflicting"].size(), 1U) << "another measurement under the same name";
-  const auto whole = inject("whole");
-  EXPECT_EQ(whole["repeated"], 2) << whole;
-  EXPECT_EQ(whole["accepted"], 2 * designs.size() - 2) << whole;
-
-  ASSERT_TRUE(wait_until_said(*launch_, "the game is over", said_, 180.0));
-  EXPECT_EQ(wait_for_end(*launch_, said_, 30.0).exit_status, 0);
-  launch_.reset();
-  EXPECT_EQ(journal("MEASUREMENT").size(), 2 * designs.size());
-  EXPECT_EQ(journal("ROUND").size(), 2U);
+  launch("injected");
+  person_->wait_for("orders of round 1", [&] { return person_->orders().size() == 2 * 6; });
+  const std::vector<SpecimenRecord> whole = person_->measured_in_laboratory();
+  ASSERT_EQ(whole.size(), 2U * 2U * 6U);
+  EXPECT_EQ(person_->inject("part", {whole[2], whole[0]})["accepted"], 2);
+  SpecimenRecord changed = whole[0];
+  changed.batch += "-9";
+  EXPECT_EQ(person_->inject("changed", {changed}, 1)["conflicting"].size(), 1U) << "another one under the same name";
+  const auto delivery = person_->inject("whole", whole);
+  EXPECT_EQ(delivery["repeated"], 2) << delivery;
+  EXPECT_EQ(delivery["accepted"], whole.size() - 2) << delivery;
+  person_->play_to_end();
+  EXPECT_EQ(measurements_taken(person_->run()).size(), whole.size());
+  EXPECT_EQ(person_->rounds().size(), 2U);
   for (const char* node : {"validation_agent", "proposal_agent", "simulator_farm", "analyser"}) {
-    EXPECT_EQ(run_nacre({"replay", run().string(), "--node", node}).status, 0) << node;
+    EXPECT_EQ(run_nacre({"replay", person_->run().string(), "--node", node}).status, 0) << node;
   }
 }
 
 TEST_F(InjectedGame, InjectSaysWhenNobodyAnswers) {
-  ASSERT_TRUE(wait_until_said(*launch_, "the game begins", said_, 60.0));
-  ::kill(launch_->pid(), SIGINT);
-  wait_for_end(*launch_, said_, 30.0);
-  launch_.reset();
-  measure("set", {"577fffe9fffdef"});
-  const Outcome outcome =
-      run_nacre({"inject", (folder_ / "set").string(), "--run", run().string(), "--timeout-s", "1"});
+  launch("unanswered");
+  person_->wait_for("beginning", [&] { return person_->game().said().find("the game begins") != std::string::npos; });
+  person_->game().kill_everything();
+  const std::filesystem::path set = fresh_folder("unheard");
+  SpecimenRecord specimen;
+  specimen.specimen = "S-1";
+  specimen.design = pattern::Mixture{0.5};
+  specimen.modulus_pa = 1e9;
+  measurement::write_measurement_set(set, {specimen});
+  const Outcome outcome = run_nacre({"inject", set.string(), "--run", person_->run().string(), "--timeout-s", "1"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("did not answer"));
+}
+
+/// Specimens of a design in one test, by position.
+std::vector<std::size_t> places_of(const std::vector<SpecimenRecord>& specimens, const pattern::Design& design,
+                                   TestKind test) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    if (specimens[i].design == design && specimens[i].test == test) places.push_back(i);
+  }
+  return places;
+}
+
+/// Proposals that wait for a person: one approved, one refused, and a replicate that somebody throws out.
+class ApprovedGame : public InjectedGame {
+ protected:
+  void SetUp() override {
+    launch("approved", "approval = true\n");
+    person_->wait_for("orders without the proposals", [&] { return person_->orders().size() == 2 * 4; });
+    const wire::Proposal proposal = person_->proposals().at(0);
+    ASSERT_EQ(proposal.designs.size(), 2U);
+    approved_ = proposal.designs[0];
+    refused_ = proposal.designs[1];
+  }
+  std::set<std::string> ordered_designs() const {
+    std::set<std::string> names;
+    for (const wire::TestOrder& order : person_->orders()) names.insert(order.design.name());
+    return names;
+  }
+  void approve_and_refuse() {
+    EXPECT_THAT(person_->decide({"approve", approved_.design.name(), "--why", "prints well"}), HasSubstr("approved"));
+    EXPECT_THAT(person_->decide({"approve", refused_.design.name(), "--reject", "--why", "islands fall out"}),
+                HasSubstr("rejected"));
+    person_->wait_for("orders for the approved design", [&] { return person_->orders().size() == 2 * 5; });
+  }
+
+  wire::ProposedDesign approved_, refused_;
+};
+
+TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvalid) {
+  EXPECT_THAT(ordered_designs(), AllOf(Not(Contains(approved_.design.name())), Not(Contains(refused_.design.name()))));
+  EXPECT_THAT(person_->decide({"approve"}),
+              AllOf(HasSubstr(approved_.design.name()), HasSubstr(refused_.design.name())));
+  EXPECT_THAT(person_->decide({"approve", "00000000000000"}, 2), HasSubstr("not among the designs of proposal 0"));
+  approve_and_refuse();
+  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}), HasSubstr("approved")) << "too late";
+
+  // Everything but one specimen, with an outlier that is thrown out; then the agent dies; then the last specimen.
+  std::vector<SpecimenRecord> specimens = person_->measured_in_laboratory();
+  ASSERT_EQ(specimens.size(), 2U * 2U * 5U);
+  const std::vector<std::size_t> places = places_of(specimens, approved_.design, TestKind::toughness);
+  ASSERT_EQ(places.size(), 2U);
+  SpecimenRecord& outlier = specimens[places[0]];
+  const SpecimenRecord sound = specimens[places[1]];
+  const double sound_pa = measurement::toughness_of(sound).value();
+  outlier.toughness_pa = 30.0 * sound_pa;
+  outlier.curve = {};
+  const auto last = std::find_if(specimens.begin(), specimens.end(),
+                                 [](const SpecimenRecord& each) { return each.design == pattern::Mixture{0.0}; });
+  ASSERT_NE(last, specimens.end());
+  const SpecimenRecord missing = *last;
+  const std::string outlier_name = outlier.specimen;
+  specimens.erase(last);
+  EXPECT_EQ(person_->inject("most", specimens)["accepted"], specimens.size());
+  const std::string judged = person_->decide({"review", outlier_name, "--invalid", "--why", "thirty times the other"});
+  EXPECT_THAT(judged, HasSubstr(outlier_name + ": not valid (revision 1)"));
+  ::kill(person_->game().process_of("validation_agent"), SIGKILL);
+  person_->inject("last", {missing});
+  person_->play_to_end();
+
+  EXPECT_THAT(ordered_designs(), Not(Contains(refused_.design.name()))) << "the first decision counts";
+  const wire::RoundSummary round = person_->rounds().at(1);
+  EXPECT_EQ(round.calibration_count, 2) << "the approved design and the random pattern";
+  EXPECT_EQ(round.held_out.toughness_count, 1);
+  EXPECT_NEAR(round.held_out.toughness_mean, std::abs(approved_.toughness_pa - sound_pa) / sound_pa, 1e-9);
+  for (const wire::ProposedDesign& next : person_->proposals().at(1).designs) {
+    EXPECT_NE(next.design, refused_.design) << "what was refused is not proposed again";
+  }
+  for (const store::MeasuredSpecimen& kept : store::read_run_record(person_->run() / "run.db").specimens) {
+    EXPECT_EQ(kept.record.valid, kept.record.specimen != outlier_name) << kept.record.specimen;
+  }
 }
 
 }  // namespace

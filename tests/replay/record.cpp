@@ -6,17 +6,14 @@
 #include <fstream>
 #include <functional>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/result.hpp"
 #include "golden_game.hpp"
 #include "measurement/measurement.hpp"
-#include "played_game.hpp"
+#include "persons_game.hpp"
 #include "program.hpp"
-#include "wire/convert.hpp"
 
 namespace nacre::golden {
 namespace {
@@ -42,120 +39,60 @@ std::string small(int samples, int designs, int random_patterns) {
   return fmt::format(fmt::runtime(kSmall), samples, designs, random_patterns);
 }
 
-void demand(bool condition, const PlayedGame& game, const std::string& what) {
-  if (!condition) throw InputError::format("{}: {}\n{}", game.folder().string(), what, game.said());
-}
-
-Outcome demanded(const std::vector<std::string>& arguments) {
-  Outcome outcome = run_nacre(arguments, kPatienceS);
-  if (outcome.status != 0) throw InputError::format("nacre {}: {}", fmt::join(arguments, " "), outcome.err);
-  return outcome;
-}
-
-PlayedGame started(const fs::path& folder, const std::string& name, const std::string& scenario) {
-  const fs::path file = folder / (name + ".toml");
-  std::ofstream(file) << scenario;
-  return {file, folder / "logs", name};
-}
-
-void play_to_end(PlayedGame& game) {
-  demand(game.play_to_end(kPatienceS), game, "has no end");
-  demand(game.status() == 0, game, "failed");
-}
-
 /// Everything by itself: the virtual laboratory, two refits, a diagnosis in each round.
 fs::path laboratory_game(const fs::path& folder) {
-  PlayedGame game =
-      started(folder, "laboratory",
-              fmt::format("name = \"laboratory\"\nrounds = 2\nstop_at_equilibrium = false\n{}replicates = 1\n"
-                          "mixtures = []\n[diagnosis]\nbootstraps = 1000\n",
-                          small(8, 1, 0)));
-  play_to_end(game);
+  const fs::path scenario = folder / "laboratory.toml";
+  std::ofstream(scenario) << "name = \"laboratory\"\nrounds = 2\nstop_at_equilibrium = false\n" + small(8, 1, 0) +
+                                 "replicates = 1\nmixtures = []\n[diagnosis]\nbootstraps = 1000\n";
+  PlayedGame game(scenario, folder / "logs", "laboratory");
+  if (!game.play_to_end(kPatienceS) || game.status() != 0) throw InputError(game.said());
   return game.folder();
 }
 
-/// A person takes part in another game: decides on proposals, measures by hand, and changes their mind.
-class PersonsGame {
- public:
-  explicit PersonsGame(const fs::path& folder)
-      : folder_(folder),
-        game_(started(folder, "person",
-                      fmt::format("name = \"person\"\nrounds = 1\n{}replicates = 2\nmixtures = []\napproval = true\n"
-                                  "[diagnosis]\nenabled = false\n[laboratory]\nvirtual_lab = false\n",
-                                  small(16, 2, 1)))) {}
+/// One proposed design is accepted, the other refused.
+void decide(PersonsGame& person) {
+  person.wait_for("orders", [&] { return !person.orders().empty(); });
+  const std::size_t before = person.orders().size();
+  const auto designs = person.proposals().at(0).designs;
+  person.decide({"approve", designs.at(0).design.name(), "--why", "looks printable"});
+  person.decide({"approve", designs.at(1).design.name(), "--reject", "--why", "no support material left"});
+  person.wait_for("orders for the accepted design", [&] { return person.orders().size() == before + 2; });
+}
 
-  fs::path play() {
-    decide();
-    measure();
-    play_to_end(game_);
-    return game_.folder();
+/// A part first, with a broken specimen; then everything, the part once more; one specimen is judged again.
+void measure(PersonsGame& person) {
+  std::vector<measurement::SpecimenRecord> all = person.measured_in_laboratory();
+  // One with a curve, the others with a number.
+  const auto with_curve = std::find_if(all.begin(), all.end(), [](const auto& each) { return each.curve.size() > 0; });
+  for (auto each = all.begin(); each != all.end(); ++each) {
+    if (each == with_curve || each->curve.size() == 0) continue;
+    if (each->test == tester::TestKind::toughness) each->toughness_pa = measurement::toughness_of(*each);
+    each->curve = {};
   }
+  measurement::SpecimenRecord broken = all.front();
+  broken.specimen += "-broken";
+  broken.valid = false;
+  broken.note = "slipped in the grips";
+  person.inject("part", {all.at(2), broken, all.at(0)});
+  person.decide({"review", all.at(2).specimen, "--invalid", "--why", "wrong speed"});
+  person.decide({"review", all.at(2).specimen, "--valid", "--why", "the speed was right"});
+  person.inject("whole", all);
+}
 
- private:
-  void wait_for(const std::string& what, const std::function<bool()>& condition) {
-    demand(game_.play_until(condition, kPatienceS), game_, "no " + what);
-  }
-  std::size_t ordered() const { return on_channels(said_in_game(game_.folder()), {"TEST_ORDER"}).size(); }
+/// A person decides on proposals, measures by hand, and changes their mind.
+fs::path persons_game(const fs::path& folder) {
+  PersonsGame person(folder, "person",
+                     "rounds = 1\n" + small(16, 2, 1) +
+                         "replicates = 2\nmixtures = []\napproval = true\n"
+                         "[diagnosis]\nenabled = false\n");
+  decide(person);
+  measure(person);
+  person.play_to_end();
+  return person.run();
+}
 
-  /// One proposed design is accepted, the other refused.
-  void decide() {
-    wait_for("proposal", [&] { return !journaled(game_.folder(), "validation_agent", "PROPOSAL").empty(); });
-    wait_for("orders", [&] { return ordered() > 0; });
-    const std::size_t before = ordered();
-    const auto proposal =
-        wire::read<wire::Proposal>(journaled(game_.folder(), "validation_agent", "PROPOSAL").front()).value();
-    const std::string run = game_.folder().string();
-    const auto name = [&](std::size_t design) { return proposal.designs.at(design).design.name(); };
-    demanded({"approve", name(0), "--run", run, "--by", "a person", "--why", "looks printable"});
-    demanded({"approve", name(1), "--reject", "--run", run, "--by", "a person", "--why", "no support material left"});
-    wait_for("orders for the accepted design", [&] { return ordered() == before + 2; });
-  }
-
-  /// A part first, with a broken specimen; then everything, the part once more; one specimen is judged again.
-  void measure() {
-    const std::vector<measurement::SpecimenRecord> all = measured_in_laboratory();
-    measurement::SpecimenRecord broken = all.front();
-    broken.specimen += "-broken";
-    broken.valid = false;
-    broken.note = "slipped in the grips";
-    inject("part", {all.at(2), broken, all.at(0)});
-    const std::string run = game_.folder().string();
-    demanded({"review", all.at(2).specimen, "--invalid", "--run", run, "--by", "a person", "--why", "wrong speed"});
-    demanded({"review", all.at(2).specimen, "--valid", "--run", run, "--by", "a person", "--why", "speed was right"});
-    inject("whole", all);
-  }
-
-  std::vector<measurement::SpecimenRecord> measured_in_laboratory() const {
-    const fs::path laboratory = folder_ / "laboratory.toml", set = folder_ / "set";
-    std::ofstream(laboratory) << "seed = 5\nfidelity = \"tiny\"\nreplicates = 2\n";
-    std::vector<std::string> arguments = {"measure", "--lab", laboratory.string(), "--out", set.string()};
-    std::set<std::string> designs;
-    for (const auto& payload : journaled(game_.folder(), "validation_agent", "~out/TEST_ORDER")) {
-      designs.insert(wire::read<wire::TestOrder>(payload).value().design.name());
-    }
-    arguments.insert(arguments.end(), designs.begin(), designs.end());
-    demanded(arguments);
-    std::vector<measurement::SpecimenRecord> specimens = measurement::read_measurement_set(set).specimens;
-    // One with a curve, the others with a number.
-    const auto with_curve =
-        std::find_if(specimens.begin(), specimens.end(), [](const auto& s) { return s.toughness_pa; });
-    for (auto specimen = specimens.begin(); specimen != specimens.end(); ++specimen) {
-      if (specimen != with_curve) specimen->curve = {};
-    }
-    return specimens;
-  }
-
-  void inject(const std::string& set, const std::vector<measurement::SpecimenRecord>& specimens) {
-    measurement::write_measurement_set(folder_ / set, specimens);
-    demanded({"inject", (folder_ / set).string(), "--run", game_.folder().string()});
-  }
-
-  fs::path folder_;
-  PlayedGame game_;
-};
-
-const std::map<std::string, std::function<fs::path(const fs::path&)>> kGames = {
-    {"laboratory", laboratory_game}, {"person", [](const fs::path& folder) { return PersonsGame(folder).play(); }}};
+const std::map<std::string, std::function<fs::path(const fs::path&)>> kGames = {{"laboratory", laboratory_game},
+                                                                                {"person", persons_game}};
 
 int record(const fs::path& games, std::vector<std::string> names) {
   if (names.empty()) names = {"laboratory", "person"};
