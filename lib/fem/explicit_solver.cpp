@@ -12,6 +12,12 @@ namespace {
 
 constexpr int kCheckInterval = 64;
 
+/// Largest alpha = gamma dt of Eq. 2.4. The filter multiplies a wave, after its acceleration was added, by
+/// f = 1 - alpha (1 - m), where m >= -1/3 is its mean over nine nodes relative to itself. With s = (omega dt)^2
+/// symplectic Euler then has p(z) = z^2 - (1 + f - f s) z + f, and p(1) = f s: for f < 0 one root lies beyond 1 for
+/// every s > 0. From alpha = 3/4 on waves with m = -1/3 grow without bound, however small the step.
+constexpr double kLargestSmoothing = 0.75;
+
 /// Lame parameters of an element of the grid.
 material::Lame lame_of(const Grid& grid, int element) {
   return material::lame_from_engineering(grid.young_pa[element], grid.poisson[element]);
@@ -72,9 +78,10 @@ Result<ExplicitSolver<Real>> ExplicitSolver<Real>::create(const Grid& grid, cons
                 settings.gamma_per_s);
   if (dt * wave > settings.largest_courant_number * grid.element_size_m)
     return fail("time step {} s is beyond the stability limit {} s", dt, grid.element_size_m / wave);
-  if (settings.damping == Damping::smoothing && dt * settings.gamma_per_s > 1.0)
-    return fail("alpha = gamma dt = {} exceeds 1, where the filter of Eq. 2.4 is no average any more",
-                dt * settings.gamma_per_s);
+  if (settings.damping == Damping::smoothing && dt * settings.gamma_per_s > kLargestSmoothing)
+    return fail(
+        "alpha = gamma dt = {} is beyond {}, up to which the filter of Eq. 2.4 is stable: time step at most {} s",
+        dt * settings.gamma_per_s, kLargestSmoothing, kLargestSmoothing / settings.gamma_per_s);
   return ExplicitSolver(grid, settings);
 }
 

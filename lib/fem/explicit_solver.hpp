@@ -63,7 +63,7 @@ struct EnergyLedger {
 template <class Real>
 class ExplicitSolver {
  public:
-  /// Error: a time step beyond stability, alpha = gamma dt > 1 (Eq. 2.4), constants that are not usable.
+  /// Error: a time step beyond stability, alpha = gamma dt > 3/4 (Eq. 2.4), constants that are not usable.
   static Result<ExplicitSolver> create(const Grid& grid, const ExplicitSettings& settings);
   ExplicitSolver(ExplicitSolver&&) noexcept;
   ~ExplicitSolver();

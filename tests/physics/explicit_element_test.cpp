@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +102,59 @@ TEST(ExplicitElement, TranslationCausesNoForce) {
   for (int node = 0; node < 80; ++node) solver.set_node(node, shift, Eigen::Vector2d::Zero());
   ASSERT_TRUE(solver.step());
   for (int node = 0; node < 80; ++node) EXPECT_EQ(solver.velocity_m_per_s(node).norm(), 0.0) << node;
+}
+
+/// Alternating columns of a grid get opposite velocities: the shortest wave that the filter of Eq. 2.4 sees.
+fem::ExplicitSolver<double> with_shortest_wave(const fem::Grid& grid, double alpha, double velocity_m_per_s) {
+  const double dt = stable_step(grid);
+  auto solver = fem::ExplicitSolver<double>::create(
+                    grid, {.density_kg_per_m3 = kDensity, .time_step_s = dt, .gamma_per_s = alpha / dt, .simd = {}})
+                    .value();
+  for (int row = 1; row < grid.rows; ++row) {
+    for (int column = 0; column <= grid.columns; ++column) {
+      const double sign = column % 2 == 0 ? 1.0 : -1.0;
+      solver.set_node(row * (grid.columns + 1) + column, Eigen::Vector2d::Zero(),
+                      Eigen::Vector2d(0.0, sign * velocity_m_per_s));
+    }
+  }
+  return solver;
+}
+
+/// What alternates from column to column in the displacements of the middle row, m.
+double alternating_part_m(const fem::ExplicitSolver<double>& solver, const fem::Grid& grid) {
+  double sum = 0.0;
+  for (int column = 1; column < grid.columns; ++column) {
+    const double displacement = solver.displacement_m(grid.rows / 2 * (grid.columns + 1) + column).y();
+    sum += (column % 2 == 0 ? 1.0 : -1.0) * displacement / (grid.columns - 1);
+  }
+  return std::abs(sum);
+}
+
+TEST(ExplicitElement, SmoothingBoundsTheShortestWavesUpToItsLargestAlpha) {
+  const fem::Grid grid = homogeneous_grid(21, 16);
+  for (const double alpha : {0.1, 0.5, 0.7499}) {
+    constexpr double kVelocity = 1e-3;
+    auto solver = with_shortest_wave(grid, alpha, kVelocity);
+    for (int step = 0; step < 2000; ++step) ASSERT_TRUE(solver.step()) << alpha;
+    EXPECT_LT(alternating_part_m(solver, grid), kVelocity * stable_step(grid)) << alpha << ": one free step";
+  }
+}
+
+TEST(ExplicitElement, SmoothingBeyondItsLargestAlphaIsRefusedWithTheStepThatWouldDo) {
+  const fem::Grid grid = homogeneous_grid(8, 8);
+  const auto refusal = [&](double alpha, fem::Damping damping) {
+    const auto solver = fem::ExplicitSolver<float>::create(grid, {.density_kg_per_m3 = kDensity,
+                                                                  .time_step_s = 1e-8,
+                                                                  .damping = damping,
+                                                                  .gamma_per_s = alpha / 1e-8,
+                                                                  .simd = {}});
+    return solver ? std::string() : solver.error().message;
+  };
+  EXPECT_EQ(refusal(0.7499, fem::Damping::smoothing), "");
+  const std::string sentence = refusal(0.76, fem::Damping::smoothing);
+  EXPECT_NE(sentence.find("alpha = gamma dt = 0.76 is beyond 0.75"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("time step at most 9.86"), std::string::npos) << sentence;
+  EXPECT_EQ(refusal(0.76, fem::Damping::exponential), "") << "only the filter of Eq. 2.4 has this limit";
 }
 
 /// Pulls an unnotched homogeneous strip slowly (0.5 /s against a first resonance of some 1e4 /s), heavily damped.
