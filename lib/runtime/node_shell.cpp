@@ -178,7 +178,7 @@ class NodeShell {
     if (channel == "ACK") return handle_ack(received);
     const wire::Channel& known = *wire::find_channel(channel);
     if (!wire::is_meant_for(known, received.message.payload, options_.node)) return;
-    if (channel == "SIMULATED" && !asked_.count(wire::request_id_of(channel, received.message.payload))) {
+    if (wire::is_answer(channel) && !asked_.count(wire::request_id_of(channel, received.message.payload))) {
       return;  // a node that lost its journal has yet to ask this again: the answer is repeated until then
     }
     const std::string hash = wire::message_hash(channel, received.message.payload);

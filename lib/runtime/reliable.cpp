@@ -10,7 +10,7 @@ void Outbox::offer(const std::string& hash, Message message, const std::vector<s
   const auto [position, is_new] = entries_.try_emplace(hash);
   if (!is_new) return;
   Entry& entry = position->second;
-  if (message.channel == "SIMULATED") entry.request_id = wire::request_id_of(message.channel, message.payload);
+  if (wire::is_answer(message.channel)) entry.request_id = wire::request_id_of(message.channel, message.payload);
   entry.message = std::move(message);
   entry.order = next_order_++;
   entry.receivers = receivers;

@@ -55,20 +55,29 @@ struct Numerics {
   double rate_scale = 1.0;        ///< factor on the simulated strain rate (20 /s)
   int recording_scale = 1;        ///< factor on the number of recorded samples
   bool explicit_modulus = false;  ///< modulus by explicit integration with gamma instead of the static solver
-  int frame_count = 0;            ///< fracture frames to keep, equally spaced in strain; 0 none
+  int frame_count = 0;            ///< fracture frames to keep, placed by film_strains() (film_strains.hpp); 0 none
 };
 
 struct ModulusResult {
   double modulus_pa = 0.0;
 };
 
-/// Which elements have failed at one moment of a fracture test; row 0 at the bottom, for films.
+/// One moment of a fracture test, for films; row 0 at the bottom.
 struct FractureFrame {
   double strain = 0.0;
   int columns = 0;
   int rows = 0;
+  double element_size_m = 0.0;
   std::vector<std::uint8_t> material;  ///< per element: 0 soft, 1 rigid, 2 interface, 3 void or failed
   std::vector<float> energy_j_per_m3;  ///< per element: largest strain energy density at its quadrature points
+  std::vector<float> displacement_m;   ///< per node, (x, y) in turn; node = row * (columns + 1) + column
+};
+
+/// An element that failed, and the grips' strain at the step in which it passed its threshold.
+struct Break {
+  int element = 0;  ///< row * columns + column, row 0 at the bottom
+  double strain = 0.0;
+  bool operator==(const Break&) const = default;
 };
 
 /// Why a fracture test ended.
@@ -83,6 +92,7 @@ struct ToughnessResult {
   EndReason end = EndReason::stress_drop;
   std::int64_t steps = 0;
   std::int64_t element_count = 0;
+  std::vector<Break> breaks;  ///< in the order of failing; within one step by element
   std::vector<FractureFrame> frames;
 };
 

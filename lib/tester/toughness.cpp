@@ -3,6 +3,7 @@
 
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
+#include "tester/film_strains.hpp"
 #include "tester/fracture_record.hpp"
 #include "tester/fracture_test.hpp"
 #include "tester/notch.hpp"
@@ -50,14 +51,29 @@ double time_step_s(const fem::Grid& grid, double gamma_per_s, bool capped) {
 
 template <class Real>
 FractureFrame frame_of(const fem::ExplicitSolver<Real>& solver, const fem::Grid& grid) {
-  FractureFrame frame{
-      .strain = solver.strain(), .columns = grid.columns, .rows = grid.rows, .material = {}, .energy_j_per_m3 = {}};
+  FractureFrame frame{.strain = solver.strain(),
+                      .columns = grid.columns,
+                      .rows = grid.rows,
+                      .element_size_m = grid.element_size_m,
+                      .material = {},
+                      .energy_j_per_m3 = {},
+                      .displacement_m = {}};
   for (int element = 0; element < grid.element_count(); ++element) {
     const fem::Phase phase = solver.is_empty(element) ? fem::Phase::empty : grid.phase[element];
     frame.material.push_back(static_cast<std::uint8_t>(phase));
     frame.energy_j_per_m3.push_back(static_cast<float>(solver.energy_density_j_per_m3(element)));
   }
+  for (int node = 0; node < (grid.columns + 1) * (grid.rows + 1); ++node) {
+    const Eigen::Vector2d displacement_m = solver.displacement_m(node);
+    frame.displacement_m.push_back(static_cast<float>(displacement_m.x()));
+    frame.displacement_m.push_back(static_cast<float>(displacement_m.y()));
+  }
   return frame;
+}
+
+void add_breaks(std::vector<int> elements, double strain, std::vector<Break>& breaks) {
+  std::sort(elements.begin(), elements.end());
+  for (const int element : elements) breaks.push_back({element, strain});
 }
 
 /// One pull; keeps a frame at the first step that reaches each of the given strains.
@@ -77,6 +93,7 @@ Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>
     const Result<fem::StepReport> report = solver->step();
     if (!report) return fail("toughness tester: {}", report.error().message);
     record.add(report->strain, report->stress_pa());
+    if (report->failed > 0) add_breaks(solver->last_failed(), report->strain, result.breaks);
     if (record.separated()) {
       result.end = EndReason::stress_drop;
     } else if (report->strain >= test.strain_limit) {
@@ -129,12 +146,8 @@ template <class Real>
 Result<ToughnessResult> run_fracture_test(const FractureTest& test) {
   Result<ToughnessResult> result = pull<Real>(test, {});
   if (!result || test.frame_count == 0) return result;
-  // The frames' strains follow from where the specimen breaks, so it is pulled again.
-  std::vector<double> strains;
-  for (int i = 0; i < test.frame_count; ++i)
-    strains.push_back(test.frame_count == 1 ? result->failure_strain
-                                            : result->failure_strain * i / (test.frame_count - 1));
-  return pull<Real>(test, strains);
+  // Where things happen is known once the specimen has broken, so it is pulled again.
+  return pull<Real>(test, film_strains(*result, test.frame_count));
 }
 
 template Result<ToughnessResult> run_fracture_test<float>(const FractureTest&);

@@ -45,6 +45,7 @@ std::vector<Channel> make_channels() {
       domain_channel<AdoptedModel>("PARAMETERS", {"proposal_agent", "analyser"}),
       domain_channel<SimulateRequest>("SIMULATE", {"simulator_farm"}),
       domain_channel<SimulateResult>("SIMULATED", {kRequester}),
+      domain_channel<Fracture>("FRACTURE", {kRequester}),
       domain_channel<GamutChunk>("GAMUT", {"analyser", "validation_agent"}),
       domain_channel<Proposal>("PROPOSAL", {"validation_agent", "analyser"}),
       type_channel<approval_t>("APPROVAL", validation, true, true),
@@ -112,8 +113,16 @@ std::string request_id_of(std::string_view channel, std::string_view payload) {
   } else if (channel == "SIMULATED") {
     const Result<simulate_result_t> answer = decode_safe<simulate_result_t>(payload);
     if (answer) return answer->request_id;
+  } else if (channel == "FRACTURE") {
+    const Result<fracture_t> answer = decode_safe<fracture_t>(payload);
+    if (answer) return answer->request_id;
   }
   return {};
+}
+
+bool is_answer(std::string_view channel) {
+  const Channel* known = find_channel(channel);
+  return known != nullptr && contains(known->receivers, kRequester);
 }
 
 std::string_view requester_of(std::string_view request_id) {

@@ -49,7 +49,10 @@ bool is_meant_for(const Channel& channel, std::string_view payload, std::string_
 /// Whether a message may be sent: the channel exists, the payload is valid and leaves room for the header.
 Result<void> check_outgoing(std::string_view channel, std::string_view payload);
 
-/// The request that a SIMULATE or SIMULATED message belongs to; empty for other channels.
+/// Whether the messages of a channel answer a request, and go to the node that asked it.
+bool is_answer(std::string_view channel);
+
+/// The request that a SIMULATE, SIMULATED or FRACTURE message belongs to; empty for other channels.
 std::string request_id_of(std::string_view channel, std::string_view payload);
 
 /// The name before the first '/' of a request id; empty when there is none.

@@ -109,7 +109,8 @@ Result<tester::TestConditions> from_wire(const test_conditions_t& message) {
 simulate_request_t to_wire(const SimulateRequest& request) {
   simulate_request_t message{};
   message.request_id = request.request_id;
-  message.tests = static_cast<std::int8_t>((request.modulus ? 1 : 0) | (request.toughness ? 2 : 0));
+  message.tests = static_cast<std::int8_t>((request.modulus ? 1 : 0) | (request.toughness ? 2 : 0) |
+                                           (request.crack ? 4 : 0) | (request.film ? 8 : 0));
   message.fidelity = to_wire(request.fidelity);
   message.conditions = to_wire(request.conditions);
   message.parameters = to_wire(request.parameters);
@@ -125,9 +126,13 @@ Result<SimulateRequest> from_wire(const simulate_request_t& message) {
   if (requester_of(message.request_id).empty()) {
     return fail("{}: request_id \"{}\" does not begin with a node's name and '/'", type, message.request_id);
   }
-  if (message.tests < 1 || message.tests > 3) return fail("{}: tests {}, expected 1, 2 or 3", type, message.tests);
+  if (message.tests < 1 || message.tests > 15 || (message.tests & 3) == 0 || (message.tests & 14) == 4 ||
+      (message.tests & 10) == 8)
+    return fail("{}: tests {}, expected 1, 2 or 3, and with 2 also 4 and 8", type, message.tests);
   request.modulus = (message.tests & 1) != 0;
   request.toughness = (message.tests & 2) != 0;
+  request.crack = (message.tests & 4) != 0;
+  request.film = (message.tests & 8) != 0;
   const Result<tester::Fidelity> fidelity = fidelity_from_wire(message.fidelity);
   if (!fidelity) return in_type(type, fidelity.error());
   request.fidelity = *fidelity;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "crack/crack_record.hpp"
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
@@ -22,6 +23,7 @@ namespace nacre::wire {
 
 inline constexpr std::size_t kMaximumDesigns = 64;        ///< of a simulate request
 inline constexpr std::size_t kMaximumCurvePoints = 1500;  ///< of a measured curve
+inline constexpr std::size_t kMaximumBreaks = 4000;       ///< of a FRACTURE
 inline constexpr std::size_t kGamutChunk = 1000;          ///< samples in one gamut_t
 
 /// PARAMETERS: the adopted model of a round.
@@ -47,6 +49,8 @@ struct SimulateRequest {
   tester::TestConditions conditions;
   material::ParameterSet parameters;
   int curve_points = 0;
+  bool crack = false;  ///< a FRACTURE per design is wanted; with toughness only
+  bool film = false;   ///< and the film of it, in the run's folder; with toughness only
   std::vector<pattern::Design> designs;
   bool operator==(const SimulateRequest&) const = default;
 };
@@ -73,6 +77,18 @@ struct SimulateResult {
   int first = 0;
   std::vector<SimulatedDesign> results;
   bool operator==(const SimulateResult&) const = default;
+};
+
+/// FRACTURE: how one design of a request broke.
+struct Fracture {
+  using Wire = fracture_t;
+  std::string request_id;
+  int design_index = 0;  ///< among the request's designs
+  pattern::Design design;
+  crack::Record crack;  ///< of its order, a message keeps the first kMaximumBreaks
+  int broken = 0;       ///< elements that failed
+  std::string film;     ///< file in RUN/films; empty when no film was asked for
+  bool operator==(const Fracture&) const = default;
 };
 
 /// GAMUT: one chunk of a gamut.
@@ -171,6 +187,8 @@ Result<AdoptedModel> from_wire(const parameters_t& message);
 simulate_request_t to_wire(const SimulateRequest& request);
 Result<SimulateRequest> from_wire(const simulate_request_t& message);
 simulate_result_t to_wire(const SimulateResult& result);
+fracture_t to_wire(const Fracture& fracture);
+Result<Fracture> from_wire(const fracture_t& message);
 Result<SimulateResult> from_wire(const simulate_result_t& message);
 gamut_t to_wire(const GamutChunk& chunk);
 Result<GamutChunk> from_wire(const gamut_t& message);

@@ -10,6 +10,7 @@
 #include "nacre/approval_t.hpp"
 #include "nacre/diagnose_request_t.hpp"
 #include "nacre/diagnosis_t.hpp"
+#include "nacre/fracture_t.hpp"
 #include "nacre/gamut_t.hpp"
 #include "nacre/measurement_t.hpp"
 #include "nacre/node_status_t.hpp"
@@ -47,6 +48,10 @@ inline void set_counts(diagnosis_t& m) {
   m.n_effects = common_length("diagnosis_t", m.effects);
   m.n_candidates = common_length("diagnosis_t", m.candidates);
   m.n_next_experiments = common_length("diagnosis_t", m.next_experiments);
+}
+inline void set_counts(fracture_t& m) {
+  m.n_path = common_length("fracture_t path", m.path);
+  m.n_order = common_length("fracture_t order", m.element, m.strain);
 }
 inline void set_counts(gamut_t& m) { m.n = common_length("gamut_t", m.pattern, m.modulus_pa, m.toughness_pa); }
 inline void set_counts(measurement_t& m) { m.n_points = common_length("measurement_t", m.strain, m.stress_pa); }

@@ -18,6 +18,7 @@ TEST(Convert, EveryDomainValueComesBack) {
   expect_round_trip(samples::model());
   expect_round_trip(samples::request());
   expect_round_trip(samples::result());
+  expect_round_trip(samples::fracture());
   expect_round_trip(samples::gamut());
   expect_round_trip(samples::proposal());
   expect_round_trip(samples::order());
@@ -47,6 +48,52 @@ TEST(Convert, RequestsWithoutRequesterTestOrDesignAreRefused) {
   EXPECT_TRUE(refused([](SimulateRequest& r) { r.conditions.orientation_deg = 45.0; }));
   EXPECT_TRUE(refused([](SimulateRequest& r) { r.curve_points = 1501; }));
   EXPECT_FALSE(refused([](SimulateRequest& r) { r.designs.resize(1); }));
+}
+
+TEST(Convert, CracksAndFilmsAreAskedForWithToughnessOnly) {
+  for (const bool crack : {false, true})
+    for (const bool film : {false, true})
+      for (const bool toughness : {false, true}) {
+        SimulateRequest request = samples::request();
+        request.toughness = toughness;
+        request.crack = crack;
+        request.film = film;
+        const auto read_back = read<SimulateRequest>(write(request));
+        ASSERT_EQ(read_back.has_value(), toughness || !(crack || film));
+        if (read_back) {
+          EXPECT_EQ(*read_back, request);
+        }
+      }
+}
+
+TEST(Convert, ImpossibleCracksAreRefused) {
+  const auto refused = [](auto change) {
+    fracture_t message = to_wire(samples::fracture());
+    change(message);
+    return !from_wire(message);
+  };
+  EXPECT_FALSE(refused([](fracture_t&) {}));
+  EXPECT_TRUE(refused([](fracture_t& m) { m.request_id = "nobody"; }));
+  EXPECT_TRUE(refused([](fracture_t& m) { m.path[1] = 8; })) << "outside the grid";
+  EXPECT_TRUE(refused([](fracture_t& m) { m.element[0] = -1; }));
+  EXPECT_TRUE(refused([](fracture_t& m) { m.length_m = 0.9 * m.straight_length_m; })) << "shorter than straight";
+  EXPECT_TRUE(refused([](fracture_t& m) { m.material_share[0] = 0.5; })) << "shares above one";
+  EXPECT_TRUE(refused([](fracture_t& m) { m.broken = 2; })) << "fewer than the order names";
+  EXPECT_TRUE(refused([](fracture_t& m) { m.columns = 0; }));
+}
+
+TEST(Convert, TheLongestFractureFitsOneMessage) {
+  Fracture fracture = samples::fracture();
+  fracture.crack.columns = fracture.crack.rows = 200;
+  fracture.crack.order.assign(20'000, {39'999, 0.25});
+  fracture.broken = 20'000;
+  fracture.crack.path->elements.assign(20'000, 39'999);
+  const std::string payload = write(fracture);
+  EXPECT_LE(payload.size(), kMaximumBlankPayload);
+  const auto read_back = read<Fracture>(payload);
+  ASSERT_TRUE(read_back) << read_back.error().message;
+  EXPECT_EQ(read_back->broken, 20'000);
+  EXPECT_EQ(read_back->crack.order.size(), kMaximumBreaks);
 }
 
 TEST(Convert, ValidSpecimensCarryAResult) {

@@ -37,6 +37,27 @@ inline SimulateResult result() {
   return result;
 }
 
+inline Fracture fracture() {
+  Fracture fracture;
+  fracture.request_id = "analyser/r1/films";
+  fracture.design_index = 2;
+  fracture.design = pattern::Pattern(0x3ffc9b4ad4d2d9);
+  fracture.crack = {.columns = 4,
+                    .rows = 2,
+                    .order = {{5, 0.25}, {6, 0.5}, {7, 0.5}},
+                    .path = crack::Path{.elements = {5, 6, 7},
+                                        .length_m = 3e-3,
+                                        .straight_length_m = 2e-3,
+                                        .bridged_share = 0.0,
+                                        .material = {0.25, 0.5, 0.25},
+                                        .crosses = true},
+                    .branches = 1,
+                    .separate_cracks = 2};
+  fracture.broken = 3;
+  fracture.film = "0123456789abcdef0123456789abcdef.film";
+  return fracture;
+}
+
 inline Measurement measurement() {
   Measurement m;
   m.round = 1;
@@ -129,6 +150,7 @@ inline std::vector<std::pair<std::string, std::string>> payloads() {
           {"PARAMETERS", write(model())},
           {"SIMULATE", write(request())},
           {"SIMULATED", write(result())},
+          {"FRACTURE", write(fracture())},
           {"GAMUT", write(gamut())},
           {"PROPOSAL", write(proposal())},
           {"APPROVAL", encode(approval)},

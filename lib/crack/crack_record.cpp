@@ -1,0 +1,154 @@
+#include "crack/crack_record.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "crack/distances.hpp"
+#include "tester/fracture_test.hpp"
+
+namespace nacre::crack {
+namespace {
+
+/// Among equally long ways the one that failed first is the path. Far below the difference of any two lengths.
+constexpr double kLatenessCost = 1e-6;
+
+/// What became of every element.
+struct Field {
+  const fem::Grid& grid;
+  std::vector<double> lateness;  ///< 0..1 in the order of failing; below 0 where nothing failed
+  bool failed(int element) const { return lateness[static_cast<std::size_t>(element)] >= 0.0; }
+  bool empty(int element) const { return grid.phase[static_cast<std::size_t>(element)] == fem::Phase::empty; }
+  int column(int element) const { return element % grid.columns; }
+};
+
+Field field_of(const fem::Grid& grid, const std::vector<tester::Break>& order) {
+  Field field{grid, std::vector<double>(static_cast<std::size_t>(grid.element_count()), -1.0)};
+  const double last = order.empty() ? 0.0 : order.back().strain;
+  for (const tester::Break& broken : order) {
+    assert(broken.element >= 0 && broken.element < grid.element_count() && !field.empty(broken.element));
+    // By strain, not by place in the list: elements of one step failed together.
+    field.lateness[static_cast<std::size_t>(broken.element)] = last > 0.0 ? broken.strain / last : 0.0;
+  }
+  return field;
+}
+
+/// Where the path begins: in the notch, or without one at the failed elements farthest left.
+std::vector<int> origins(const Field& field, const std::vector<tester::Break>& order) {
+  std::vector<int> elements;
+  for (int e = 0; e < field.grid.element_count(); ++e)
+    if (field.empty(e)) elements.push_back(e);
+  if (!elements.empty()) return elements;
+  int left = field.grid.columns;
+  for (const tester::Break& broken : order) left = std::min(left, field.column(broken.element));
+  for (const tester::Break& broken : order)
+    if (field.column(broken.element) == left) elements.push_back(broken.element);
+  return elements;
+}
+
+/// The cheapest way from `from` to the failed element farthest right, without the elements of the notch.
+std::vector<int> cheapest_way(const Field& field, const std::vector<int>& from,
+                              const std::vector<tester::Break>& order) {
+  const auto cost = [&](int e) {
+    if (field.empty(e)) return 1.0;
+    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[static_cast<std::size_t>(e)] : kStandingCost;
+  };
+  int right = 0;
+  for (const tester::Break& broken : order) right = std::max(right, field.column(broken.element));
+  const auto arrived = [&](int e) { return field.failed(e) && field.column(e) == right; };
+  const Distances distances = distances_from(field.grid, from, cost, arrived);
+  std::vector<int> way;
+  for (int e = *distances.arrived; e >= 0 && !field.empty(e); e = distances.previous[static_cast<std::size_t>(e)])
+    way.push_back(e);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+Path measured(const Field& field, std::vector<int> way) {
+  const fem::Grid& grid = field.grid;
+  Path path;
+  double failed_length = 0.0, length = 0.0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    // An element's share of the length: half of either step, half an element at the ends.
+    const double before = i == 0 ? 1.0 : step_length(grid, way[i - 1], way[i]);
+    const double after = i + 1 == way.size() ? 1.0 : step_length(grid, way[i], way[i + 1]);
+    const double share = 0.5 * (before + after);
+    length += share;
+    if (!field.failed(way[i])) continue;
+    failed_length += share;
+    path.material[static_cast<std::size_t>(grid.phase[static_cast<std::size_t>(way[i])])] += share;
+  }
+  for (double& share : path.material) share /= failed_length;
+  const auto [left, right] = std::minmax({field.column(way.front()), field.column(way.back())});
+  path.length_m = length * grid.element_size_m;
+  path.straight_length_m = (right - left + 1) * grid.element_size_m;
+  path.bridged_share = 1.0 - failed_length / length;
+  path.crosses = field.column(way.back()) == grid.columns - 1;
+  path.elements = std::move(way);
+  return path;
+}
+
+/// The longest branches are taken off one after the other: each begins where the cracks are farthest from all that has
+/// been taken. Also gives the failed elements that the path's crack does not reach.
+int count_branches(const Field& field, const std::vector<int>& path, const std::vector<tester::Break>& order,
+                   std::vector<int>& unreached) {
+  const double shortest = kShortestBranchElements;
+  const auto cost = [&](int e) { return field.failed(e) ? 1.0 : kImpassable; };
+  std::vector<int> taken;
+  for (const int e : path)
+    if (field.failed(e)) taken.push_back(e);
+  Distances distances = distances_from(field.grid, taken, cost);
+  for (const tester::Break& broken : order)
+    if (!std::isfinite(distances.cost[static_cast<std::size_t>(broken.element)])) unreached.push_back(broken.element);
+  for (int branches = 0;; ++branches) {
+    int tip = -1;
+    double farthest = shortest;
+    for (const tester::Break& broken : order) {
+      const double distance = distances.cost[static_cast<std::size_t>(broken.element)];
+      if (!std::isfinite(distance) || distance < farthest || (distance == farthest && tip >= 0)) continue;
+      farthest = distance;
+      tip = broken.element;
+    }
+    if (tip < 0) return branches;
+    std::vector<int> branch;
+    for (int e = tip; e >= 0; e = distances.previous[static_cast<std::size_t>(e)]) branch.push_back(e);
+    shorten(field.grid, branch, cost, distances);
+  }
+}
+
+int count_groups(const Field& field, std::vector<int> elements) {
+  const auto cost = [&](int e) { return field.failed(e) ? 1.0 : kImpassable; };
+  int groups = 0;
+  while (!elements.empty()) {
+    const Distances distances = distances_from(field.grid, {elements.front()}, cost);
+    const auto rest = std::partition(elements.begin(), elements.end(),
+                                     [&](int e) { return std::isfinite(distances.cost[static_cast<std::size_t>(e)]); });
+    if (rest - elements.begin() >= kSmallestCrackElements) ++groups;
+    elements.erase(elements.begin(), rest);
+  }
+  return groups;
+}
+
+}  // namespace
+
+Record crack_record(const fem::Grid& notched, std::vector<tester::Break> order) {
+  Record record;
+  record.columns = notched.columns;
+  record.rows = notched.rows;
+  record.order = std::move(order);
+  if (record.order.empty()) return record;
+  const Field field = field_of(notched, record.order);
+  record.path = measured(field, cheapest_way(field, origins(field, record.order), record.order));
+  std::vector<int> unreached;
+  record.branches = count_branches(field, record.path->elements, record.order, unreached);
+  record.separate_cracks = count_groups(field, unreached);
+  return record;
+}
+
+Record record_of(const tester::Simulation& simulation, std::vector<tester::Break> order) {
+  return crack_record(tester::fracture_test(simulation).grid, std::move(order));
+}
+
+}  // namespace nacre::crack
