@@ -14,8 +14,8 @@
 #include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "base/result.hpp"
+#include "base/statistics.hpp"
 #include "base_refit.hpp"
-#include "floor_statistics.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/tester.hpp"
 #include "virtual_lab/laboratory.hpp"
@@ -146,7 +146,7 @@ std::string study_toughness(const Truth& truth, const std::vector<pattern::Patte
   return fmt::format(
       "toughness_layouts = {}\nlog_toughness_mean = {:.4f}  # laboratory - tester at the truth\n"
       "log_toughness_sd = {:.5f}  # after one common factor\ntoughness_spearman = {:.3f}\n",
-      raw.size(), mean(raw), standard_deviation(raw), spearman(target, at_truth));
+      raw.size(), mean(raw), standard_deviation(raw), rank_correlation(target, at_truth));
 }
 
 void run(const Options& options) {

@@ -9,7 +9,7 @@
 #include "base/files.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
-#include "sysid/rank_correlation.hpp"
+#include "base/statistics.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -78,7 +78,7 @@ std::vector<Trend> table_trends(const std::filesystem::path& table, const std::s
     if (pairing.values.size() >= kLeastRows && varies) pairings.push_back(std::move(pairing));
   }
   std::vector<Trend> trends;
-  for (const Pairing& p : pairings) trends.push_back({p.name, sysid::rank_correlation(p.values, p.residuals), 1.0, static_cast<int>(p.rows.size())});
+  for (const Pairing& p : pairings) trends.push_back({p.name, rank_correlation(p.values, p.residuals), 1.0, static_cast<int>(p.rows.size())});
   // Rows are permuted as a whole, so that columns that go together stay together.
   RandomStream random(seed, "table trends");
   std::vector<std::size_t> rows;
@@ -93,7 +93,7 @@ std::vector<Trend> table_trends(const std::filesystem::path& table, const std::s
     for (const Pairing& p : pairings) {
       std::vector<double> residuals;
       for (const std::size_t row : p.rows) residuals.push_back(moved.at(row));
-      strongest = std::max(strongest, std::abs(sysid::rank_correlation(p.values, residuals)));
+      strongest = std::max(strongest, std::abs(rank_correlation(p.values, residuals)));
     }
     for (std::size_t k = 0; k < pairings.size(); ++k) larger[k] += strongest >= std::abs(trends[k].spearman);
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/random.hpp"
+#include "base/statistics.hpp"
 #include "game/rounds.hpp"
 
 namespace nacre::game {
@@ -19,10 +20,6 @@ std::vector<measurement::Replicates> summarise_nominally(std::vector<measurement
 }
 
 bool upright(const tester::TestConditions& conditions) { return std::abs(conditions.orientation_deg) < 0.5; }
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 double redrawn_mean(const std::vector<double>& values, RandomStream& random) {
   const int count = static_cast<int>(values.size());

@@ -3,8 +3,8 @@
 #include <numeric>
 #include <span>
 
+#include "base/statistics.hpp"
 #include "sysid/calibration.hpp"
-#include "sysid/rank_correlation.hpp"
 
 namespace nacre::sysid {
 namespace {

@@ -6,23 +6,12 @@
 #include <map>
 #include <numeric>
 
+#include "base/statistics.hpp"
 #include "game/standings.hpp"
 #include "material/extensions.hpp"
 
 namespace nacre::analyser {
 namespace {
-
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double standard_deviation(std::span<const double> values) {
-  if (values.size() < 2) return 0.0;
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
 
 /// The constant c with the least mean of |c - v| / v: the median of v weighted by 1 / v.
 double least_relative_error_constant(std::span<const double> values) {
@@ -107,7 +96,7 @@ std::vector<MeasuredPattern> measured_patterns(const store::RunRecord& run, int 
   for (const auto& [pattern, values] : game::measured_values(known)) {
     if (values.modulus_pa.empty() || values.toughness_pa.empty()) continue;
     patterns.push_back({.pattern = pattern,
-                        .mean = {mean_of(values.modulus_pa), mean_of(values.toughness_pa)},
+                        .mean = {mean(values.modulus_pa), mean(values.toughness_pa)},
                         .modulus_sd_pa = standard_deviation(values.modulus_pa),
                         .toughness_sd_pa = standard_deviation(values.toughness_pa),
                         .modulus_count = static_cast<int>(values.modulus_pa.size()),

@@ -1,11 +1,10 @@
-#include "sysid/rank_correlation.hpp"
+#include "base/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
-namespace nacre::sysid {
+namespace nacre {
 namespace {
 
 /// Ranks from 1; equal values share the mean of the ranks they span.
@@ -26,6 +25,32 @@ std::vector<double> ranks_of(std::span<const double> values) {
 
 }  // namespace
 
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double root_mean_square(std::span<const double> values, int lost) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / (static_cast<double>(values.size()) - lost));
+}
+
+double standard_deviation(std::span<const double> values) {
+  if (values.size() < 2) return 0.0;
+  const double middle = mean(values);
+  double sum = 0.0;
+  for (const double value : values) sum += (value - middle) * (value - middle);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  if (below + 1 >= values.size()) return values.back();
+  return std::lerp(values[below], values[below + 1], place - static_cast<double>(below));
+}
+
 double rank_correlation(std::span<const double> a, std::span<const double> b) {
   if (a.size() < 3) return 0.0;
   const std::vector<double> rank_a = ranks_of(a), rank_b = ranks_of(b);
@@ -39,4 +64,4 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
   return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
-}  // namespace nacre::sysid
+}  // namespace nacre

@@ -1,0 +1,25 @@
+#pragma once
+// Figures that sum up a list of numbers.
+
+#include <span>
+#include <vector>
+
+namespace nacre {
+
+/// Of at least one value.
+double mean(std::span<const double> values);
+
+/// sqrt(sum of squares / (n - lost)), about zero; `lost` degrees of freedom were spent on a fit, n > lost.
+double root_mean_square(std::span<const double> values, int lost = 0);
+
+/// About the mean, over n - 1; 0 below two values.
+double standard_deviation(std::span<const double> values);
+
+/// The value below which a share in [0, 1] of the values lies, interpolated between neighbours. At least one value.
+double quantile(std::vector<double> values, double share);
+
+/// Spearman's rank correlation, ties sharing their mean rank; 0 below three pairs or when one side does not vary. Both
+/// sides of the same length.
+double rank_correlation(std::span<const double> a, std::span<const double> b);
+
+}  // namespace nacre

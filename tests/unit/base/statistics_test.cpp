@@ -1,0 +1,43 @@
+#include "base/statistics.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace nacre {
+namespace {
+
+TEST(Statistics, RankCorrelationFeelsOnlyTheOrder) {
+  const std::vector<double> a = {1.0, 2.0, 3.0, 4.0}, cubes = {1.0, 8.0, 27.0, 64.0}, falling = {4.0, 3.0, 2.0, 1.0};
+  EXPECT_DOUBLE_EQ(rank_correlation(a, cubes), 1.0);
+  EXPECT_DOUBLE_EQ(rank_correlation(a, falling), -1.0);
+}
+
+TEST(Statistics, TiesShareTheirRankInTheCorrelation) {
+  // Ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4: 4.5 / sqrt(4.5 * 5).
+  const std::vector<double> tied = {1.0, 2.0, 2.0, 3.0}, distinct = {1.0, 2.0, 3.0, 4.0};
+  EXPECT_NEAR(rank_correlation(tied, distinct), 4.5 / std::sqrt(4.5 * 5.0), 1e-15);
+}
+
+TEST(Statistics, AConstantSideCorrelatesWithNothing) {
+  const std::vector<double> constant = {2.0, 2.0, 2.0}, a = {1.0, 2.0, 3.0};
+  EXPECT_EQ(rank_correlation(constant, a), 0.0);
+}
+
+TEST(Statistics, SpreadIsAboutTheMeanAndRootMeanSquareAboutZero) {
+  const std::vector<double> values = {1.0, 3.0};
+  EXPECT_DOUBLE_EQ(mean(values), 2.0);
+  EXPECT_DOUBLE_EQ(standard_deviation(values), std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(root_mean_square(values), std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(root_mean_square(values, 1), std::sqrt(10.0));
+}
+
+TEST(Statistics, QuantilesRunFromTheLeastToTheGreatest) {
+  const std::vector<double> values = {3.0, 1.0, 2.0};
+  EXPECT_DOUBLE_EQ(quantile(values, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.25), 1.5);
+  EXPECT_DOUBLE_EQ(quantile(values, 1.0), 3.0);
+}
+
+}  // namespace
+}  // namespace nacre
