@@ -1,7 +1,8 @@
 // The kernel of the explicit solver, compiled once per instruction set (explicit_kernel_*.cpp define NACRE_SIMD).
 //
-// One sweep over the rows does a whole step: element row j gives the forces on node row j, these its new velocity, and
-// with the velocities of rows j-2 .. j known, row j-1 is smoothed and moved. Symbols, per element:
+// One sweep over the rows does a whole step, each row in one loop: element row j gives the forces on node row j, these
+// its new velocity, and with the velocities of rows j-3 .. j-1 known, row j-2 is smoothed and moved. Symbols, per
+// element:
 //   d0, d1   difference of displacement along the bottom and top edge;  e0, e1  along the left and right edge
 //   A, C     dux/dX and duy/dX at the two heights of the quadrature points;  B, D  dux/dY and duy/dY at their two
 //   abscissae x = J - 1 = tr H + det H;  l = ln J;  t = (mu x + lambda l) / J
@@ -116,82 +117,6 @@ NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (
   return largest;
 }
 
-/// Edge forces of one row of elements; true when some element passed its threshold.
-template <class Real>
-bool element_row(const ExplicitState<Real>& s, int row) {
-  const ExplicitRows<Real>& r = s.row;
-  const Real *mu_row = s.mu + row * s.element_stride, *lambda_row = s.lambda + row * s.element_stride;
-  const Real* threshold_row = s.threshold + row * s.element_stride;
-  const Pack<Real> one = broadcast(Real{1}), two = broadcast(Real{2});
-  Flags flags;
-  for (int column = 0; column < s.element_stride; column += kLanes<Real>) {
-    const Gradient<Real> g = gradient(s, row * s.stride + column);
-    const Pack<Real> mu = load(mu_row + column), lambda = load(lambda_row + column);
-    Pack<Real> change[2][2], t[2][2];
-    for (int i = 0; i < 2; ++i)
-      for (int k = 0; k < 2; ++k) change[i][k] = volume_change(g, i, k);
-    const Pack<Real> most = larger(larger(magnitude<Real>(change[0][0]), magnitude<Real>(change[0][1])),
-                                   larger(magnitude<Real>(change[1][0]), magnitude<Real>(change[1][1])));
-    Flags far;
-    flag_unless_at_most(far, most, broadcast(Real(kNearChange)));
-    const Pack<Real> energy = any(far) ? constitutive<Real, true>(g, change, mu, lambda, t)
-                                       : constitutive<Real, false>(g, change, mu, lambda, t);
-    store(r.excess + column, energy);
-    flag_unless_at_most(flags, energy, load(threshold_row + column));
-
-    const Pack<Real> sum_a = g.a[0] + g.a[1], sum_b = g.b[0] + g.b[1], sum_c = g.c[0] + g.c[1], sum_d = g.d[0] + g.d[1];
-    const Pack<Real> stretch_x[2] = {one + g.a[0], one + g.a[1]}, stretch_y[2] = {one + g.d[0], one + g.d[1]};
-    Pack<Real> xx[2], xy[2], yx[2], yy[2];  // P summed over one direction of quadrature points
-    for (int k = 0; k < 2; ++k) {
-      xx[k] = fma(mu, fma(two, g.a[k], -sum_d), t[0][k] * stretch_y[0] + t[1][k] * stretch_y[1]);
-      yx[k] = fma(mu, fma(two, g.c[k], sum_b), -(t[0][k] * g.b[0] + t[1][k] * g.b[1]));
-      xy[k] = fma(mu, fma(two, g.b[k], sum_c), -(t[k][0] * g.c[0] + t[k][1] * g.c[1]));
-      yy[k] = fma(mu, fma(two, g.d[k], -sum_a), t[k][0] * stretch_x[0] + t[k][1] * stretch_x[1]);
-    }
-    Pack<Real> low, high;
-    spread<Real>(xx[0], xx[1], low, high);
-    store(r.horizontal_x + column, load(r.upper_x + column) + low);
-    store(r.upper_x + column, high);
-    spread<Real>(yx[0], yx[1], low, high);
-    store(r.horizontal_y + column, load(r.upper_y + column) + low);
-    store(r.upper_y + column, high);
-    spread<Real>(xy[0], xy[1], low, high);
-    store(r.left_x + column, low);
-    store(r.right_x + column, high);
-    spread<Real>(yy[0], yy[1], low, high);
-    store(r.left_y + column, low);
-    store(r.right_y + column, high);
-  }
-  return any(flags);
-}
-
-/// Lists the elements of a row whose energy density passed the threshold.
-template <class Real>
-void list_failed(ExplicitState<Real>& s, int row) {
-  const Real* threshold_row = s.threshold + row * s.element_stride;
-  for (int column = 0; column < s.columns; ++column)
-    if (!(s.row.excess[column] <= threshold_row[column])) s.failed[s.failed_count++] = row * s.columns + column;
-}
-
-/// v += f for one row of nodes from the edge forces around it. Grips move no node vertically: `Grip` leaves vy alone.
-template <class Real, bool Grip>
-void accelerate_row(const ExplicitState<Real>& s, int row) {
-  const ExplicitRows<Real>& r = s.row;
-  Real *vx = s.vx + row * s.stride, *vy = s.vy + row * s.stride;
-  for (int i = 0; i <= s.columns; i += kLanes<Real>) {
-    const Pack<Real> above_x = load(r.right_x + i - 1) + load(r.left_x + i);
-    const Pack<Real> above_y = load(r.right_y + i - 1) + load(r.left_y + i);
-    const Pack<Real> horizontal_x = load(r.horizontal_x + i) - load(r.horizontal_x + i - 1);
-    store(vx + i, load(vx + i) + (horizontal_x + (above_x - load(r.below_x + i))));
-    if constexpr (!Grip) {
-      const Pack<Real> horizontal_y = load(r.horizontal_y + i) - load(r.horizontal_y + i - 1);
-      store(vy + i, load(vy + i) + (horizontal_y + (above_y - load(r.below_y + i))));
-    }
-    store(r.below_x + i, above_x);
-    store(r.below_y + i, above_y);
-  }
-}
-
 /// v(i-1) + v(i) + v(i+1), symmetric to the last bit.
 template <class Real>
 NACRE_INLINE Pack<Real> sum_of_three(const Real* v) {
@@ -208,24 +133,157 @@ void sum_row(const ExplicitState<Real>& s, int row) {
   sum(s.vy + row * s.stride, s.row.sum_y[row % 3]);
 }
 
-/// Eq. 2.4 for one interior row, then q += v. Forms the sums of the row above, which has just been accelerated.
+/// The filter's row sums around row `row`: of the row below, of itself, and of the row above, which is formed here.
+template <class Real>
+struct RowSums {
+  const Real *below_x, *here_x, *below_y, *here_y;
+  Real *above_x, *above_y;
+
+  RowSums(const ExplicitRows<Real>& r, int row)
+      : below_x(r.sum_x[(row + 2) % 3]),
+        here_x(r.sum_x[row % 3]),
+        below_y(r.sum_y[(row + 2) % 3]),
+        here_y(r.sum_y[row % 3]),
+        above_x(r.sum_x[(row + 1) % 3]),
+        above_y(r.sum_y[(row + 1) % 3]) {}
+};
+
+/// Eq. 2.4 in one direction for a pack of interior nodes, then q += v.
+template <class Real>
+NACRE_INLINE void smooth_and_move(Real* v, Real* q, const Real* v_above, Pack<Real> weight, Pack<Real> below,
+                                  Pack<Real> here, Real* above) {
+  const Pack<Real> sum_above = sum_of_three(v_above);
+  store(above, sum_above);
+  const Pack<Real> box = (below + sum_above) + here, old = load(v);
+  const Pack<Real> smooth = fma(weight, fma(broadcast(Real(1.0 / 9)), box, -old), old);
+  store(v, smooth);
+  store(q, load(q) + smooth);
+}
+
+/// Both directions for the pack of row `row` at `column`.
+template <class Real>
+NACRE_INLINE void smooth_and_move(const ExplicitState<Real>& s, const RowSums<Real>& sums, int row, int column) {
+  const int at = row * s.stride + column;
+  const Pack<Real> weight = load(s.row.weight + column);
+  smooth_and_move(s.vx + at, s.qx + at, s.vx + at + s.stride, weight, load(sums.below_x + column),
+                  load(sums.here_x + column), sums.above_x + column);
+  smooth_and_move(s.vy + at, s.qy + at, s.vy + at + s.stride, weight, load(sums.below_y + column),
+                  load(sums.here_y + column), sums.above_y + column);
+}
+
 template <class Real>
 void smooth_and_move_row(const ExplicitState<Real>& s, int row) {
-  const Pack<Real> ninth = broadcast(Real(1.0 / 9));
-  const auto finish = [&](Real* v, Real* q, Real* const(&sums)[3]) {
-    const Real *below = sums[(row + 2) % 3], *here = sums[row % 3];
-    Real* above = sums[(row + 1) % 3];
-    for (int i = 0; i <= s.columns; i += kLanes<Real>) {
-      const Pack<Real> sum_above = sum_of_three(v + s.stride + i);
-      store(above + i, sum_above);
-      const Pack<Real> box = (load(below + i) + sum_above) + load(here + i), old = load(v + i);
-      const Pack<Real> smooth = fma(load(s.row.weight + i), fma(ninth, box, -old), old);
-      store(v + i, smooth);
-      store(q + i, load(q + i) + smooth);
+  const RowSums<Real> sums(s.row, row);
+  for (int i = 0; i <= s.columns; i += kLanes<Real>) smooth_and_move(s, sums, row, i);
+}
+
+/// What a pack of elements gives: energy density and the forces along its four edges.
+template <class Real>
+struct EdgeForces {
+  Pack<Real> energy;  ///< twice the largest energy density at the quadrature points
+  Pack<Real> bottom_x, top_x, bottom_y, top_y;
+  Pack<Real> left_x, right_x, left_y, right_y;
+};
+
+template <class Real>
+NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node, int element) {
+  const Pack<Real> one = broadcast(Real{1}), two = broadcast(Real{2});
+  const Gradient<Real> g = gradient(s, node);
+  const Pack<Real> mu = load(s.mu + element), lambda = load(s.lambda + element);
+  Pack<Real> change[2][2], t[2][2];
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 2; ++k) change[i][k] = volume_change(g, i, k);
+  const Pack<Real> most = larger(larger(magnitude<Real>(change[0][0]), magnitude<Real>(change[0][1])),
+                                 larger(magnitude<Real>(change[1][0]), magnitude<Real>(change[1][1])));
+  Flags far;
+  flag_unless_at_most(far, most, broadcast(Real(kNearChange)));
+  EdgeForces<Real> f;
+  f.energy = any(far) ? constitutive<Real, true>(g, change, mu, lambda, t)
+                      : constitutive<Real, false>(g, change, mu, lambda, t);
+
+  const Pack<Real> sum_a = g.a[0] + g.a[1], sum_b = g.b[0] + g.b[1], sum_c = g.c[0] + g.c[1], sum_d = g.d[0] + g.d[1];
+  const Pack<Real> stretch_x[2] = {one + g.a[0], one + g.a[1]}, stretch_y[2] = {one + g.d[0], one + g.d[1]};
+  Pack<Real> xx[2], xy[2], yx[2], yy[2];  // P summed over one direction of quadrature points
+  for (int k = 0; k < 2; ++k) {
+    xx[k] = fma(mu, fma(two, g.a[k], -sum_d), t[0][k] * stretch_y[0] + t[1][k] * stretch_y[1]);
+    yx[k] = fma(mu, fma(two, g.c[k], sum_b), -(t[0][k] * g.b[0] + t[1][k] * g.b[1]));
+    xy[k] = fma(mu, fma(two, g.b[k], sum_c), -(t[k][0] * g.c[0] + t[k][1] * g.c[1]));
+    yy[k] = fma(mu, fma(two, g.d[k], -sum_a), t[k][0] * stretch_x[0] + t[k][1] * stretch_x[1]);
+  }
+  spread<Real>(xx[0], xx[1], f.bottom_x, f.top_x);
+  spread<Real>(yx[0], yx[1], f.bottom_y, f.top_y);
+  spread<Real>(xy[0], xy[1], f.left_x, f.right_x);
+  spread<Real>(yy[0], yy[1], f.left_y, f.right_y);
+  return f;
+}
+
+/// Lists the elements of a pack whose energy density passed the threshold.
+template <class Real>
+[[gnu::noinline, gnu::cold]] void list_failed(ExplicitState<Real>& s, int row, int column, const Real* energy) {
+  const Real* threshold = s.threshold + row * s.element_stride + column;
+  for (int lane = 0; lane < kLanes<Real> && column + lane < s.columns; ++lane)
+    if (!(energy[lane] <= threshold[lane])) s.failed[s.failed_count++] = row * s.columns + column + lane;
+}
+
+/// One direction of v += f for a pack of nodes, from the forces along the horizontal and vertical edges around them,
+/// those of the pack to the left included.
+template <class Real>
+struct NodeForces {
+  Pack<Real> horizontal{}, right{};  ///< of the pack to the left
+
+  NACRE_INLINE Pack<Real> next(Pack<Real> along, Pack<Real> left_edge, Pack<Real> right_edge, Real* below) {
+    const Pack<Real> above = shifted(right, right_edge) + left_edge;
+    const Pack<Real> force = (along - shifted(horizontal, along)) + (above - load(below));
+    store(below, above);
+    horizontal = along;
+    right = right_edge;
+    return force;
+  }
+};
+
+/// One row of elements, and v += f for the row of nodes below it: the grip (`Grip`), which moves no node vertically, or
+/// an interior one. Then, with `Finish`, the filter and motion of the row two below, whose velocities are complete.
+template <class Real, bool Grip, bool Finish>
+void sweep_row(ExplicitState<Real>& state, int row) {
+  const ExplicitState<Real> s = state;  // its pointers stay in registers
+  const ExplicitRows<Real>& r = s.row;
+  Real *const vx = s.vx + row * s.stride, *const vy = s.vy + row * s.stride;
+  const RowSums<Real> sums(r, Finish ? row - 2 : 0);
+  NodeForces<Real> forces_x, forces_y;
+  for (int column = 0; column < s.element_stride; column += kLanes<Real>) {
+    const int element = row * s.element_stride + column;
+    const EdgeForces<Real> f = edge_forces(s, row * s.stride + column, element);
+    Flags failed;
+    flag_unless_at_most(failed, f.energy, load(s.threshold + element));
+    if (any(failed)) [[unlikely]] {
+      alignas(kPackBytes) Real energy[kLanes<Real>];
+      store(energy, f.energy);
+      list_failed(state, row, column, energy);
     }
-  };
-  finish(s.vx + row * s.stride, s.qx + row * s.stride, s.row.sum_x);
-  finish(s.vy + row * s.stride, s.qy + row * s.stride, s.row.sum_y);
+    const Pack<Real> along_x = load(r.upper_x + column) + f.bottom_x, along_y = load(r.upper_y + column) + f.bottom_y;
+    store(r.upper_x + column, f.top_x);
+    store(r.upper_y + column, f.top_y);
+    const Pack<Real> force_x = forces_x.next(along_x, f.left_x, f.right_x, r.below_x + column);
+    const Pack<Real> force_y = forces_y.next(along_y, f.left_y, f.right_y, r.below_y + column);
+    store(vx + column, load(vx + column) + force_x);
+    if constexpr (!Grip) store(vy + column, load(vy + column) + force_y);
+    if constexpr (Finish) smooth_and_move(s, sums, row - 2, column);
+  }
+}
+
+/// The upper grip: no row of elements above it.
+template <class Real, bool Held>
+void top_row(ExplicitState<Real>& s) {
+  const ExplicitRows<Real>& r = s.row;
+  Real *const vx = s.vx + s.rows * s.stride, *const vy = s.vy + s.rows * s.stride;
+  NodeForces<Real> forces_x, forces_y;
+  const Pack<Real> none{};
+  for (int column = 0; column < s.element_stride; column += kLanes<Real>) {
+    const Pack<Real> force_x = forces_x.next(load(r.upper_x + column), none, none, r.below_x + column);
+    const Pack<Real> force_y = forces_y.next(load(r.upper_y + column), none, none, r.below_y + column);
+    store(vx + column, load(vx + column) + force_x);
+    if constexpr (!Held) store(vy + column, load(vy + column) + force_y);
+  }
 }
 
 /// v *= decay (Eq. 2.5; decay = 1 leaves a row undamped), then q += v.
@@ -317,57 +375,45 @@ void start_sweep(const ExplicitState<Real>& s) {
   for (Real* row : carried) zero_row(row, s.columns);
 }
 
-/// After the last row of elements: none stands above the top row of nodes.
-template <class Real>
-void end_sweep(const ExplicitState<Real>& s) {
-  const ExplicitRows<Real>& r = s.row;
-  Real* const above[] = {r.left_x, r.right_x, r.left_y, r.right_y};
-  for (Real* row : above) zero_row(row, s.columns);
-  for (int i = 0; i <= s.columns; i += kLanes<Real>) {
-    store(r.horizontal_x + i, load(r.upper_x + i));
-    store(r.horizontal_y + i, load(r.upper_y + i));
-  }
-}
-
 template <class Real, bool Ledger>
 void advance(ExplicitState<Real>& s) {
   const FlushToZero flush;
   s.failed_count = 0;
   s.damping_work = 0.0;
   start_sweep(s);
+  const bool fused = !Ledger && s.damping == Damping::smoothing;
   for (int row = 0; row < s.rows; ++row) {
-    if (element_row(s, row)) list_failed(s, row);
     if (row == 0) {
-      accelerate_row<Real, true>(s, 0);
+      sweep_row<Real, true, false>(s, 0);
       s.bottom_force = ordered_sum(s.row.below_y, s.columns);
+    } else if (fused && row > 2) {
+      sweep_row<Real, false, true>(s, row);
     } else {
-      accelerate_row<Real, false>(s, row);
+      sweep_row<Real, false, false>(s, row);
+      if (row >= 2) finish_row<Real, Ledger>(s, row - 2);
     }
     if (row < 2) sum_row(s, row);
-    if (row > 0) finish_row<Real, Ledger>(s, row - 1);
   }
   s.top_force = ordered_sum(s.row.below_y, s.columns);
-  end_sweep(s);
-  accelerate_row<Real, true>(s, s.rows);
-  finish_row<Real, Ledger>(s, s.rows - 1);
-  finish_row<Real, Ledger>(s, s.rows);
+  top_row<Real, true>(s);
+  for (int row = s.rows - 2; row <= s.rows; ++row) finish_row<Real, Ledger>(s, row);
 }
 
 template <class Real>
 void internal_forces(ExplicitState<Real>& s) {
   const FlushToZero flush;
   start_sweep(s);
+  s.failed_count = 0;
   for (int row = 0; row <= s.rows; ++row) {
     zero_row(s.vx + row * s.stride, s.columns);
     zero_row(s.vy + row * s.stride, s.columns);
     if (row < s.rows) {
-      element_row(s, row);
+      sweep_row<Real, false, false>(s, row);
+      if (row == 0) s.bottom_force = ordered_sum(s.row.below_y, s.columns);
     } else {
       s.top_force = ordered_sum(s.row.below_y, s.columns);
-      end_sweep(s);
+      top_row<Real, false>(s);
     }
-    accelerate_row<Real, false>(s, row);
-    if (row == 0) s.bottom_force = ordered_sum(s.row.below_y, s.columns);
   }
 }
 
@@ -393,7 +439,8 @@ int first_inverted(const ExplicitState<Real>& s) {
   return -1;
 }
 
-extern const ExplicitKernel<float> kSingle = {advance<float, false>, advance<float, true>, first_inverted<float>, internal_forces<float>};
+extern const ExplicitKernel<float> kSingle = {advance<float, false>, advance<float, true>, first_inverted<float>,
+                                              internal_forces<float>};
 extern const ExplicitKernel<double> kDouble = {advance<double, false>, advance<double, true>, first_inverted<double>,
                                                internal_forces<double>};
 

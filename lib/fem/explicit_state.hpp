@@ -31,14 +31,10 @@ inline constexpr int kRowPadding = 16;
 /// Rows of work for one element row and the node row below it; each `stride` long with `kRowPadding` zeros in front.
 template <class Real>
 struct ExplicitRows {
-  Real *horizontal_x, *horizontal_y;  ///< force along the horizontal edges of the node row
-  Real *upper_x, *upper_y;            ///< the part of it that the element row below contributed
-  Real *left_x, *left_y;              ///< force along the left edge of every element
-  Real *right_x, *right_y;            ///< and along the right edge
-  Real *below_x, *below_y;            ///< vertical edge force at the nodes from the element row below
-  Real* excess;                       ///< twice the largest energy density at the quadrature points
-  Real *sum_x[3], *sum_y[3];          ///< v(i-1) + v(i) + v(i+1) of three node rows, by row modulo 3
-  Real* weight;                       ///< alpha of Eq. 2.4 for interior columns, 0 elsewhere
+  Real *upper_x, *upper_y;    ///< force along the horizontal edges of the node row, from the element row below
+  Real *below_x, *below_y;    ///< vertical edge force at the nodes from the element row below
+  Real *sum_x[3], *sum_y[3];  ///< v(i-1) + v(i) + v(i+1) of three node rows, by row modulo 3
+  Real* weight;               ///< alpha of Eq. 2.4 for interior columns, 0 elsewhere
 };
 
 /// What only the ledger of energies needs: velocities of the last step, and of one row before damping.

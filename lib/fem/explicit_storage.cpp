@@ -8,7 +8,7 @@ namespace nacre::fem {
 namespace {
 
 constexpr std::align_val_t kAlignment{64};
-constexpr std::size_t kWorkRows = 18, kLedgerRows = 2;
+constexpr std::size_t kWorkRows = 11, kLedgerRows = 2;
 
 int padded(int count) { return (count + kRowPadding - 1) / kRowPadding * kRowPadding; }
 
@@ -26,7 +26,7 @@ ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger)
   s.columns = columns;
   s.rows = rows;
   s.stride = padded(columns + 1) + kRowPadding;
-  s.element_stride = padded(columns);
+  s.element_stride = padded(columns + 1);  // a row of elements and the nodes below it are one loop
   const std::size_t front = kRowPadding, row = static_cast<std::size_t>(s.stride);
   const std::size_t nodes = static_cast<std::size_t>(rows + 1) * row;
   const std::size_t elements = static_cast<std::size_t>(rows) * static_cast<std::size_t>(s.element_stride);
@@ -37,8 +37,7 @@ ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger)
   for (Real** field : {&s.qx, &s.qy, &s.vx, &s.vy}) *field = take(nodes, front);
   for (Real** field : {&s.mu, &s.lambda, &s.threshold}) *field = take(elements, 0);
   ExplicitRows<Real>& r = s.row;
-  for (Real** field : {&r.horizontal_x, &r.horizontal_y, &r.upper_x, &r.upper_y, &r.left_x, &r.left_y, &r.right_x,
-                       &r.right_y, &r.below_x, &r.below_y, &r.excess, &r.sum_x[0], &r.sum_x[1], &r.sum_x[2],
+  for (Real** field : {&r.upper_x, &r.upper_y, &r.below_x, &r.below_y, &r.sum_x[0], &r.sum_x[1], &r.sum_x[2],
                        &r.sum_y[0], &r.sum_y[1], &r.sum_y[2], &r.weight})
     *field = take(row, front);
   if (with_ledger)

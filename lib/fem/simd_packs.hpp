@@ -59,7 +59,8 @@ NACRE_INLINE Pack<Real> magnitude(Pack<Real> pack) {
   return (Pack<Real>)((Bits<Real>)pack & ~sign);
 }
 
-/// Lanes seen so far in which a comparison failed.
+/// Lanes seen so far in which a comparison failed. shifted(): the last lane of the pack before, then the others but the
+/// last.
 #if defined(__AVX512F__)
 struct Flags {
   unsigned bits = 0;
@@ -77,6 +78,12 @@ NACRE_INLINE void flag_unless_at_most(Flags& flags, Pack<double> a, Pack<double>
   flags.bits |= _mm512_cmp_pd_mask(a, b, _CMP_NLE_UQ);
 }
 NACRE_INLINE bool any(const Flags& flags) { return flags.bits != 0; }
+NACRE_INLINE Pack<float> shifted(Pack<float> before, Pack<float> pack) {
+  return (Pack<float>)_mm512_alignr_epi32((__m512i)pack, (__m512i)before, 15);
+}
+NACRE_INLINE Pack<double> shifted(Pack<double> before, Pack<double> pack) {
+  return (Pack<double>)_mm512_alignr_epi64((__m512i)pack, (__m512i)before, 7);
+}
 #elif defined(__FMA__)
 struct Flags {
   __m256 bits = _mm256_setzero_ps();
@@ -94,6 +101,14 @@ NACRE_INLINE void flag_unless_at_most(Flags& flags, Pack<double> a, Pack<double>
   flags.bits = _mm256_or_ps(flags.bits, _mm256_castpd_ps(_mm256_cmp_pd(a, b, _CMP_NLE_UQ)));
 }
 NACRE_INLINE bool any(const Flags& flags) { return _mm256_movemask_ps(flags.bits) != 0; }
+NACRE_INLINE Pack<float> shifted(Pack<float> before, Pack<float> pack) {
+  const __m256i middle = _mm256_permute2x128_si256((__m256i)before, (__m256i)pack, 0x21);
+  return (Pack<float>)_mm256_alignr_epi8((__m256i)pack, middle, 12);
+}
+NACRE_INLINE Pack<double> shifted(Pack<double> before, Pack<double> pack) {
+  const __m256i middle = _mm256_permute2x128_si256((__m256i)before, (__m256i)pack, 0x21);
+  return (Pack<double>)_mm256_alignr_epi8((__m256i)pack, middle, 8);
+}
 #else
 struct Flags {
   __m128 bits = _mm_setzero_ps();
@@ -132,4 +147,8 @@ NACRE_INLINE void flag_unless_at_most(Flags& flags, Pack<double> a, Pack<double>
   flags.bits = _mm_or_ps(flags.bits, _mm_castpd_ps(_mm_cmpnle_pd(a, b)));
 }
 NACRE_INLINE bool any(const Flags& flags) { return _mm_movemask_ps(flags.bits) != 0; }
+NACRE_INLINE Pack<float> shifted(Pack<float> before, Pack<float> pack) {
+  return Pack<float>{before[3], pack[0], pack[1], pack[2]};
+}
+NACRE_INLINE Pack<double> shifted(Pack<double> before, Pack<double> pack) { return Pack<double>{before[1], pack[0]}; }
 #endif
