@@ -129,6 +129,14 @@ Droplet DropletPlan::designed(int column, int row) const {
   return parity % 2 == 0 ? Droplet::rigid : Droplet::soft;
 }
 
+std::pair<double, double> DropletPlan::point_of_interest() const {
+  const SpecimenGeometry geometry = geometry_of(specimen_.kind);
+  const double width_mm = 1e-3 * static_cast<double>(geometry.width_um);
+  const double along_mm = 0.5e-3 * static_cast<double>(geometry.length_um);
+  const double across_mm = specimen_.kind == SpecimenKind::toughness ? thesis::kNotchLength * 1e3 : width_mm / 2;
+  return turned_ ? std::pair(along_mm, width_mm - across_mm) : std::pair(across_mm, along_mm);
+}
+
 Slice DropletPlan::slice(int layer) const {
   if (!random_) return base_;
   Slice slice = base_;

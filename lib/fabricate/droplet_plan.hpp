@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fabricate/droplet_axis.hpp"
@@ -76,6 +77,8 @@ class DropletPlan {
   const DropletAxis& x() const { return x_; }
   const DropletAxis& y() const { return y_; }
   Area area(int column, int row) const;
+  /// The tip of the notch, or the middle of a bar, in mm from the left and the far edge of a slice.
+  std::pair<double, double> point_of_interest() const;
 
  private:
   bool solid(int column, int row) const;

@@ -53,6 +53,8 @@ std::string_view to_string(OrderReason reason) {
       return "proposal";
     case OrderReason::discrimination:
       return "discrimination";
+    case OrderReason::person:
+      return "person";
   }
   return "proposal";
 }

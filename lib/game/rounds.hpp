@@ -12,7 +12,7 @@
 
 namespace nacre::game {
 
-enum class OrderReason { base, mixture, random, proposal, discrimination };
+enum class OrderReason { base, mixture, random, proposal, discrimination, person };
 std::string_view to_string(OrderReason reason);
 
 /// Replicates of one design for one test.

@@ -1,6 +1,11 @@
 #pragma once
 // Layouts without the symmetry of patterns, for verification and for experiments that tell causes apart.
 
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/result.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::pattern {
@@ -16,5 +21,12 @@ Layout laminate(LayerDirection direction, int rigid_pixels, int soft_pixels);
 /// Squares of `period` pixels, the one in the upper left corner rigid. Throws InputError unless period is 1, 2, 5
 /// or 10.
 Layout checkerboard(int period);
+
+/// Reads `checkerboard:PERIOD` or `laminate:x:RIGID:SOFT` (or `:y:`), numbers in pixels; nothing when `name` begins
+/// with neither word. The error says what was expected.
+std::optional<Result<Layout>> coupon_from_name(std::string_view name);
+
+/// The name of a layout that is one of these coupons.
+std::optional<std::string> coupon_name(const Layout& layout);
 
 }  // namespace nacre::pattern

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/files.hpp"
+#include "pattern/coupons.hpp"
 
 namespace nacre::pattern {
 namespace {
@@ -58,6 +59,10 @@ Result<Design> design_from_name(std::string_view name) {
 Design design_from_argument(const std::string& argument) {
   const Result<Design> named = design_from_name(argument);
   if (named) return *named;
+  if (const auto coupon = coupon_from_name(argument)) {
+    if (!*coupon) throw InputError(coupon->error().message);
+    return Design(**coupon);
+  }
   std::error_code ignored;
   if (!std::filesystem::exists(argument, ignored)) {
     throw InputError::format("{}; nor is there a file of that name", named.error().message);

@@ -28,6 +28,8 @@ void add_explore(CLI::App& app, Action& action);
 void add_select(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_diagnose(CLI::App& app, Action& action);
+void add_fabricate(CLI::App& app, Action& action);
+void add_import(CLI::App& app, Action& action);
 void add_launch(CLI::App& app, Action& action);
 void add_record(CLI::App& app, Action& action);
 void add_status(CLI::App& app, Action& action);

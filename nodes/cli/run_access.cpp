@@ -21,6 +21,18 @@ runtime::BusOptions bus_options(const RunAccess& run, const std::string& name) {
   return options;
 }
 
+/// Records of one channel of the agent's journal, oldest first.
+std::vector<std::string> journaled_by_validation_agent(const RunAccess& run, const std::string& channel) {
+  const auto journal = run.folder / "nodes" / "validation_agent" / "journal.lcm";
+  std::vector<std::string> records;
+  if (!std::filesystem::exists(journal)) return records;
+  runtime::LogReader reader(journal);
+  while (auto record = reader.next()) {
+    if (record->channel == channel) records.push_back(std::move(record->data));
+  }
+  return records;
+}
+
 }  // namespace
 
 void add_run_option(CLI::App& command, std::string& run) {
@@ -63,16 +75,15 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
 }
 
 std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel) {
-  const auto journal = run.folder / "nodes" / "validation_agent" / "journal.lcm";
   std::vector<std::string> payloads;
-  if (!std::filesystem::exists(journal)) return payloads;
-  runtime::LogReader reader(journal);
-  while (const auto record = reader.next()) {
-    if (record->channel != channel) continue;
-    if (auto blanked = wire::blank_header(record->channel, record->data))
-      payloads.push_back(std::move(blanked->payload));
+  for (const std::string& message : journaled_by_validation_agent(run, channel)) {
+    if (auto blanked = wire::blank_header(channel, message)) payloads.push_back(std::move(blanked->payload));
   }
   return payloads;
+}
+
+std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const std::string& channel) {
+  return journaled_by_validation_agent(run, std::string(runtime::kOutPrefix) + channel);
 }
 
 }  // namespace nacre::cli

@@ -42,4 +42,7 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
 /// before its first message and on machines that do not hold the run's folder.
 std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel);
 
+/// The same for what it has sent.
+std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const std::string& channel);
+
 }  // namespace nacre::cli

@@ -40,5 +40,20 @@ TEST(Coupons, PeriodsThatDoNotFitTheUnitAreRefused) {
   EXPECT_THROW(laminate(LayerDirection::along_x, -1, 3), InputError);
 }
 
+TEST(Coupons, NamesReadBack) {
+  for (const char* name : {"checkerboard:1", "checkerboard:2", "checkerboard:5", "laminate:x:3:2", "laminate:y:1:1"}) {
+    const auto layout = coupon_from_name(name);
+    ASSERT_TRUE(layout && *layout) << name;
+    EXPECT_EQ(coupon_name(**layout), name);
+  }
+  EXPECT_FALSE(coupon_from_name("577fffe9fffdef"));
+  EXPECT_FALSE(coupon_name(Layout{}));
+  for (const char* wrong : {"checkerboard:3", "checkerboard", "laminate:z:1:1", "laminate:x:3:3", "laminate:x:1"}) {
+    const auto refused = coupon_from_name(wrong);
+    ASSERT_TRUE(refused) << wrong;
+    EXPECT_FALSE(*refused) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace nacre::pattern

@@ -1,0 +1,141 @@
+#include "fabricate/build_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/csv.hpp"
+#include "base/files.hpp"
+#include "fabricate/preview.hpp"
+
+namespace nacre::fabricate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string slices_of(const WrittenModel& written) {
+  return written.folder.empty() ? "slices" : written.folder + "/slices";
+}
+
+/// Smallest and largest rigid fraction of a layer.
+std::pair<double, double> fraction_by_layer(const StackCount& count) {
+  double least = 1.0, most = 0.0;
+  for (const DropletCount& layer : count.by_layer) {
+    least = std::min(least, rigid_fraction(layer));
+    most = std::max(most, rigid_fraction(layer));
+  }
+  return {least, most};
+}
+
+Json test_json(const Model& model) {
+  const SpecimenGeometry geometry = geometry_of(model.wanted.kind);
+  Json test{{"width_mm", geometry.test_width_mm},
+            {"gauge_mm", geometry.gauge_mm},
+            {"grip_mm", geometry.grip_mm},
+            {"strain_rate_per_s", model.wanted.strain_rate_per_s},
+            {"speed_mm_per_min", test_speed_mm_per_min(model.wanted)}};
+  if (model.wanted.kind == SpecimenKind::tensile_bar) test["gauge_without_extensometer_mm"] = bar_effective_gauge_mm();
+  return test;
+}
+
+Json model_json(const Model& model, const WrittenModel& written) {
+  const auto [least, most] = fraction_by_layer(written.count);
+  return {{"name", model.name},
+          {"slices", slices_of(written)},
+          {"design", model.wanted.design.name()},
+          {"readable_name", readable_name(model.wanted.design)},
+          {"test", std::string(to_string(model.wanted.kind))},
+          {"orientation_deg", model.wanted.orientation_deg},
+          {"replicates", model.wanted.replicates},
+          {"order_id", model.wanted.order_id},
+          {"reason", model.wanted.reason},
+          {"size_mm", {model.size_x_mm, model.size_y_mm, model.size_z_mm}},
+          {"slice_count", written.count.layers},
+          {"columns", written.count.columns},
+          {"rows", written.count.rows},
+          {"droplets",
+           {{"none", written.count.total[0]}, {"soft", written.count.total[1]}, {"rigid", written.count.total[2]}}},
+          {"rigid_fraction_designed", model.wanted.design.rigid_fraction()},
+          {"rigid_fraction", rigid_fraction(written.count.total)},
+          {"rigid_fraction_by_layer", {{"least", least}, {"most", most}}},
+          {"testing", test_json(model)}};
+}
+
+Json specimen_json(const Job& job, const Placed& specimen) {
+  const Model& model = job.models[specimen.model];
+  return {{"label", specimen.label},
+          {"model", model.name},
+          {"design", model.wanted.design.name()},
+          {"test", std::string(to_string(model.wanted.kind))},
+          {"replicate", specimen.replicate},
+          {"print_order", specimen.print_order},
+          {"batch", job.batch(specimen.tray)},
+          {"tray", specimen.tray},
+          {"x_mm", specimen.x_mm},
+          {"y_mm", specimen.y_mm}};
+}
+
+}  // namespace
+
+std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
+  const JobRequest& request = job.request;
+  const Printer& printer = request.printer;
+  Json models = Json::array(), specimens = Json::array();
+  for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written[i]));
+  for (const Placed& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
+  const Json sheet{
+      {"job", request.name},
+      {"seed", request.seed},
+      {"printer",
+       {{"dpi", {printer.dpi_x, printer.dpi_y, printer.dpi_z}}, {"tray_mm", {printer.tray_x_mm, printer.tray_y_mm}}}},
+      {"palette", {"none", "soft", "rigid"}},
+      {"interface", request.interface == Interface::engineered ? "engineered" : "sharp"},
+      {"grips", request.grips == Grips::pattern ? "pattern" : "rigid"},
+      {"cut", request.notch.print_cut ? "printed" : "to be milled"},
+      {"trays", job.trays},
+      {"models", models},
+      {"specimens", specimens}};
+  return sheet.dump(2) + "\n";
+}
+
+std::string specimen_table(const Job& job) {
+  std::string table =
+      "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,orientation_deg,batch,print_order,date,operator,"
+      "machine,path,note\n";
+  for (const Placed& specimen : job.specimens) {
+    const Model& model = job.models[specimen.model];
+    const SpecimenGeometry geometry = geometry_of(model.wanted.kind);
+    table += fmt::format("{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7},{8},,,,,\n", specimen.label,
+                         csv_cell(model.wanted.design.name()), to_string(model.wanted.kind), geometry.test_width_mm,
+                         model.wanted.thickness_mm, geometry.gauge_mm, model.wanted.orientation_deg,
+                         job.batch(specimen.tray), specimen.print_order);
+  }
+  return table;
+}
+
+std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path& folder, const JobProgress& progress) {
+  std::vector<WrittenModel> written;
+  const auto say = [&](double share_of_model, std::string_view what) {
+    if (progress)
+      progress((static_cast<double>(written.size()) + share_of_model) / static_cast<double>(job.models.size()), what);
+  };
+  for (const Model& model : job.models) {
+    const DropletPlan plan(model.plan, job.request.printer);
+    WrittenModel stack{.folder = job.models.size() == 1 ? "" : model.name, .count = {}};
+    const std::filesystem::path place = folder / stack.folder;
+    constexpr double kWriting = 0.7, kCounting = 0.9;
+    write_slices(plan, job.request.printer, place / "slices",
+                 [&](int layers) { say(kWriting * layers / plan.layers(), model.name); });
+    stack.count = count_slices(place / "slices");
+    say(kCounting, model.name);
+    write_preview(plan, place / "preview.png");
+    written.push_back(std::move(stack));
+  }
+  write_file_atomically(folder / "specimens.csv", specimen_table(job));
+  write_file_atomically(folder / "build_sheet.html", build_sheet_html(job, written));
+  write_file_atomically(folder / "build_sheet.json", build_sheet_json(job, written));
+  return written;
+}
+
+}  // namespace nacre::fabricate

@@ -1,0 +1,39 @@
+#pragma once
+// A print job on disk: slices, previews, and the sheets that people and `nacre import` read.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fabricate/job.hpp"
+#include "fabricate/slices.hpp"
+
+namespace nacre::fabricate {
+
+/// What was written for one model.
+struct WrittenModel {
+  std::string folder;  ///< of its slices and preview, relative to the job; "" for a job of one model
+  StackCount count;    ///< counted back from the files
+};
+
+/// Called with the share done (0..1) and what is being done.
+using JobProgress = std::function<void(double, std::string_view)>;
+
+/// Writes a job into `folder`: per model `slices/NNNN.png` and `preview.png` (in the folder itself when there is one
+/// model, else in a folder of its name), `specimens.csv` for `nacre import`, `build_sheet.html`, and last
+/// `build_sheet.json`. Throws InputError naming the file.
+std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path& folder,
+                                    const JobProgress& progress = {});
+
+/// The build sheet as JSON (docs/FORMATS.md).
+std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written);
+
+/// The same for people, with a drawing of each tray.
+std::string build_sheet_html(const Job& job, const std::vector<WrittenModel>& written);
+
+/// The table that `nacre import --specimens` reads, one row per specimen, to be filled in at the testing machine.
+std::string specimen_table(const Job& job);
+
+}  // namespace nacre::fabricate

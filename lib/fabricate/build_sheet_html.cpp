@@ -1,0 +1,145 @@
+// The build sheet as people read it at the printer and at the testing machine: one self-contained page.
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "fabricate/build_sheet.hpp"
+
+namespace nacre::fabricate {
+namespace {
+
+constexpr const char* kHead = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>Build sheet {0}</title><style>
+body {{ font: 15px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; color: #1b1f24; }}
+table {{ border-collapse: collapse; margin: .5rem 0 1.5rem; }}
+th, td {{ border: 1px solid #c8ccd2; padding: .25rem .6rem; text-align: left; vertical-align: top; }}
+td.n {{ text-align: right; font-variant-numeric: tabular-nums; }}
+code {{ overflow-wrap: anywhere; }}
+svg {{ border: 1px solid #8a919b; background: #fafbfc; margin: 0 1rem 1rem 0; max-width: 100%; }}
+img {{ max-width: 100%; border: 1px solid #c8ccd2; }}
+</style></head><body>
+<h1>Build sheet {0}</h1>
+)";
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '&') {
+      result += "&amp;";
+    } else if (letter == '<') {
+      result += "&lt;";
+    } else {
+      result += letter;
+    }
+  }
+  return result;
+}
+
+std::string settings(const Job& job) {
+  const JobRequest& request = job.request;
+  const Printer& printer = request.printer;
+  return fmt::format(
+      "<p>{} specimens of {} models on {} tray(s) of {} x {} mm. Printer {} x {} x {} dpi (x, y, z); slices count from "
+      "the tray upwards, one PNG each; palette index 0: nothing, 1: soft, 2: rigid. Interface: {}. Grips: {}. Seed "
+      "{}.</p>\n",
+      job.specimens.size(), job.models.size(), job.trays, printer.tray_x_mm, printer.tray_y_mm, printer.dpi_x,
+      printer.dpi_y, printer.dpi_z, request.interface == Interface::engineered ? "engineered" : "sharp",
+      request.grips == Grips::pattern ? "the pattern" : "rigid", request.seed);
+}
+
+std::string models_table(const Job& job, const std::vector<WrittenModel>& written) {
+  std::string rows;
+  for (std::size_t i = 0; i < job.models.size(); ++i) {
+    const Model& model = job.models[i];
+    const std::string folder = written[i].folder.empty() ? "" : written[i].folder + "/";
+    rows += fmt::format(
+        "<tr><td><a href=\"{0}preview.png\">{1}</a></td><td><code>{2}</code></td><td>{3}</td><td class=n>{4}</td>"
+        "<td class=n>{5:g} x {6:g} x {7:g}</td><td><code>{0}slices/</code> {8} slices of {9} x {10}</td>"
+        "<td class=n>{11:.4f}</td><td class=n>{12:.4f}</td><td class=n>{13:.2f}</td></tr>\n",
+        folder, escaped(model.name), escaped(readable_name(model.wanted.design)), to_string(model.wanted.kind),
+        model.wanted.replicates, model.size_x_mm, model.size_y_mm, model.size_z_mm, written[i].count.layers,
+        written[i].count.columns, written[i].count.rows, model.wanted.design.rigid_fraction(),
+        rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted));
+  }
+  return "<h2>Models</h2>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
+         "<th>slices</th><th>rigid, designed</th><th>rigid, counted in the slices</th><th>test speed, mm/min</th></tr>"
+         "\n" +
+         rows + "</table>\n";
+}
+
+/// Colours of models on the tray; they repeat, the labels tell.
+constexpr std::array<const char*, 8> kFills = {"#cfe3f7", "#f8dcc4", "#d6efcf", "#f2d3e3",
+                                               "#e6e0f5", "#fbf0c0", "#d0eeee", "#e8e2da"};
+
+std::string tray_drawing(const Job& job, int tray) {
+  const Printer& printer = job.request.printer;
+  constexpr double kPointsPerMm = 1.6;
+  std::string drawing =
+      fmt::format("<svg width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"0 0 {} {}\">\n", printer.tray_x_mm * kPointsPerMm,
+                  printer.tray_y_mm * kPointsPerMm, printer.tray_x_mm, printer.tray_y_mm);
+  for (const Placed& specimen : job.specimens) {
+    if (specimen.tray != tray) continue;
+    const Model& model = job.models[specimen.model];
+    const double top_mm = printer.tray_y_mm - specimen.y_mm - model.size_y_mm;  // the front is drawn at the bottom
+    drawing += fmt::format(
+        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" stroke=\"#555\" "
+        "stroke-width=\".4\"/><text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"5\" text-anchor=\"middle\">{}</text>\n",
+        specimen.x_mm, top_mm, model.size_x_mm, model.size_y_mm, kFills[specimen.model % kFills.size()],
+        specimen.x_mm + model.size_x_mm / 2, top_mm + model.size_y_mm / 2, specimen.print_order);
+  }
+  return drawing + "</svg>\n";
+}
+
+std::string trays(const Job& job) {
+  std::string text =
+      "<h2>Trays</h2>\n<p>Front of the printer at the bottom, x to the right. The number is the print "
+      "order, which ends the label.</p>\n";
+  for (int tray = 1; tray <= job.trays; ++tray)
+    text += fmt::format("<h3>Tray {}, batch {}</h3>\n", tray, escaped(job.batch(tray))) + tray_drawing(job, tray);
+  return text;
+}
+
+std::string specimens_table(const Job& job) {
+  std::string rows;
+  for (const Placed& specimen : job.specimens) {
+    const Model& model = job.models[specimen.model];
+    rows += fmt::format(
+        "<tr><td class=n>{}</td><td><b>{}</b></td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
+        "<td class=n>{:.1f}</td><td class=n>{:.1f}</td></tr>\n",
+        specimen.print_order, escaped(specimen.label), escaped(model.name), specimen.replicate, specimen.tray,
+        specimen.x_mm, specimen.y_mm);
+  }
+  return "<h2>Specimens</h2>\n<p>Write the label on the grip when the specimen leaves the tray.</p>\n"
+         "<table><tr><th>order</th><th>label</th><th>model</th><th>copy</th><th>tray</th><th>x, mm</th><th>y, mm</th>"
+         "</tr>\n" +
+         rows + "</table>\n";
+}
+
+std::string instructions(const Job& job) {
+  const bool cut = job.request.notch.print_cut;
+  return fmt::format(
+      "<h2>After printing</h2>\n<ol>\n"
+      "<li>Label, clean off the support, dry at room temperature, cure both sides alike with UV light.</li>\n"
+      "<li>Toughness specimens: clean the notch with a new razor blade{}.</li>\n"
+      "<li>Measure width and thickness of each specimen in the gauge and put them into <code>specimens.csv</code>, "
+      "with "
+      "date, operator and machine.</li>\n"
+      "<li>Pull at the speed above. Toughness: grips 54 mm apart, to complete separation. Modulus (ASTM D638 type I): "
+      "grips 115 mm apart; <code>gauge_mm</code> is the extensometer's gauge (50), or {:.1f} where only the travel of "
+      "the grips is recorded.</li>\n"
+      "<li>Export time, extension and force of each test as CSV, name the files in the column <code>file</code>, note "
+      "under <code>path</code> how the crack ran (any word, the same word for the same course), then "
+      "<code>nacre import *.csv --specimens specimens.csv --out SET</code>.</li>\n</ol>\n",
+      cut ? "" : ", then mill a triangular cut of 60 degrees, 7.8 mm deep, on the notch's axis",
+      bar_effective_gauge_mm());
+}
+
+}  // namespace
+
+std::string build_sheet_html(const Job& job, const std::vector<WrittenModel>& written) {
+  return fmt::format(kHead, escaped(job.request.name)) + settings(job) + models_table(job, written) + trays(job) +
+         specimens_table(job) + instructions(job) + "</body></html>\n";
+}
+
+}  // namespace nacre::fabricate

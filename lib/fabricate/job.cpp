@@ -1,0 +1,174 @@
+#include "fabricate/job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "base/hash.hpp"
+#include "base/random.hpp"
+#include "base/result.hpp"
+#include "pattern/coupons.hpp"
+
+namespace nacre::fabricate {
+namespace {
+
+void check_name(const std::string& name) {
+  const auto allowed = [](char letter) {
+    return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
+           letter == '.' || letter == '_' || letter == '-';
+  };
+  if (name.empty() || name.size() > 40 || !std::all_of(name.begin(), name.end(), allowed)) {
+    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ -", name);
+  }
+}
+
+/// A design as part of a folder's name: keys of coupons, which are long, by their first digits of a hash.
+std::string short_name(const pattern::Design& design) {
+  std::string name = readable_name(design);
+  constexpr std::size_t kLongest = 32, kHashDigits = 12;
+  if (name.size() > kLongest) name = "L" + content_hash(name).substr(0, kHashDigits);
+  std::replace(name.begin(), name.end(), ':', '_');
+  return name;
+}
+
+Model model_of(const Wanted& wanted, const JobRequest& request) {
+  if (wanted.replicates < 1 || wanted.replicates > 100) {
+    throw InputError::format("{}: {} replicates, expected 1 to 100", wanted.design.name(), wanted.replicates);
+  }
+  Model model{.wanted = wanted, .plan = {}, .name = {}};
+  model.plan = {.design = wanted.design,
+                .kind = wanted.kind,
+                .orientation_deg = wanted.orientation_deg,
+                .thickness_mm = wanted.thickness_mm,
+                .interface = request.interface,
+                .grips = request.grips,
+                .notch = request.notch,
+                .seed = RandomStream(request.seed, "mixture of " + wanted.design.name()).bits()};
+  const bool turned = wanted.orientation_deg == 90.0;
+  const SpecimenGeometry geometry = geometry_of(wanted.kind);
+  model.size_x_mm = 1e-3 * static_cast<double>(turned ? geometry.length_um : geometry.width_um);
+  model.size_y_mm = 1e-3 * static_cast<double>(turned ? geometry.width_um : geometry.length_um);
+  model.size_z_mm = wanted.thickness_mm;
+  model.name = fmt::format("{}-{}{}", short_name(wanted.design), to_string(wanted.kind), turned ? "-turned" : "");
+  if (wanted.thickness_mm != 3.2) model.name += fmt::format("-{}mm", wanted.thickness_mm);
+  return model;
+}
+
+/// Models by their number, each as often as it has replicates, random within blocks of one of each.
+std::vector<std::pair<std::size_t, int>> random_blocks(const std::vector<Model>& models, std::uint64_t seed) {
+  RandomStream random(seed, "print order");
+  std::vector<std::pair<std::size_t, int>> order;
+  int rounds = 0;
+  for (const Model& model : models) rounds = std::max(rounds, model.wanted.replicates);
+  for (int replicate = 1; replicate <= rounds; ++replicate) {
+    std::vector<std::size_t> block;
+    for (std::size_t model = 0; model < models.size(); ++model) {
+      if (models[model].wanted.replicates >= replicate) block.push_back(model);
+    }
+    while (!block.empty()) {
+      const auto drawn = block.begin() + random.index(static_cast<int>(block.size()));
+      order.emplace_back(*drawn, replicate);
+      block.erase(drawn);
+    }
+  }
+  return order;
+}
+
+/// Fills a tray in rows ("shelves") from the front; a specimen goes on the first shelf that has room for it.
+class Tray {
+ public:
+  Tray(const Printer& printer, double gap_mm) : printer_(printer), gap_mm_(gap_mm) {}
+
+  /// Front left corner of the place found; nothing when the tray is full.
+  std::optional<std::pair<double, double>> place(const Model& model) {
+    for (Shelf& shelf : shelves_) {
+      if (model.size_y_mm > shelf.depth_mm || shelf.used_mm + gap_mm_ + model.size_x_mm + gap_mm_ > printer_.tray_x_mm)
+        continue;
+      return put(shelf, model);
+    }
+    const double begin_mm = shelves_.empty() ? gap_mm_ : shelves_.back().begin_mm + shelves_.back().depth_mm + gap_mm_;
+    if (begin_mm + model.size_y_mm + gap_mm_ > printer_.tray_y_mm ||
+        model.size_x_mm + 2 * gap_mm_ > printer_.tray_x_mm) {
+      return std::nullopt;
+    }
+    shelves_.push_back({begin_mm, model.size_y_mm, 0.0});
+    return put(shelves_.back(), model);
+  }
+
+ private:
+  struct Shelf {
+    double begin_mm, depth_mm, used_mm;
+  };
+  std::pair<double, double> put(Shelf& shelf, const Model& model) const {
+    const double x_mm = shelf.used_mm + gap_mm_;
+    shelf.used_mm = x_mm + model.size_x_mm;
+    return {x_mm, shelf.begin_mm};
+  }
+  Printer printer_;
+  double gap_mm_;
+  std::vector<Shelf> shelves_;
+};
+
+}  // namespace
+
+std::string readable_name(const pattern::Design& design) {
+  const pattern::Layout* layout = design.layout();
+  return layout == nullptr ? design.name() : pattern::coupon_name(*layout).value_or(design.name());
+}
+
+double test_speed_mm_per_min(const Wanted& wanted) {
+  // A bar is strained by the travel over its effective length, whatever the extensometer's gauge is.
+  const double length_mm =
+      wanted.kind == SpecimenKind::toughness ? geometry_of(wanted.kind).gauge_mm : bar_effective_gauge_mm();
+  return 60.0 * wanted.strain_rate_per_s * length_mm;
+}
+
+std::string Job::batch(int tray) const { return trays > 1 ? fmt::format("{}.{}", request.name, tray) : request.name; }
+
+Job plan_job(const JobRequest& request) {
+  check_name(request.name);
+  check_printer(request.printer);
+  if (request.wanted.empty()) throw InputError("nothing to print: expected at least one design");
+  if (!(request.gap_mm >= 0.0 && request.gap_mm <= 100.0))
+    throw InputError::format("gap of {} mm: expected 0 to 100", request.gap_mm);
+  Job job{.request = request, .models = {}, .specimens = {}};
+  for (const Wanted& wanted : request.wanted) {
+    Model model = model_of(wanted, request);
+    const std::string name = model.name;
+    const auto taken = [&](const Model& other) { return other.name == model.name; };
+    for (int copy = 2; std::any_of(job.models.begin(), job.models.end(), taken); ++copy)
+      model.name = fmt::format("{}-{}", name, copy);
+    job.models.push_back(std::move(model));
+  }
+  const auto order = random_blocks(job.models, request.seed);
+  const int digits = order.size() < 100 ? 2 : 4;
+  Tray tray(request.printer, request.gap_mm);
+  job.trays = 1;
+  for (const auto& [index, replicate] : order) {
+    const Model& model = job.models[index];
+    auto place = tray.place(model);
+    if (!place) {
+      tray = Tray(request.printer, request.gap_mm);
+      ++job.trays;
+      place = tray.place(model);
+    }
+    if (!place) {
+      throw InputError::format("{}: {} x {} mm with a gap of {} mm does not fit on a tray of {} x {} mm", model.name,
+                               model.size_x_mm, model.size_y_mm, request.gap_mm, request.printer.tray_x_mm,
+                               request.printer.tray_y_mm);
+    }
+    const int number = static_cast<int>(job.specimens.size()) + 1;
+    job.specimens.push_back({.label = fmt::format("{}-{:0{}}", request.name, number, digits),
+                             .model = index,
+                             .replicate = replicate,
+                             .print_order = number,
+                             .tray = job.trays,
+                             .x_mm = place->first,
+                             .y_mm = place->second});
+  }
+  return job;
+}
+
+}  // namespace nacre::fabricate

@@ -1,0 +1,74 @@
+#pragma once
+// A print job: what is printed, how often, where on which tray, in which random order.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fabricate/droplet_plan.hpp"
+
+namespace nacre::fabricate {
+
+/// Specimens of one kind that somebody wants.
+struct Wanted {
+  pattern::Design design;
+  SpecimenKind kind = SpecimenKind::toughness;
+  double orientation_deg = 0.0;
+  double thickness_mm = 3.2;
+  double strain_rate_per_s = thesis::kTestStrainRate;
+  int replicates = 4;    ///< at least four are tested, three consistent ones count (2.2.2)
+  std::string order_id = {};  ///< of the game; empty when nobody ordered them
+  std::string reason = {};
+};
+
+struct JobRequest {
+  std::string name;  ///< of the batch; labels begin with it. 1 to 40 of A-Z, a-z, 0-9, . _ -
+  std::vector<Wanted> wanted = {};
+  Printer printer = {};
+  Interface interface = Interface::engineered;
+  Grips grips = Grips::pattern;
+  NotchOptions notch = {};
+  double gap_mm = 5.0;  ///< between specimens, and to the edge of the tray
+  std::uint64_t seed = 1;
+};
+
+/// One stack of slices, printed as often as there are replicates.
+struct Model {
+  Wanted wanted;
+  SpecimenPlan plan;
+  std::string name;  ///< unique in the job, usable as a folder
+  double size_x_mm = 0.0, size_y_mm = 0.0, size_z_mm = 0.0;
+};
+
+/// One specimen on a tray; x to the right, y away from the front left corner, as the printer counts.
+struct Placed {
+  std::string label;  ///< `BATCH-NN`, what to write on it and what its measurement is called
+  std::size_t model = 0;
+  int replicate = 1;
+  int print_order = 0;  ///< from 1, over all trays
+  int tray = 1;
+  double x_mm = 0.0, y_mm = 0.0;
+};
+
+struct Job {
+  JobRequest request;
+  std::vector<Model> models;
+  std::vector<Placed> specimens;  ///< in print order
+  int trays = 0;
+  /// Batch of a tray: the job's name, numbered when there are several trays.
+  std::string batch(int tray) const;
+};
+
+/// Plans a job. The order is random in blocks, from the seed: every model is printed once before any is printed again,
+/// so that drift of the printer falls on all designs alike. Places are taken in that order, shelf by shelf; a full tray
+/// is followed by the next. Throws InputError for an empty job, a bad name, replicates outside 1 to 100, or a specimen
+/// larger than the tray.
+Job plan_job(const JobRequest& request);
+
+/// A name for people: `checkerboard:2`, `laminate:x:3:2`, otherwise the design's own.
+std::string readable_name(const pattern::Design& design);
+
+/// Speed of the grips in mm/min that strains the specimen at its rate.
+double test_speed_mm_per_min(const Wanted& wanted);
+
+}  // namespace nacre::fabricate

@@ -1,0 +1,100 @@
+#include "game/design_states.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace nacre::game {
+namespace {
+
+bool could_answer(const PrintedSpecimen& specimen, const Order& order) {
+  return specimen.design == order.design && specimen.test == order.test &&
+         std::abs(specimen.orientation_deg - order.conditions.orientation_deg) < 0.5;
+}
+
+DesignStage stage_of(const DesignState& state, bool all_complete) {
+  if (state.ordered > 0 ? all_complete : state.valid > 0) return DesignStage::measured;
+  if (state.printed > 0 || state.arrived > 0) return DesignStage::printed;
+  if (state.ordered > 0) return DesignStage::approved;
+  return DesignStage::pending;
+}
+
+}  // namespace
+
+std::string_view to_string(DesignStage stage) {
+  switch (stage) {
+    case DesignStage::pending:
+      return "pending";
+    case DesignStage::rejected:
+      return "rejected";
+    case DesignStage::approved:
+      return "approved";
+    case DesignStage::printed:
+      return "printed";
+    case DesignStage::measured:
+      return "measured";
+  }
+  return "pending";
+}
+
+std::vector<int> printed_for(std::span<const Order> orders, std::span<const PrintedSpecimen> printed) {
+  std::vector<int> counts(orders.size(), 0);
+  std::vector<const PrintedSpecimen*> free;
+  for (const PrintedSpecimen& specimen : printed) {
+    const auto order = std::find_if(orders.begin(), orders.end(), [&](const Order& each) {
+      return !specimen.order_id.empty() && each.id == specimen.order_id;
+    });
+    if (order == orders.end()) {
+      free.push_back(&specimen);
+    } else {
+      ++counts[static_cast<std::size_t>(order - orders.begin())];
+    }
+  }
+  for (const PrintedSpecimen* specimen : free) {
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+      if (counts[i] >= orders[i].replicates || !could_answer(*specimen, orders[i])) continue;
+      ++counts[i];
+      break;
+    }
+  }
+  return counts;
+}
+
+std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
+  std::map<std::string, DesignState> states;
+  const auto state_of = [&](const pattern::Design& design) -> DesignState& {
+    DesignState& state = states[design.name()];
+    state.design = design;
+    return state;
+  };
+  for (const ProposedForRound& proposed : facts.proposed) state_of(proposed.design).round = proposed.round;
+  std::map<std::string, bool> all_complete;
+  const std::vector<OrderProgress> progress = facts.book.progress(facts.orders, facts.enough_valid);
+  for (std::size_t i = 0; i < facts.orders.size(); ++i) {
+    const Order& order = facts.orders[i];
+    state_of(order.design).ordered += order.replicates;
+    const auto [entry, is_new] = all_complete.try_emplace(order.design.name(), true);
+    entry->second = entry->second && progress[i].complete;
+  }
+  for (const PrintedSpecimen& specimen : facts.printed) ++state_of(specimen.design).printed;
+  for (const measurement::SpecimenRecord& specimen : facts.book.specimens()) {
+    DesignState& state = state_of(specimen.design);
+    ++state.arrived;
+    state.valid += specimen.valid;
+  }
+  for (auto& [name, state] : states) state.stage = stage_of(state, all_complete[name]);
+  std::map<std::string, bool> decided;
+  for (const StatedDecision& decision : facts.decisions) {
+    if (!decided.emplace(decision.design.name(), true).second) continue;
+    DesignState& state = state_of(decision.design);
+    state.decided_by = decision.by;
+    state.why = decision.why;
+    if (state.stage == DesignStage::pending)
+      state.stage = decision.approved ? DesignStage::approved : DesignStage::rejected;
+  }
+  std::vector<DesignState> result;
+  for (auto& [name, state] : states) result.push_back(std::move(state));
+  return result;
+}
+
+}  // namespace nacre::game

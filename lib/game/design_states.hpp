@@ -1,0 +1,71 @@
+#pragma once
+// How far each design has got between proposal and measurement: what a laboratory works from. Nothing is kept here: the
+// states follow from what was said, ordered, printed and measured, so that they survive every restart.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "game/measurement_book.hpp"
+
+namespace nacre::game {
+
+enum class DesignStage {
+  pending,   ///< proposed, waiting for a person's yes or for its round
+  rejected,  ///< a person said no
+  approved,  ///< ordered: to be printed
+  printed,   ///< some specimens are printed, not all orders are answered
+  measured,  ///< every order is answered, or it was measured without one
+};
+std::string_view to_string(DesignStage stage);
+
+/// A person's word on a design.
+struct StatedDecision {
+  int proposal_round = 0;
+  pattern::Design design;
+  bool approved = false;
+  std::string by;
+  std::string why;
+};
+
+/// A specimen that came out of a printer.
+struct PrintedSpecimen {
+  std::string label;
+  pattern::Design design;
+  tester::TestKind test = tester::TestKind::modulus;
+  double orientation_deg = 0.0;
+  std::string order_id;  ///< empty when nobody ordered it
+};
+
+struct ProposedForRound {
+  int round = 0;
+  pattern::Design design;
+};
+
+/// What is known of the laboratory's work.
+struct LaboratoryFacts {
+  std::vector<ProposedForRound> proposed;
+  std::vector<StatedDecision> decisions;  ///< in the order in which they arrived: the first on a design counts
+  std::vector<Order> orders;
+  std::vector<PrintedSpecimen> printed;
+  MeasurementBook book;
+  int enough_valid = 0;  ///< of the scenario
+};
+
+/// One design and its specimens, all tests together.
+struct DesignState {
+  pattern::Design design;
+  DesignStage stage = DesignStage::pending;
+  int round = -1;  ///< of the proposal; -1: not proposed by nacre
+  int ordered = 0, printed = 0, arrived = 0, valid = 0;
+  std::string decided_by, why;
+};
+
+/// Designs by name. Homogeneous ones, coupons and designs that a person brought are among them.
+std::vector<DesignState> design_states(const LaboratoryFacts& facts);
+
+/// Printed specimens of each order: those that carry its id, then those that fit and carry none.
+std::vector<int> printed_for(std::span<const Order> orders, std::span<const PrintedSpecimen> printed);
+
+}  // namespace nacre::game

@@ -1,0 +1,205 @@
+// nacre fabricate: what a voxel printer takes, for designs or for what a game has ordered.
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "command.hpp"
+#include "fabricate/build_sheet.hpp"
+#include "laboratory_view.hpp"
+#include "output.hpp"
+#include "pattern/constraints.hpp"
+#include "pattern/coupons.hpp"
+#include "progress.hpp"
+#include "run_access.hpp"
+
+namespace nacre::cli {
+namespace {
+
+using fabricate::SpecimenKind;
+using fabricate::Wanted;
+
+struct Options {
+  std::vector<std::string> designs;
+  std::string out;
+  std::string test = "toughness";
+  int replicates = 4;
+  double orientation_deg = 0.0;
+  double thickness_mm = 3.2;
+  bool twins = false;
+  bool coupons = false;
+  bool orders = false;
+  std::string run = "logs/latest";
+  std::string batch;
+  std::string interface = "engineered";
+  std::string grips = "pattern";
+  bool print_cut = false;
+  std::vector<int> dpi = {300, 600, 800};
+  std::vector<double> tray_mm = {255.0, 252.0};
+  double gap_mm = 5.0;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+/// The coupons of diagnosis: layers along and across the pull, squares of three sizes.
+constexpr const char* kCoupons[] = {"laminate:x:1:1", "laminate:x:2:2", "laminate:x:5:5",
+                                    "laminate:y:1:1", "laminate:y:2:2", "laminate:y:5:5",
+                                    "checkerboard:1", "checkerboard:2", "checkerboard:5"};
+
+std::vector<SpecimenKind> kinds_of(const std::string& test) {
+  if (test == "both") return {SpecimenKind::tensile_bar, SpecimenKind::toughness};
+  return {*fabricate::specimen_kind_from_string(test)};
+}
+
+void warn_about_constraints(const pattern::Design& design) {
+  if (design.layout() == nullptr) return;
+  const auto pattern = pattern::Pattern::from_layout(*design.layout());
+  if (!pattern) return;
+  if (const auto violation = pattern::violation(*pattern)) warn(fmt::format("{}: {}", design.name(), *violation));
+}
+
+std::vector<Wanted> wanted_by_name(const Options& options) {
+  std::vector<std::string> names = options.designs;
+  if (options.coupons) names.insert(names.end(), std::begin(kCoupons), std::end(kCoupons));
+  std::vector<Wanted> wanted;
+  std::set<std::string> taken;
+  for (const std::string& name : names) {
+    const pattern::Design design = pattern::design_from_argument(name);
+    if (!taken.insert(design.name()).second) {
+      warn(fmt::format("{}: named twice, printed once", name));
+      continue;
+    }
+    warn_about_constraints(design);
+    for (const SpecimenKind kind : kinds_of(options.test)) {
+      wanted.push_back({.design = design,
+                        .kind = kind,
+                        .orientation_deg = options.orientation_deg,
+                        .thickness_mm = options.thickness_mm,
+                        .replicates = options.replicates});
+      if (!options.twins || design.mixture() != nullptr) continue;
+      wanted.push_back(wanted.back());
+      wanted.back().orientation_deg = 90.0 - options.orientation_deg;
+    }
+  }
+  return wanted;
+}
+
+/// What a game has ordered and nobody has printed or measured yet.
+std::vector<Wanted> wanted_by_game(const Options& options) {
+  const LaboratoryView view = view_laboratory(open_run(options.run));
+  std::vector<Wanted> wanted;
+  for (const OrderState& order : view.orders) {
+    const int missing = order.order.replicates - std::max(order.arrived, order.printed);
+    if (order.complete || missing <= 0) continue;
+    const bool is_notched = order.order.test == tester::TestKind::toughness;
+    wanted.push_back({.design = order.order.design,
+                      .kind = is_notched ? SpecimenKind::toughness : SpecimenKind::tensile_bar,
+                      .orientation_deg = order.order.conditions.orientation_deg,
+                      .thickness_mm = order.order.conditions.thickness_mm,
+                      .strain_rate_per_s = order.order.conditions.strain_rate_per_s,
+                      .replicates = missing,
+                      .order_id = order.order.id,
+                      .reason = std::string(game::to_string(order.order.reason))});
+  }
+  return wanted;
+}
+
+fabricate::JobRequest request_of(const Options& options) {
+  fabricate::JobRequest request;
+  request.name =
+      options.batch.empty() ? std::filesystem::weakly_canonical(options.out).filename().string() : options.batch;
+  request.wanted = options.orders ? wanted_by_game(options) : wanted_by_name(options);
+  request.printer = {options.dpi[0], options.dpi[1], options.dpi[2], options.tray_mm[0], options.tray_mm[1]};
+  request.interface = options.interface == "sharp" ? fabricate::Interface::sharp : fabricate::Interface::engineered;
+  request.grips = options.grips == "rigid" ? fabricate::Grips::rigid : fabricate::Grips::pattern;
+  request.notch.print_cut = options.print_cut;
+  request.gap_mm = options.gap_mm;
+  request.seed = options.seed;
+  return request;
+}
+
+void print_job(const fabricate::Job& job, const std::vector<fabricate::WrittenModel>& written,
+               const std::string& folder) {
+  for (std::size_t i = 0; i < job.models.size(); ++i) {
+    const fabricate::Model& model = job.models[i];
+    const fabricate::StackCount& count = written[i].count;
+    fmt::print("{}: {} slices of {} x {} droplets, rigid {:.4f} (designed {:.4f}), {} copies\n", model.name,
+               count.layers, count.columns, count.rows, fabricate::rigid_fraction(count.total),
+               model.wanted.design.rigid_fraction(), model.wanted.replicates);
+  }
+  fmt::print("{} specimens on {} tray{}: {}/build_sheet.html\n", job.specimens.size(), job.trays,
+             job.trays == 1 ? "" : "s", folder);
+}
+
+int fabricate_job(const Options& options) {
+  if (options.orders != options.designs.empty() && !options.coupons)
+    throw InputError("nacre fabricate: expected designs to print, --coupons, or --orders for those of a game");
+  if (options.orders && options.coupons) throw InputError("nacre fabricate: expected either --orders or --coupons");
+  const fabricate::JobRequest request = request_of(options);
+  if (request.wanted.empty()) {
+    remark("every order of the game is printed or measured");
+    return 1;
+  }
+  const fabricate::Job job = fabricate::plan_job(request);
+  make_folder(options.out);
+  Progress progress("fabricate");
+  const auto written = fabricate::write_job(
+      job, options.out, [&](double share, std::string_view model) { progress.set_share(share, std::string(model)); });
+  progress.end();
+  if (options.json) {
+    fmt::print("{}", fabricate::build_sheet_json(job, written));
+  } else {
+    print_job(job, written, options.out);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_fabricate(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(
+      app, action, "fabricate", "Make print files: droplet-exact slices, build sheet, preview", options, fabricate_job);
+  command.add_option("DESIGN", options->designs,
+                     "Pattern file, key, soft, interface, rigid, mix:F, checkerboard:P, laminate:x|y:R:S");
+  command.add_option("--out", options->out, "Folder of the job")->required();
+  command
+      .add_option("--test", options->test, "Kind of specimen: toughness (notched), modulus (ASTM D638 type I), both")
+      ->check(CLI::IsMember({"modulus", "toughness", "both"}))
+      ->capture_default_str();
+  command.add_option("--replicates", options->replicates, "Specimens of each design and test")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command.add_option("--orientation-deg", options->orientation_deg, "0, or 90: printed turned by a quarter")
+      ->check(CLI::IsMember({0.0, 90.0}))
+      ->capture_default_str();
+  command.add_option("--thickness-mm", options->thickness_mm, "Thickness")->capture_default_str();
+  command.add_flag("--twins", options->twins, "Each layout also turned by a quarter");
+  command.add_flag("--coupons", options->coupons, "The calibration coupons: laminates and checkerboards");
+  command.add_flag("--orders", options->orders, "What a game has ordered and nobody has printed yet");
+  add_run_option(command, options->run);
+  command.add_option("--batch", options->batch, "Name of the print batch; default: the folder's name");
+  command.add_option("--interface", options->interface, "Droplets between unlike pixels")
+      ->check(CLI::IsMember({"engineered", "sharp"}))
+      ->capture_default_str();
+  command.add_option("--grips", options->grips, "Gripped ends: the pattern, or rigid")
+      ->check(CLI::IsMember({"pattern", "rigid"}))
+      ->capture_default_str();
+  command.add_flag("--print-cut", options->print_cut, "Print the triangular cut instead of milling it");
+  command.add_option("--dpi", options->dpi, "Droplets per inch in x, y, z")
+      ->delimiter(',')
+      ->expected(3)
+      ->capture_default_str();
+  command.add_option("--tray-mm", options->tray_mm, "Printable part of the tray, x, y")
+      ->delimiter(',')
+      ->expected(2)
+      ->capture_default_str();
+  command.add_option("--gap-mm", options->gap_mm, "Between specimens")->capture_default_str();
+  command.add_option("--seed", options->seed, "Of the mixtures' droplets and the print order")->capture_default_str();
+  command.add_flag("--json", options->json, "The build sheet on standard output");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,160 @@
+#include "laboratory_view.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/csv.hpp"
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "nacre/approval_t.hpp"
+#include "nacre/review_t.hpp"
+#include "output.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::cli {
+namespace {
+
+constexpr const char* kColumns[] = {"label", "design", "test", "orientation_deg", "order_id", "by"};
+constexpr std::size_t kColumnCount = std::size(kColumns);
+
+std::filesystem::path printed_file(const RunAccess& run) { return run.folder / "laboratory" / "printed.csv"; }
+
+game::Order order_of(const wire::TestOrder& message) {
+  game::OrderReason reason = game::OrderReason::proposal;
+  for (const auto each : {game::OrderReason::base, game::OrderReason::mixture, game::OrderReason::random,
+                          game::OrderReason::discrimination, game::OrderReason::person}) {
+    if (message.reason == game::to_string(each)) reason = each;
+  }
+  return {.id = message.order_id,
+          .round = message.round,
+          .design = message.design,
+          .test = message.test,
+          .conditions = message.conditions,
+          .replicates = message.replicates,
+          .batch = message.batch,
+          .reason = reason};
+}
+
+game::PrintedSpecimen printed_of(const std::string& place, const std::string& label, const std::string& design,
+                                 const std::string& test, double orientation_deg, const std::string& order_id) {
+  const auto named = pattern::design_from_name(design);
+  if (!named) throw InputError::format("{}: {}", place, named.error().message);
+  const auto kind = tester::test_kind_from_string(test);
+  if (!kind) throw InputError::format("{}: {}", place, kind.error().message);
+  return {label, *named, *kind, orientation_deg, order_id};
+}
+
+/// A row of the record and the person who wrote it.
+using PrintedRow = std::pair<game::PrintedSpecimen, std::string>;
+
+std::vector<PrintedRow> read_printed(const RunAccess& run) {
+  std::vector<PrintedRow> rows;
+  const std::filesystem::path file = printed_file(run);
+  if (!std::filesystem::exists(file)) return rows;
+  const std::string text = read_file(file);
+  CsvReader reader(text, file.string());
+  CsvRow row;
+  bool is_heading = true;
+  while (reader.next(row)) {
+    if (std::exchange(is_heading, false) || row.blank()) continue;
+    const std::string place = fmt::format("{}:{}", file.string(), row.line);
+    if (!row.fault.empty() || row.cells.size() != kColumnCount)
+      throw InputError::format("{}: expected {} cells: {}", place, kColumnCount, fmt::join(kColumns, ","));
+    const auto cell = [&](std::size_t i) { return row.cells[i].text; };
+    const auto orientation = number_from_text(cell(3));
+    if (!orientation) throw InputError::format("{}: orientation_deg: {}", place, orientation.error().message);
+    rows.emplace_back(printed_of(place, cell(0), cell(1), cell(2), *orientation, cell(4)), cell(5));
+  }
+  return rows;
+}
+
+template <class Domain, class Take>
+void take_each(const std::vector<std::string>& payloads, const Take& take) {
+  for (const std::string& payload : payloads) {
+    if (auto message = wire::read<Domain>(payload)) take(*message);
+  }
+}
+
+void take_reviews(const RunAccess& run, game::MeasurementBook& book) {
+  for (const std::string& payload : received_by_validation_agent(run, "REVIEW")) {
+    if (const auto review = wire::decode_safe<review_t>(payload))
+      book.review(review->specimen, {review->revision, review->valid != 0, review->why});
+  }
+}
+
+void take_approvals(const RunAccess& run, game::LaboratoryFacts& facts) {
+  for (const std::string& payload : received_by_validation_agent(run, "APPROVAL")) {
+    const auto approval = wire::decode_safe<approval_t>(payload);
+    if (!approval) continue;
+    if (const auto design = pattern::design_from_name(approval->design))
+      facts.decisions.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
+  }
+}
+
+}  // namespace
+
+LaboratoryView view_laboratory(const RunAccess& run) {
+  LaboratoryView view;
+  game::LaboratoryFacts& facts = view.facts;
+  facts.enough_valid = run.scenario.validation.enough_valid;
+  take_each<wire::Proposal>(received_by_validation_agent(run, "PROPOSAL"), [&](const wire::Proposal& proposal) {
+    for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
+    if (!view.newest_proposal || proposal.round >= view.newest_proposal->round) view.newest_proposal = proposal;
+  });
+  take_each<wire::TestOrder>(sent_by_validation_agent(run, "TEST_ORDER"),
+                             [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); });
+  take_each<wire::Measurement>(received_by_validation_agent(run, "MEASUREMENT"),
+                               [&](const wire::Measurement& one) { facts.book.enter(one.record, one.order_id); });
+  take_reviews(run, facts.book);
+  take_approvals(run, facts);
+  for (const auto& [specimen, by] : read_printed(run)) facts.printed.push_back(specimen);
+  const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
+  const auto printed = game::printed_for(facts.orders, facts.printed);
+  for (std::size_t i = 0; i < facts.orders.size(); ++i) {
+    view.orders.push_back({facts.orders[i], printed[i], progress[i].arrived, progress[i].valid, progress[i].complete});
+  }
+  return view;
+}
+
+int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by) {
+  std::vector<PrintedRow> rows = read_printed(run);
+  std::set<std::string> known;
+  for (const auto& [specimen, person] : rows) known.insert(specimen.label);
+  const std::size_t before = rows.size();
+  for (const game::PrintedSpecimen& specimen : specimens) {
+    if (known.insert(specimen.label).second) rows.emplace_back(specimen, by);
+  }
+  std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
+  for (const auto& [specimen, person] : rows) {
+    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(specimen.label), csv_cell(specimen.design.name()),
+                        tester::to_string(specimen.test), specimen.orientation_deg, csv_cell(specimen.order_id),
+                        csv_cell(person));
+  }
+  make_folder(printed_file(run).parent_path().string());
+  write_file_atomically(printed_file(run), text);
+  return static_cast<int>(rows.size() - before);
+}
+
+std::vector<game::PrintedSpecimen> specimens_of_build_sheet(const std::filesystem::path& file) {
+  std::vector<game::PrintedSpecimen> specimens;
+  try {
+    const auto sheet = nlohmann::json::parse(read_file(file));
+    for (const auto& specimen : sheet.at("specimens")) {
+      const auto& models = sheet.at("models");
+      const auto model = std::find_if(models.begin(), models.end(),
+                                      [&](const auto& each) { return each.at("name") == specimen.at("model"); });
+      if (model == models.end())
+        throw InputError::format("{}: specimens: model {} is not listed", file.string(),
+                                 specimen.at("model").template get<std::string>());
+      specimens.push_back(printed_of(file.string(), specimen.at("label"), specimen.at("design"), specimen.at("test"),
+                                     model->at("orientation_deg"), model->at("order_id")));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError::format("{}: no build sheet: {}; expected build_sheet.json of nacre fabricate", file.string(),
+                             error.what());
+  }
+  return specimens;
+}
+
+}  // namespace nacre::cli

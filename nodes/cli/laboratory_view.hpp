@@ -1,0 +1,40 @@
+#pragma once
+// A run as its laboratory sees it: what is ordered, printed, measured. Read from the validation agent's journal and
+// from the record of what was printed (RUN/laboratory/printed.csv, written by `nacre printed` alone).
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/design_states.hpp"
+#include "run_access.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::cli {
+
+struct OrderState {
+  game::Order order;
+  int printed = 0;
+  int arrived = 0;
+  int valid = 0;
+  bool complete = false;
+};
+
+struct LaboratoryView {
+  game::LaboratoryFacts facts;
+  std::vector<OrderState> orders;
+  std::optional<wire::Proposal> newest_proposal;
+};
+
+/// Throws InputError when the record of what was printed cannot be read.
+LaboratoryView view_laboratory(const RunAccess& run);
+
+/// Adds specimens to the record of what was printed; those with a label that it holds already stay as they are. Returns
+/// how many were new. Throws InputError.
+int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by);
+
+/// The specimens of a build sheet (JSON). Throws InputError naming file and key.
+std::vector<game::PrintedSpecimen> specimens_of_build_sheet(const std::filesystem::path& file);
+
+}  // namespace nacre::cli

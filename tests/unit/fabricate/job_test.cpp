@@ -1,0 +1,145 @@
+#include "fabricate/job.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "fabricate/build_sheet.hpp"
+#include "pattern/coupons.hpp"
+
+namespace nacre::fabricate {
+namespace {
+
+namespace fs = std::filesystem;
+
+JobRequest request_of(int designs, int replicates) {
+  JobRequest request;
+  request.name = "batch-7";
+  for (int i = 0; i < designs; ++i) {
+    const pattern::Mixture mixture{0.5 + 0.01 * i};
+    request.wanted.push_back({.design = mixture, .replicates = replicates});
+    request.wanted.push_back({.design = mixture, .kind = SpecimenKind::tensile_bar, .replicates = replicates});
+  }
+  return request;
+}
+
+TEST(Job, EverySpecimenLiesOnItsTrayApartFromTheOthers) {
+  const JobRequest request = request_of(3, 4);
+  const Job job = plan_job(request);
+  ASSERT_EQ(job.specimens.size(), 24U);
+  EXPECT_GT(job.trays, 1);
+  for (const Placed& a : job.specimens) {
+    const Model& model = job.models[a.model];
+    EXPECT_GE(a.x_mm, request.gap_mm);
+    EXPECT_GE(a.y_mm, request.gap_mm);
+    EXPECT_LE(a.x_mm + model.size_x_mm, request.printer.tray_x_mm - request.gap_mm);
+    EXPECT_LE(a.y_mm + model.size_y_mm, request.printer.tray_y_mm - request.gap_mm);
+    for (const Placed& b : job.specimens) {
+      if (a.label == b.label || a.tray != b.tray) continue;
+      const Model& other = job.models[b.model];
+      const double gap = request.gap_mm - 1e-9;
+      const bool apart = a.x_mm + model.size_x_mm + gap <= b.x_mm || b.x_mm + other.size_x_mm + gap <= a.x_mm ||
+                         a.y_mm + model.size_y_mm + gap <= b.y_mm || b.y_mm + other.size_y_mm + gap <= a.y_mm;
+      EXPECT_TRUE(apart) << a.label << " and " << b.label;
+    }
+  }
+}
+
+TEST(Job, EveryModelIsPrintedOnceBeforeAnyIsPrintedAgain) {
+  const Job job = plan_job(request_of(4, 3));
+  for (std::size_t block = 0; block < 3; ++block) {
+    std::set<std::size_t> models;
+    for (std::size_t i = 0; i < 8; ++i) models.insert(job.specimens[8 * block + i].model);
+    EXPECT_EQ(models.size(), 8U) << "block " << block;
+  }
+}
+
+TEST(Job, TheOrderIsRandomInTheSeedAlone) {
+  const auto order_of = [](std::uint64_t seed) {
+    JobRequest request = request_of(5, 2);
+    request.seed = seed;
+    std::vector<std::size_t> models;
+    for (const Placed& specimen : plan_job(request).specimens) models.push_back(specimen.model);
+    return models;
+  };
+  EXPECT_EQ(order_of(1), order_of(1));
+  EXPECT_NE(order_of(1), order_of(2));
+  EXPECT_FALSE(std::is_sorted(order_of(1).begin(), order_of(1).begin() + 10));
+}
+
+TEST(Job, LabelsAreUniqueAndPrintOrderCountsThrough) {
+  const Job job = plan_job(request_of(3, 4));
+  std::set<std::string> labels;
+  for (std::size_t i = 0; i < job.specimens.size(); ++i) {
+    labels.insert(job.specimens[i].label);
+    EXPECT_EQ(job.specimens[i].print_order, static_cast<int>(i) + 1);
+  }
+  EXPECT_EQ(labels.size(), job.specimens.size());
+  EXPECT_EQ(job.specimens.front().label, "batch-7-01");
+}
+
+TEST(Job, ATwinTurnedByAQuarterTakesTheOtherSidesOfTheTray) {
+  JobRequest request;
+  request.name = "twins";
+  const pattern::Layout layout = pattern::checkerboard(5);
+  request.wanted = {{.design = layout}, {.design = layout, .orientation_deg = 90.0}};
+  const Job job = plan_job(request);
+  EXPECT_EQ(job.models[0].size_x_mm, job.models[1].size_y_mm);
+  EXPECT_EQ(job.models[0].size_y_mm, job.models[1].size_x_mm);
+  EXPECT_NE(job.models[0].name, job.models[1].name);
+}
+
+TEST(Job, RefusesWhatCannotBePrinted) {
+  JobRequest request = request_of(1, 1);
+  request.name = "no/slash";
+  EXPECT_THROW(plan_job(request), InputError);
+  request.name = "small";
+  request.printer.tray_y_mm = 90.0;
+  EXPECT_THROW(plan_job(request), InputError);
+  EXPECT_THROW(plan_job({.name = "empty"}), InputError);
+  EXPECT_THROW(plan_job(request_of(1, 0)), InputError);
+}
+
+TEST(TestSpeed, StrainsTheGaugeAtTheRate) {
+  EXPECT_NEAR(test_speed_mm_per_min({.design = pattern::Mixture{1.0}}), 2.0, 1e-9);
+  const double bar = test_speed_mm_per_min({.design = pattern::Mixture{1.0}, .kind = SpecimenKind::tensile_bar});
+  // ASTM D638 allows 5 mm/min within a quarter for a type I bar.
+  EXPECT_GE(bar, 3.75);
+  EXPECT_LE(bar, 6.25);
+}
+
+TEST(BuildSheet, SaysWhatIsInTheSlices) {
+  const fs::path folder = fs::temp_directory_path() / ("nacre-job-" + std::to_string(::getpid()));
+  JobRequest request;
+  request.name = "sheet";
+  request.wanted = {{.design = *pattern::layout_from_key("577fffe9fffdef"), .thickness_mm = 0.1, .replicates = 2},
+                    {.design = pattern::Mixture{0.65}, .kind = SpecimenKind::tensile_bar, .thickness_mm = 0.1}};
+  const Job job = plan_job(request);
+  write_job(job, folder);
+  const auto sheet = nlohmann::json::parse(read_file(folder / "build_sheet.json"));
+  ASSERT_EQ(sheet["models"].size(), 2U);
+  EXPECT_EQ(sheet["specimens"].size(), 6U);
+  for (const auto& model : sheet["models"]) {
+    const StackCount count = count_slices(folder / model["slices"].get<std::string>());
+    EXPECT_EQ(model["slice_count"], count.layers);
+    EXPECT_EQ(model["droplets"]["rigid"], count.total[2]);
+    EXPECT_NEAR(model["rigid_fraction"].get<double>(), model["rigid_fraction_designed"].get<double>(), 0.03);
+    EXPECT_TRUE(fs::exists(folder / model["name"].get<std::string>() / "preview.png"));
+  }
+  const std::string html = read_file(folder / "build_sheet.html"), table = read_file(folder / "specimens.csv");
+  for (const Placed& specimen : job.specimens) {
+    EXPECT_NE(html.find(specimen.label), std::string::npos);
+    EXPECT_NE(table.find("," + specimen.label + ","), std::string::npos);
+  }
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace nacre::fabricate
