@@ -1,0 +1,215 @@
+#include "measurement/import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/files.hpp"
+#include "measurement/set_files.hpp"
+#include "measurement/specimen_sheet.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+namespace fs = std::filesystem;
+
+double rounded(double value, int digits) {
+  if (value == 0.0) return 0.0;
+  const double scale = std::pow(10.0, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
+  return std::round(value * scale) / scale;
+}
+
+/// Exports are read once, whoever asks.
+class Exports {
+ public:
+  Exports(const std::vector<fs::path>& files, fs::path folder) : files_(files), folder_(std::move(folder)) {}
+
+  /// The test of a row, or what is wrong with it.
+  tl::expected<TesterRecord, ImportFault> record_of(const SheetRow& row, const std::string& sheet) {
+    const auto path = find(row.file);
+    if (!path) return tl::unexpected(ImportFault{sheet, row.line, "file", path.error().message});
+    const auto& records = read(*path, row.columns);
+    if (!records) return tl::unexpected(records.error());
+    const auto count = static_cast<int>(records->size());
+    if (row.part == 0 && count > 1) {
+      return tl::unexpected(ImportFault{sheet, row.line, "part",
+                                        fmt::format("`{}` holds {} tests, expected a column `part` that says which one "
+                                                    "(from 1)",
+                                                    row.file, count)});
+    }
+    if (row.part > count) {
+      return tl::unexpected(
+          ImportFault{sheet, row.line, "part", fmt::format("{}, but `{}` holds {} tests", row.part, row.file, count)});
+    }
+    return (*records)[static_cast<std::size_t>(std::max(row.part, 1) - 1)];
+  }
+
+  /// Files that no row asked for.
+  std::vector<std::string> unused() const {
+    std::vector<std::string> names;
+    for (const fs::path& file : files_) {
+      if (!used_.contains(file.string())) names.push_back(file.string());
+    }
+    return names;
+  }
+
+ private:
+  Result<fs::path> find(const std::string& name) {
+    const auto matching = [&](auto same) {
+      std::vector<fs::path> found;
+      std::copy_if(files_.begin(), files_.end(), std::back_inserter(found), same);
+      return found;
+    };
+    if (files_.empty()) {
+      const fs::path beside = folder_ / name;
+      if (fs::exists(beside)) return beside;
+      return fail("there is no file {}, expected an export beside the sheet or on the command line", beside.string());
+    }
+    auto found = matching([&](const fs::path& file) { return file == name || file == folder_ / name; });
+    if (found.empty())
+      found = matching([&](const fs::path& file) { return file.filename() == fs::path(name).filename(); });
+    if (found.empty())
+      return fail("`{}` is not among the {} exports given, expected one of that name", name, files_.size());
+    if (found.size() > 1)
+      return fail("`{}` is the name of {} exports given, expected a path that tells which", name, found.size());
+    used_.insert(found.front().string());
+    return found.front();
+  }
+
+  const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
+    const std::string key = path.string() + '\n' + choice.extension + '\n' + choice.force;
+    const auto known = read_.find(key);
+    if (known != read_.end()) return known->second;
+    return read_.emplace(key, read_anew(path, choice)).first->second;
+  }
+
+  static tl::expected<std::vector<TesterRecord>, ImportFault> read_anew(const fs::path& path,
+                                                                        const ColumnChoice& choice) {
+    try {
+      return read_tester_export(read_file_up_to(path, kMostCurveBytes), path.string(), choice);
+    } catch (const InputError& error) {
+      return tl::unexpected(ImportFault{path.string(), 0, "", error.what()});
+    }
+  }
+
+  const std::vector<fs::path>& files_;
+  fs::path folder_;
+  std::set<std::string> used_;
+  std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
+};
+
+tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row) {
+  // N / mm2 = MPa.
+  const double pa_per_newton = 1e6 / (row.width_mm * row.record.conditions.thickness_mm);
+  tester::Curve curve;
+  for (std::size_t i = 0; i < record.force_n.size(); ++i) {
+    curve.strain.push_back((record.extension_mm[i] - record.extension_mm.front()) / row.gauge_mm);
+    curve.stress_pa.push_back(record.force_n[i] * pa_per_newton);
+  }
+  return curve;
+}
+
+void keep_history(const TesterRecord& from, const ReducedTest& test, SpecimenRecord& record) {
+  for (const auto& [name, text] : from.header) record.other_columns.try_emplace(name, text);
+  const auto keep = [&](const char* name, double value) {
+    record.other_columns[name] = fmt::format("{}", rounded(value, 6));
+  };
+  keep("peak_stress_pa", test.peak_stress_pa);
+  keep("failure_strain", test.failure_strain);
+  keep("toe_strain", test.toe_strain);
+  if (record.test != tester::TestKind::modulus) keep("initial_modulus_pa", test.modulus_pa);
+}
+
+void set_values(const ReducedTest& test, SpecimenRecord& record) {
+  record.curve = test.curve;
+  if (record.test == tester::TestKind::modulus) record.modulus_pa = rounded(test.modulus_pa, 6);
+  if (record.test != tester::TestKind::toughness) return;
+  record.toughness_pa = rounded(test.toughness_pa, 6);
+  if (test.separated) return;
+  record.valid = false;
+  const std::string why =
+      fmt::format("not separated: the record ends at {:.0f} % of the peak force", 100.0 * test.residual_share);
+  record.note += (record.note.empty() ? "" : "; ") + why;
+}
+
+tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, const TesterRecord& from,
+                                                       const std::string& shown_file, const ImportSettings& settings) {
+  const auto fault = [&](std::string column, std::string reason) {
+    return tl::unexpected(
+        ImportFault{shown_file, from.line.empty() ? 0 : from.line.front(), std::move(column), std::move(reason)});
+  };
+  if (from.force_n.size() < kFewestCurveRows)
+    return fault("", fmt::format("has {} rows of data, expected at least {}", from.force_n.size(), kFewestCurveRows));
+  const tester::Curve curve = nominal_curve(from, row);
+  const auto least = std::min_element(curve.strain.begin(), curve.strain.end());
+  if (*least <= -1.0)
+    return fault("extension",
+                 fmt::format("the extension falls by the whole gauge of {} mm, expected tension", row.gauge_mm));
+  const Result<ReducedTest> test = reduce(curve, settings.toe);
+  if (!test) return fault("force", test.error().message);
+  if (test->curve.size() < kFewestCurveRows)
+    return fault("", fmt::format("{} points are left after the toe, expected at least {}", test->curve.size(),
+                                 kFewestCurveRows));
+  if (test->toughness_pa <= 0.0)
+    return fault("", "the area under the curve is not positive, expected a test in tension");
+  ImportedSpecimen imported{.record = row.record, .file = shown_file, .maker = from.maker, .test = *test};
+  if (const auto rate = strain_rate(from.time_s, curve.strain); rate && !row.rate_is_given)
+    imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
+  set_values(*test, imported.record);
+  keep_history(from, *test, imported.record);
+  return imported;
+}
+
+/// Doubts about a specimen, as sentences.
+void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vector<std::string>& warnings) {
+  const std::string who = fmt::format("specimen {}", one.record.specimen);
+  if (!one.test.separated && one.record.test == tester::TestKind::toughness)
+    warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
+  constexpr double kLargestToe = 0.01, kSlowest = 1e-6, kFastest = 1.0;
+  if (one.test.toe_strain > kLargestToe)
+    warnings.push_back(fmt::format("{}: a toe of {:.2f} % strain was taken off: was the specimen slack in its grips?",
+                                   who, 100.0 * one.test.toe_strain));
+  const double rate = one.record.conditions.strain_rate_per_s;
+  if (rate < kSlowest || rate > kFastest)
+    warnings.push_back(fmt::format("{}: strain rate {} 1/s: are the units of time and extension right?", who, rate));
+  if (one.test.modulus_pa < 1e4 || one.test.modulus_pa > 1e11) {
+    warnings.push_back(
+        fmt::format("{}: initial modulus {:.3g} Pa is no usual one: are the units of force and the size ({} x {} mm, "
+                    "gauge {} mm) right?",
+                    who, one.test.modulus_pa, row.width_mm, one.record.conditions.thickness_mm, row.gauge_mm));
+  }
+}
+
+}  // namespace
+
+Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_file, const ImportSettings& settings) {
+  SpecimenSheet sheet = read_specimen_sheet(sheet_file);
+  Import import{.specimens = {}, .rejected = std::move(sheet.rejected), .warnings = std::move(sheet.warnings)};
+  Exports exports(files, sheet_file.parent_path());
+  std::set<std::string> warned;
+  for (const SheetRow& row : sheet.rows) {
+    auto record = exports.record_of(row, sheet_file.string());
+    if (!record) {
+      import.rejected.push_back(record.error());
+      continue;
+    }
+    for (const std::string& warning : record->warnings) {
+      if (warned.insert(warning).second) import.warnings.push_back(warning);
+    }
+    auto imported = import_one(row, *record, row.file, settings);
+    if (!imported) {
+      import.rejected.push_back(imported.error());
+      continue;
+    }
+    collect_doubts(*imported, row, import.warnings);
+    import.specimens.push_back(std::move(*imported));
+  }
+  for (const std::string& name : exports.unused())
+    import.warnings.push_back(fmt::format("{}: no specimen of the sheet names this export; it is not used", name));
+  return import;
+}
+
+}  // namespace nacre::measurement

@@ -1,0 +1,197 @@
+#include "measurement/specimen_sheet.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+
+#include "base/csv.hpp"
+#include "base/files.hpp"
+#include "measurement/set_files.hpp"
+#include "measurement/tester_text.hpp"
+#include "thesis/constants.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",     "pattern",
+                                                       "width_mm", "thickness_mm", "gauge_mm"};
+constexpr std::array<std::string_view, 9> kOptional = {
+    "part",        "test",  "orientation_deg",  "strain_rate_per_s", "batch",
+    "print_order", "valid", "extension_column", "force_column"};
+/// Kept with the specimen under their own names.
+constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
+
+template <class Names>
+bool contains(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Reads the rows of one sheet.
+class SheetReader {
+ public:
+  SheetReader(const std::string& text, std::string file, std::filesystem::path folder)
+      : file_(std::move(file)), folder_(std::move(folder)), lines_(lines_of(text)) {}
+
+  SpecimenSheet read() {
+    std::size_t first = 0;
+    while (first < lines_.size() && trimmed(lines_[first]).empty()) ++first;
+    if (first == lines_.size()) throw InputError::format("{}: is empty, expected a heading and rows", file_);
+    read_heading(first);
+    for (std::size_t i = first + 1; i < lines_.size(); ++i) {
+      cells_ = cells_of(lines_[i], delimiter_);
+      if (std::all_of(cells_.begin(), cells_.end(), [](const auto& cell) { return cell.empty(); })) continue;
+      read_row(static_cast<int>(i) + 1);
+    }
+    if (sheet_.rows.empty() && sheet_.rejected.empty())
+      throw InputError::format("{}: has a heading only, expected one row per specimen", file_);
+    return std::move(sheet_);
+  }
+
+ private:
+  void read_heading(std::size_t index) {
+    for (const char delimiter : {'\t', ';', ','}) {
+      const std::vector<std::string> names = cells_of(lines_[index], delimiter);
+      if (names.size() > heading_.size()) {
+        heading_ = names;
+        delimiter_ = delimiter;
+      }
+    }
+    const int line = static_cast<int>(index) + 1;
+    for (const std::string_view name : kRequired) {
+      if (!contains(heading_, name)) {
+        throw InputError::format("{}:{}: column `{}` is missing, expected a heading with at least {}", file_, line,
+                                 name, fmt::join(kRequired, ", "));
+      }
+    }
+    std::set<std::string> seen;
+    for (const std::string& name : heading_) {
+      if (!name.empty() && !seen.insert(name).second)
+        throw InputError::format("{}:{}: column `{}` stands twice, expected once", file_, line, name);
+      const bool known = contains(kRequired, name) || contains(kOptional, name) || contains(kKept, name) ||
+                         name == "note" || name.empty();
+      if (!known)
+        sheet_.warnings.push_back(fmt::format("{}:{}: unknown column `{}` is kept but not used", file_, line, name));
+    }
+  }
+
+  std::string text(std::string_view column) const {
+    const auto found = std::find(heading_.begin(), heading_.end(), column);
+    const auto place = static_cast<std::size_t>(found - heading_.begin());
+    return place < cells_.size() && found != heading_.end() ? cells_[place] : "";
+  }
+
+  void reject(std::string_view column, std::string reason) {
+    if (!fault_) fault_ = ImportFault{file_, line_, std::string(column), std::move(reason)};
+  }
+
+  std::optional<double> number(std::string_view column, double least, double most, std::string_view expected) {
+    const std::string cell = text(column);
+    if (cell.empty()) return std::nullopt;
+    const DecimalMark mark = decimal_evidence(cell).value_or(DecimalMark::point);
+    const auto value = instrument_number(cell, mark);
+    if (value && *value >= least && *value <= most) return value;
+    reject(column, fmt::format("`{}`, expected {}", cell, expected));
+    return std::nullopt;
+  }
+
+  double length_mm(std::string_view column) {
+    if (text(column).empty()) reject(column, "is empty, expected a length in mm");
+    return number(column, 1e-3, 1e4, "a length in mm, 0.001 to 10000").value_or(1.0);
+  }
+
+  pattern::Design design() {
+    const std::string name = text("pattern");
+    if (const auto named = pattern::design_from_name(name)) return *named;
+    if (name.empty()) {
+      reject("pattern", "is empty, expected a pattern file, a key, rigid, soft, interface or mix:F");
+      return {};
+    }
+    try {
+      return pattern::design_from_argument(std::filesystem::exists(folder_ / name) ? (folder_ / name).string() : name);
+    } catch (const InputError& error) {
+      reject("pattern", error.what());
+      return {};
+    }
+  }
+
+  void read_row(int line) {
+    line_ = line;
+    fault_.reset();
+    SheetRow row;
+    row.line = line;
+    if (cells_.size() > heading_.size() && std::any_of(cells_.begin() + static_cast<std::ptrdiff_t>(heading_.size()),
+                                                       cells_.end(), [](const auto& cell) { return !cell.empty(); })) {
+      reject("", fmt::format("has {} cells, expected {} as in the heading", cells_.size(), heading_.size()));
+    }
+    row.file = text("file");
+    row.record.specimen = text("specimen");
+    if (row.record.specimen.empty()) reject("specimen", "is empty, expected a unique name");
+    if (row.file.empty()) reject("file", "is empty, expected the name of the testing machine's export");
+    if (!names_.insert(row.record.specimen).second)
+      reject("specimen", fmt::format("`{}` stands twice, expected a unique name", row.record.specimen));
+    row.record.design = design();
+    row.width_mm = length_mm("width_mm");
+    row.record.conditions.thickness_mm = length_mm("thickness_mm");
+    row.gauge_mm = length_mm("gauge_mm");
+    read_optional(row);
+    if (fault_) {
+      sheet_.rejected.push_back(*fault_);
+    } else {
+      sheet_.rows.push_back(std::move(row));
+    }
+  }
+
+  void read_optional(SheetRow& row) {
+    SpecimenRecord& record = row.record;
+    const std::string test = text("test").empty() ? "toughness" : text("test");
+    if (const auto kind = tester::test_kind_from_string(test)) {
+      record.test = *kind;
+    } else {
+      reject("test", fmt::format("`{}` is no test, expected modulus, toughness or tensile", test));
+    }
+    row.part = static_cast<int>(number("part", 1, 1e6, "which test of the file, from 1").value_or(0.0));
+    record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);
+    if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
+      reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
+    if (const auto rate = number("strain_rate_per_s", 1e-9, 1e4, "a strain rate in 1/s")) {
+      record.conditions.strain_rate_per_s = *rate;
+      row.rate_is_given = true;
+    }
+    record.batch = text("batch");
+    record.print_order = static_cast<int>(number("print_order", 0, 1e9, "a whole number").value_or(0.0));
+    const std::string valid = plain_words(text("valid"));
+    record.valid = valid != "0" && valid != "false";
+    if (!valid.empty() && valid != "1" && valid != "true" && record.valid)
+      reject("valid", fmt::format("`{}`, expected 0, 1, true or false", text("valid")));
+    record.note = text("note");
+    row.columns = {text("extension_column"), text("force_column")};
+    for (const std::string& name : heading_) {
+      if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || name == "note") continue;
+      if (!text(name).empty()) record.other_columns[name] = text(name);
+    }
+  }
+
+  std::string file_;
+  std::filesystem::path folder_;
+  std::vector<std::string_view> lines_;
+  char delimiter_ = ',';
+  std::vector<std::string> heading_, cells_;
+  std::set<std::string> names_;
+  int line_ = 0;
+  std::optional<ImportFault> fault_;
+  SpecimenSheet sheet_;
+};
+
+}  // namespace
+
+SpecimenSheet read_specimen_sheet(const std::filesystem::path& file) {
+  const Result<std::string> text = utf8_from_instrument(read_file_up_to(file, kMostTableBytes));
+  if (!text) throw InputError::format("{}: {}", file.string(), text.error().message);
+  return SheetReader(*text, file.string(), file.parent_path()).read();
+}
+
+}  // namespace nacre::measurement

@@ -1,0 +1,37 @@
+#pragma once
+// The sheet that says which file of the testing machine belongs to which specimen, and how large it was.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "measurement/measurement.hpp"
+#include "measurement/tester_export.hpp"
+
+namespace nacre::measurement {
+
+/// One row: everything about a specimen but what the machine recorded.
+struct SheetRow {
+  int line = 0;
+  std::string file;
+  int part = 0;  ///< which test of the file, from 1; 0: the file holds one
+  SpecimenRecord record;
+  double width_mm = 0.0;
+  double gauge_mm = 0.0;
+  bool rate_is_given = false;
+  ColumnChoice columns;
+};
+
+struct SpecimenSheet {
+  std::vector<SheetRow> rows;
+  std::vector<ImportFault> rejected;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a sheet: CSV as people's spreadsheets write it (comma, semicolon or tab, decimal point or comma, UTF-8, UTF-16
+/// or Windows-1252). Bad rows are listed, the others kept. Throws InputError when the file cannot be read, a required
+/// column is missing or there is no row.
+SpecimenSheet read_specimen_sheet(const std::filesystem::path& file);
+
+}  // namespace nacre::measurement

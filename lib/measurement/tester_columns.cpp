@@ -1,0 +1,231 @@
+#include "measurement/tester_columns.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/csv.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+struct Unit {
+  Quantity quantity;
+  std::string_view name;
+  double factor;
+};
+
+constexpr double kInchMm = 25.4, kPoundForceN = 4.4482216152605, kKilogramForceN = 9.80665;
+constexpr std::array kUnits = {
+    Unit{Quantity::time, "s", 1.0},
+    Unit{Quantity::time, "sec", 1.0},
+    Unit{Quantity::time, "secs", 1.0},
+    Unit{Quantity::time, "second", 1.0},
+    Unit{Quantity::time, "seconds", 1.0},
+    Unit{Quantity::time, "sek", 1.0},
+    Unit{Quantity::time, "ms", 1e-3},
+    Unit{Quantity::time, "msec", 1e-3},
+    Unit{Quantity::time, "min", 60.0},
+    Unit{Quantity::time, "minutes", 60.0},
+    Unit{Quantity::time, "h", 3600.0},
+    Unit{Quantity::time, "hr", 3600.0},
+    Unit{Quantity::extension, "mm", 1.0},
+    Unit{Quantity::extension, "cm", 10.0},
+    Unit{Quantity::extension, "m", 1000.0},
+    Unit{Quantity::extension, "um", 1e-3},
+    Unit{Quantity::extension, "in", kInchMm},
+    Unit{Quantity::extension, "in.", kInchMm},
+    Unit{Quantity::extension, "inch", kInchMm},
+    Unit{Quantity::extension, "inches", kInchMm},
+    Unit{Quantity::extension, "\"", kInchMm},
+    Unit{Quantity::extension, "mil", 1e-3 * kInchMm},
+    Unit{Quantity::extension, "mils", 1e-3 * kInchMm},
+    Unit{Quantity::extension, "ft", 12 * kInchMm},
+    Unit{Quantity::force, "n", 1.0},
+    Unit{Quantity::force, "newton", 1.0},
+    Unit{Quantity::force, "kn", 1e3},
+    Unit{Quantity::force, "mn", 1e-3},
+    Unit{Quantity::force, "dan", 10.0},
+    Unit{Quantity::force, "lbf", kPoundForceN},
+    Unit{Quantity::force, "lb", kPoundForceN},
+    Unit{Quantity::force, "lbs", kPoundForceN},
+    Unit{Quantity::force, "klbf", 1e3 * kPoundForceN},
+    Unit{Quantity::force, "kip", 1e3 * kPoundForceN},
+    Unit{Quantity::force, "kips", 1e3 * kPoundForceN},
+    Unit{Quantity::force, "ozf", kPoundForceN / 16},
+    Unit{Quantity::force, "kgf", kKilogramForceN},
+    Unit{Quantity::force, "kp", kKilogramForceN},
+    Unit{Quantity::force, "gf", 1e-3 * kKilogramForceN},
+};
+
+struct Word {
+  Quantity quantity;
+  std::string_view word;  ///< the name is this, or holds it as whole words
+  int rank;
+};
+
+/// In English, German, French, Spanish, Italian. An extensometer sees a part of the specimen: it is taken only where it
+/// is asked for, or stands alone.
+constexpr std::array kWords = {
+    Word{Quantity::extension, "extension", 0},
+    Word{Quantity::extension, "standard travel", 1},
+    Word{Quantity::extension, "standardweg", 1},
+    Word{Quantity::extension, "displacement", 2},
+    Word{Quantity::extension, "crosshead", 3},
+    Word{Quantity::extension, "crosshead travel", 3},
+    Word{Quantity::extension, "traverse", 3},
+    Word{Quantity::extension, "traversenweg", 3},
+    Word{Quantity::extension, "weg", 3},
+    Word{Quantity::extension, "travel", 3},
+    Word{Quantity::extension, "elongation", 3},
+    Word{Quantity::extension, "verlaengerung", 3},
+    Word{Quantity::extension, "allongement", 3},
+    Word{Quantity::extension, "deplacement", 3},
+    Word{Quantity::extension, "desplazamiento", 3},
+    Word{Quantity::extension, "spostamento", 3},
+    Word{Quantity::extension, "allungamento", 3},
+    Word{Quantity::extension, "alargamiento", 3},
+    Word{Quantity::extension, "stroke", 4},
+    Word{Quantity::extension, "position", 5},
+    Word{Quantity::extension, "verformung", 6},
+    Word{Quantity::extension, "deformation", 6},
+    Word{Quantity::extension, "extensometer", 9},
+    Word{Quantity::extension, "laengenaenderungsaufnehmer", 9},
+    Word{Quantity::extension, "feindehnung", 9},
+    Word{Quantity::extension, "dl", 3},
+    Word{Quantity::extension, "laengenaenderung", 3},
+    Word{Quantity::force, "force", 0},
+    Word{Quantity::force, "standard force", 0},
+    Word{Quantity::force, "standardkraft", 0},
+    Word{Quantity::force, "load", 1},
+    Word{Quantity::force, "kraft", 1},
+    Word{Quantity::force, "pruefkraft", 1},
+    Word{Quantity::force, "charge", 1},
+    Word{Quantity::force, "effort", 1},
+    Word{Quantity::force, "fuerza", 1},
+    Word{Quantity::force, "carga", 1},
+    Word{Quantity::force, "forza", 1},
+    Word{Quantity::force, "carico", 1},
+    Word{Quantity::force, "last", 1},
+    Word{Quantity::force, "f", 2},
+    Word{Quantity::time, "test time", 0},
+    Word{Quantity::time, "pruefzeit", 0},
+    Word{Quantity::time, "running time", 0},
+    Word{Quantity::time, "elapsed time", 0},
+    Word{Quantity::time, "time", 1},
+    Word{Quantity::time, "zeit", 1},
+    Word{Quantity::time, "temps", 1},
+    Word{Quantity::time, "tiempo", 1},
+    Word{Quantity::time, "tempo", 1},
+    Word{Quantity::time, "t", 2},
+};
+
+/// Names that hold a word of the list and mean something else.
+constexpr std::array<std::string_view, 18> kOthers = {"strain", "stress", "dehnung", "spannung", "rate",  "date",
+                                                      "speed",  "cell",   "count",   "maximum",  "max",   "zeitstempel",
+                                                      "true",   "at",     "bei",     "break",    "bruch", "yield"};
+
+bool holds_word(std::string_view text, std::string_view word) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const auto is_letter = [&](std::size_t i) { return i < text.size() && text[i] >= 'a' && text[i] <= 'z'; };
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(end)) return true;
+  }
+  return false;
+}
+
+std::string bare_unit(std::string_view unit) {
+  std::string bare = plain_words(unit);
+  while (!bare.empty() && (bare.front() == '(' || bare.front() == '[')) bare.erase(bare.begin());
+  while (!bare.empty() && (bare.back() == ')' || bare.back() == ']')) bare.pop_back();
+  return std::string(trimmed(bare));
+}
+
+/// Takes the unit off the end of a heading; empty when there is none.
+std::string take_unit(std::string& name) {
+  for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']')}) {
+    if (name.empty() || name.back() != close) continue;
+    const std::size_t begin = name.rfind(open);
+    if (begin == std::string::npos || begin == 0) continue;
+    const std::string unit = bare_unit(std::string_view(name).substr(begin));
+    name = std::string(trimmed(std::string_view(name).substr(0, begin)));
+    return unit;
+  }
+  for (const std::string_view mark : {" in ", "/", " ", ","}) {
+    const std::size_t at = name.rfind(mark);
+    if (at == std::string::npos || at == 0) continue;
+    const std::string unit = bare_unit(std::string_view(name).substr(at + mark.size()));
+    const auto is_unit = [&](const Unit& each) { return each.name == unit; };
+    if (std::none_of(kUnits.begin(), kUnits.end(), is_unit)) continue;
+    name = std::string(trimmed(std::string_view(name).substr(0, at)));
+    return unit;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string_view to_string(Quantity quantity) {
+  constexpr std::array<std::string_view, 3> kNames = {"time", "extension", "force"};
+  return kNames[static_cast<std::size_t>(quantity)];
+}
+
+std::string_view expected_names(Quantity quantity) {
+  constexpr std::array<std::string_view, 3> kNames = {
+      "Time, Pruefzeit", "Extension, Displacement, Crosshead, Standardweg", "Force, Load, Standardkraft"};
+  return kNames[static_cast<std::size_t>(quantity)];
+}
+
+std::string_view expected_units(Quantity quantity) {
+  constexpr std::array<std::string_view, 3> kNames = {"s, ms, min, h", "mm, cm, m, um, in, mil, ft",
+                                                      "N, kN, mN, lbf, kip, kgf, gf"};
+  return kNames[static_cast<std::size_t>(quantity)];
+}
+
+std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
+  const std::string bare = bare_unit(unit);
+  // Milli and mega differ in the first letter's case alone.
+  if (quantity == Quantity::force && unit.find("MN") != std::string_view::npos) return 1e6;
+  for (const Unit& each : kUnits) {
+    if (each.quantity == quantity && each.name == bare) return each.factor;
+  }
+  return std::nullopt;
+}
+
+ColumnName recognise_column(std::string_view heading) {
+  ColumnName column{.shown = std::string(heading), .quantity = {}, .rank = 0, .unit = {}};
+  std::string name = plain_words(heading);
+  if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); })) return column;
+  const std::string unit = take_unit(name);
+  // The unit as written, for its case and for messages.
+  const std::size_t open = heading.find_last_of("([");
+  column.unit = unit.empty()                                 ? ""
+                : open != std::string_view::npos && open > 0 ? std::string(heading.substr(open))
+                                                             : unit;
+  int best = 100;
+  std::size_t longest = 0;
+  for (const Word& word : kWords) {
+    const bool is_short = word.word.size() <= 2;
+    if (is_short ? name != word.word : !holds_word(name, word.word)) continue;
+    if (word.word.size() < longest || (word.word.size() == longest && word.rank >= best)) continue;
+    longest = word.word.size();
+    best = word.rank;
+    column.quantity = word.quantity;
+    column.rank = word.rank;
+  }
+  return column;
+}
+
+std::size_t best_column(const std::vector<ColumnName>& columns, Quantity quantity, std::string_view wanted) {
+  std::size_t best = columns.size();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!wanted.empty()) {
+      if (holds_word(plain_words(columns[i].shown), plain_words(wanted))) return i;
+      continue;
+    }
+    if (columns[i].quantity == quantity && (best == columns.size() || columns[i].rank < columns[best].rank)) best = i;
+  }
+  return best;
+}
+
+}  // namespace nacre::measurement

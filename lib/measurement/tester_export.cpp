@@ -1,0 +1,422 @@
+#include "measurement/tester_export.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "base/csv.hpp"
+#include "measurement/set_files.hpp"
+#include "measurement/tester_columns.hpp"
+#include "measurement/tester_text.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+constexpr std::array kQuantities = {Quantity::time, Quantity::extension, Quantity::force};
+constexpr std::size_t kMostHeaderLines = 2000;
+
+using Cells = std::vector<std::string>;
+
+std::size_t place_of(Quantity quantity) { return static_cast<std::size_t>(quantity); }
+
+/// Where the wanted columns of a block stand, and the factor to s, mm, N.
+struct Layout {
+  std::vector<ColumnName> names;
+  std::array<std::size_t, 3> column{};  ///< by Quantity; names.size() when absent
+  std::array<double, 3> factor{1.0, 1.0, 1.0};
+  bool has(Quantity quantity) const { return column[place_of(quantity)] < names.size(); }
+};
+
+/// A heading row has names for extension and force; numbers are not names.
+Layout layout_of(const Cells& cells, const ColumnChoice& choice) {
+  Layout layout;
+  for (const std::string& cell : cells)
+    layout.names.push_back(looks_like_number(cell) ? ColumnName{cell, {}, 0, {}} : recognise_column(cell));
+  layout.column[0] = best_column(layout.names, Quantity::time);
+  layout.column[1] = best_column(layout.names, Quantity::extension, choice.extension);
+  layout.column[2] = best_column(layout.names, Quantity::force, choice.force);
+  return layout;
+}
+
+class ExportReader {
+ public:
+  ExportReader(const std::string& text, std::string file, const ColumnChoice& choice)
+      : file_(std::move(file)), choice_(choice), lines_(lines_of(text)) {}
+
+  tl::expected<std::vector<TesterRecord>, ImportFault> read() {
+    const std::optional<std::size_t> heading = find_heading();
+    if (!heading && !is_bare_table()) return tl::unexpected(no_heading());
+    std::size_t next = 0;
+    if (!heading) {
+      read_bare_table();
+    } else {
+      read_header(0, *heading);
+      for (next = *heading; next < lines_.size() && !fault_;) next = read_block(next);
+    }
+    if (!fault_ && records_.empty()) reject(0, "", "holds no numbers, expected rows of extension and force");
+    if (fault_) return tl::unexpected(*fault_);
+    return std::move(records_);
+  }
+
+ private:
+  void reject(std::size_t line, std::string column, std::string reason) {
+    if (!fault_) fault_ = ImportFault{file_, static_cast<int>(line), std::move(column), std::move(reason)};
+  }
+  Cells cells(std::size_t index) const { return cells_of(lines_[index], delimiter_); }
+  bool is_blank(std::size_t index) const {
+    return lines_[index].find_first_not_of(" \t,;|\"") == std::string_view::npos;
+  }
+  bool is_mts() const { return !lines_.empty() && lines_[0].starts_with("MTS793"); }
+
+  /// The first line, and with it the delimiter, under which names of extension and force stand side by side.
+  std::optional<std::size_t> find_heading() {
+    std::optional<std::size_t> found;
+    std::size_t most_names = 0;
+    for (const char delimiter : {'\t', ';', ',', '|'}) {
+      const std::size_t end = found ? *found + 1 : std::min(lines_.size(), kMostHeaderLines);
+      for (std::size_t i = 0; i < end; ++i) {
+        const Layout layout = layout_of(cells_of(lines_[i], delimiter), choice_);
+        if (!layout.has(Quantity::extension) || !layout.has(Quantity::force)) continue;
+        if (found && i == *found && layout.names.size() <= most_names) break;
+        found = i;
+        most_names = layout.names.size();
+        delimiter_ = delimiter;
+        break;
+      }
+    }
+    return found;
+  }
+
+  /// The fault of a file without heading: what comes nearest to one.
+  ImportFault no_heading() const {
+    for (const char delimiter : {'\t', ';', ',', '|'}) {
+      for (std::size_t i = 0; i < std::min(lines_.size(), kMostHeaderLines); ++i) {
+        const Cells here = cells_of(lines_[i], delimiter);
+        const Layout layout = layout_of(here, choice_);
+        if (here.size() < 2 || layout.has(Quantity::extension) == layout.has(Quantity::force)) continue;
+        const Quantity missing = layout.has(Quantity::force) ? Quantity::extension : Quantity::force;
+        const std::string& asked = missing == Quantity::extension ? choice_.extension : choice_.force;
+        return {file_, static_cast<int>(i) + 1, std::string(to_string(missing)),
+                asked.empty() ? fmt::format("no column of {} among `{}`, expected a name such as {}",
+                                            to_string(missing), fmt::join(here, "`, `"), expected_names(missing))
+                              : fmt::format("no column `{}` among `{}`", asked, fmt::join(here, "`, `"))};
+      }
+    }
+    const bool is_empty = std::all_of(lines_.begin(), lines_.end(), [](auto line) { return trimmed(line).empty(); });
+    return {file_, 0, "",
+            is_empty ? "is empty, expected a table of time, extension and force"
+                     : fmt::format("no heading with extension and force, expected names such as {}, and {}",
+                                   expected_names(Quantity::extension), expected_names(Quantity::force))};
+  }
+
+  /// Date, operator and machine from the lines before the heading: `Key,Value`, `Key: Value` or `Key : Value`.
+  void read_header(std::size_t begin, std::size_t end) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kKeys = {{
+        {"date", "date"},
+        {"test date", "date"},
+        {"datum", "date"},
+        {"pruefdatum", "date"},
+        {"test run date", "date"},
+        {"start date", "date"},
+        {"date/time", "date"},
+        {"test start time", "date"},
+        {"operator", "operator"},
+        {"operator id", "operator"},
+        {"operator name", "operator"},
+        {"pruefer", "operator"},
+        {"tester", "operator"},
+        {"bediener", "operator"},
+        {"operateur", "operator"},
+        {"machine", "machine"},
+        {"test machine", "machine"},
+        {"pruefmaschine", "machine"},
+        {"system id", "machine"},
+        {"system", "machine"},
+        {"frame", "machine"},
+    }};
+    for (std::size_t i = begin; i < end; ++i) {
+      const Cells here = cells(i);
+      std::string key = here[0], value;
+      const std::size_t colon = key.find(':');
+      if (colon != std::string::npos && !trimmed(std::string_view(key).substr(colon + 1)).empty()) {
+        value = std::string(trimmed(std::string_view(key).substr(colon + 1)));
+      } else {
+        for (std::size_t k = 1; k < here.size() && value.empty(); ++k) value = here[k];
+      }
+      key = std::string(trimmed(std::string_view(plain_words(key)).substr(0, plain_words(key).find(':'))));
+      const auto known = std::find_if(kKeys.begin(), kKeys.end(), [&](const auto& each) { return each.first == key; });
+      if (known != kKeys.end() && !value.empty()) header_.try_emplace(std::string(known->second), value);
+    }
+  }
+
+  std::string maker() const {
+    if (is_mts()) return "MTS";
+    bool bluehill = false, zwick = false, mts = false;
+    for (std::size_t i = 0; i < std::min<std::size_t>(lines_.size(), 60); ++i) {
+      const std::string words = plain_words(lines_[i]);
+      const auto holds = [&](std::string_view word) { return words.find(word) != std::string::npos; };
+      bluehill = bluehill || holds("bluehill") || holds("results table") || holds("instron") || holds("raw data");
+      zwick = zwick || holds("testxpert") || holds("standardkraft") || holds("standard force") || holds("zwick");
+      mts = mts || holds("testsuite") || holds("testworks") || holds("mts ") || holds("axial force") ||
+            holds("running time");
+    }
+    // Bluehill's own mark: a row of nothing but units in parentheses.
+    for (std::size_t i = 1; i < std::min<std::size_t>(lines_.size(), kMostHeaderLines) && !bluehill; ++i) {
+      const Cells here = cells(i);
+      bluehill = here.size() > 1 &&
+                 std::all_of(here.begin(), here.end(),
+                             [](const std::string& cell) {
+                               return cell.empty() || (cell.front() == '(' && cell.back() == ')');
+                             }) &&
+                 std::any_of(here.begin(), here.end(), [](const auto& cell) { return !cell.empty(); });
+    }
+    return zwick ? "ZwickRoell testXpert" : mts ? "MTS" : bluehill ? "Instron Bluehill" : "table";
+  }
+
+  /// A factor for each column from the heading or the row of units below it; true when that row was there.
+  bool read_units(Layout& layout, std::size_t heading, std::size_t below, std::vector<std::string>& warnings) {
+    const Cells units = below < lines_.size() ? cells(below) : Cells{};
+    const bool is_numbers =
+        std::any_of(units.begin(), units.end(), [](const auto& cell) { return looks_like_number(cell); });
+    bool used = false;
+    for (const Quantity quantity : kQuantities) {
+      if (!layout.has(quantity)) continue;
+      const std::size_t column = layout.column[place_of(quantity)];
+      const ColumnName& name = layout.names[column];
+      const bool from_below = name.unit.empty() && !is_numbers && column < units.size() && !units[column].empty();
+      const std::string unit = from_below ? units[column] : name.unit;
+      used = used || from_below || (!is_numbers && column < units.size() && unit_factor(quantity, units[column]));
+      if (unit.empty()) {
+        const std::string_view assumed = quantity == Quantity::force ? "N" : quantity == Quantity::time ? "s" : "mm";
+        warnings.push_back(
+            fmt::format("{}:{}: column `{}` has no unit, taken for {}", file_, heading + 1, name.shown, assumed));
+        continue;
+      }
+      const auto factor = unit_factor(quantity, unit);
+      if (!factor) {
+        reject((from_below ? below : heading) + 1, name.shown,
+               fmt::format("`{}` is no unit of {}, expected one of {}", unit, to_string(quantity),
+                           expected_units(quantity)));
+        return used;
+      }
+      layout.factor[place_of(quantity)] = *factor;
+    }
+    return used;
+  }
+
+  /// Reads the block whose heading stands at `heading`; returns where to go on.
+  std::size_t read_block(std::size_t heading) {
+    Layout layout = layout_of(cells(heading), choice_);
+    std::vector<std::string> warnings;
+    std::size_t next = heading + 1;
+    while (next < lines_.size() && is_blank(next)) ++next;
+    if (read_units(layout, heading, next, warnings)) ++next;
+    if (fault_) return lines_.size();
+    return read_rows(layout, next, warnings);
+  }
+
+  bool is_heading(std::size_t index) const {
+    const Layout layout = layout_of(cells(index), choice_);
+    return layout.has(Quantity::extension) && layout.has(Quantity::force);
+  }
+
+  /// A row of data has a number in both needed columns, or in one of them when it is damaged.
+  int numbers_in(const Cells& row, const Layout& layout) const {
+    int numbers = 0;
+    for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
+      const std::size_t column = layout.column[place_of(quantity)];
+      numbers += column < row.size() && looks_like_number(row[column]);
+    }
+    return numbers;
+  }
+
+  std::string damage_of(const Cells& row, const Layout& layout, std::string& column_name) const {
+    for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
+      const std::size_t column = layout.column[place_of(quantity)];
+      column_name = layout.names[column].shown;
+      if (column >= row.size())
+        return fmt::format("the row has {} cells, expected {}", row.size(), layout.names.size());
+      if (!looks_like_number(row[column]))
+        return fmt::format("`{}` is no number, expected {}", row[column], to_string(quantity));
+    }
+    return "";
+  }
+
+  /// The rows of numbers up to the next heading or the end. A row of words ends a block, but in the middle of the
+  /// numbers it is damage; what follows an empty line (a table of results) is not.
+  std::size_t read_rows(const Layout& layout, std::size_t begin, const std::vector<std::string>& warnings) {
+    std::vector<std::pair<std::size_t, Cells>> rows;
+    std::optional<std::size_t> doubtful;
+    std::size_t next = begin;
+    bool after_blank = false, is_over = false;
+    for (; next < lines_.size(); ++next) {
+      if (is_blank(next)) {
+        after_blank = true;
+        continue;
+      }
+      Cells row = cells(next);
+      const int numbers = numbers_in(row, layout);
+      if (numbers < 2 && is_heading(next)) break;
+      if (is_over) continue;
+      if (numbers == 2) {
+        if (doubtful) break;
+        after_blank = false;
+        rows.emplace_back(next, std::move(row));
+        if (rows.size() > kMostCurveRows) {
+          reject(next + 1, "", fmt::format("more than {} rows, expected at most that many", kMostCurveRows));
+          return lines_.size();
+        }
+        continue;
+      }
+      if (is_mts() && numbers == 0) continue;  // "Data Acquisition ..." between two blocks
+      if (after_blank && !rows.empty()) {
+        is_over = true;
+        continue;
+      }
+      if (!doubtful) doubtful = next;
+      if (numbers == 1) break;
+    }
+    if (doubtful && (next < lines_.size() && numbers_in(cells(next), layout) > 0)) {
+      std::string column;
+      const std::string reason = damage_of(cells(*doubtful), layout, column);
+      reject(*doubtful + 1, column, reason + "; is the file cut off or edited?");
+      return lines_.size();
+    }
+    if (!rows.empty()) take_rows(layout, rows, warnings);
+    if (rows.empty() && !doubtful && !is_mts())
+      reject(begin, "", "no numbers below the heading, expected rows of data");
+    if (rows.empty() && doubtful) {
+      std::string column;
+      const std::string reason = damage_of(cells(*doubtful), layout, column);
+      reject(*doubtful + 1, column, reason);
+    }
+    return next;
+  }
+
+  std::optional<DecimalMark> decimal_mark(const Layout& layout,
+                                          const std::vector<std::pair<std::size_t, Cells>>& rows) {
+    std::array<std::optional<std::size_t>, 2> first_seen;
+    for (const auto& [index, row] : rows) {
+      for (const Quantity quantity : kQuantities) {
+        const std::size_t column = layout.column[place_of(quantity)];
+        if (column >= row.size()) continue;
+        const auto mark = decimal_evidence(row[column]);
+        if (mark && !first_seen[static_cast<std::size_t>(*mark)]) first_seen[static_cast<std::size_t>(*mark)] = index;
+      }
+    }
+    if (first_seen[0] && first_seen[1]) {
+      const auto later = std::max(*first_seen[0], *first_seen[1]), earlier = std::min(*first_seen[0], *first_seen[1]);
+      reject(later + 1, "",
+             fmt::format("decimal point and decimal comma in one file (line {} has the other one), "
+                         "expected one of them throughout",
+                         earlier + 1));
+      return std::nullopt;
+    }
+    const bool comma = first_seen[1] || (!first_seen[0] && delimiter_ != ',');
+    return comma ? DecimalMark::comma : DecimalMark::point;
+  }
+
+  void take_rows(const Layout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
+                 const std::vector<std::string>& warnings) {
+    const auto mark = decimal_mark(layout, rows);
+    if (!mark) return;
+    if (records_.empty() || !is_mts()) {
+      records_.push_back({.maker = maker(),
+                          .time_s = {},
+                          .extension_mm = {},
+                          .force_n = {},
+                          .line = {},
+                          .header = header_,
+                          .warnings = warnings});
+    }
+    TesterRecord& record = records_.back();
+    for (const auto& [index, row] : rows) {
+      for (const Quantity quantity : kQuantities) {
+        if (!layout.has(quantity)) continue;
+        const std::size_t column = layout.column[place_of(quantity)];
+        const std::string text = column < row.size() ? row[column] : "";
+        const auto value = instrument_number(text, *mark);
+        if (!value) {
+          return reject(index + 1, layout.names[column].shown,
+                        fmt::format("`{}` is no number with a decimal {}, expected {}", text,
+                                    *mark == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
+        }
+        append(record, quantity, *value * layout.factor[place_of(quantity)]);
+      }
+      record.line.push_back(static_cast<int>(index) + 1);
+      const std::size_t n = record.time_s.size();
+      if (layout.has(Quantity::time) && n > 1 && record.time_s[n - 1] < record.time_s[n - 2]) {
+        return reject(index + 1, layout.names[layout.column[0]].shown,
+                      fmt::format("time goes back from {} to {} s, expected one test in the order of time",
+                                  record.time_s[n - 2], record.time_s[n - 1]));
+      }
+    }
+  }
+
+  static void append(TesterRecord& record, Quantity quantity, double value) {
+    (quantity == Quantity::time        ? record.time_s
+     : quantity == Quantity::extension ? record.extension_mm
+                                       : record.force_n)
+        .push_back(value);
+  }
+
+  /// Two or three columns of numbers and nothing else: (time,) extension, force in s, mm, N.
+  bool is_bare_table() {
+    if (!choice_.extension.empty() || !choice_.force.empty()) return false;
+    for (const char delimiter : {'\t', ';', ','}) {
+      std::size_t first = 0;
+      while (first < lines_.size() && is_blank(first)) ++first;
+      if (first + kFewestCurveRows > lines_.size()) return false;
+      const Cells row = cells_of(lines_[first], delimiter);
+      const bool numbers =
+          std::all_of(row.begin(), row.end(), [](const auto& cell) { return looks_like_number(cell); });
+      if (!numbers || row.size() < 2 || row.size() > 3) continue;
+      delimiter_ = delimiter;
+      return true;
+    }
+    return false;
+  }
+
+  void read_bare_table() {
+    std::size_t first = 0;
+    while (is_blank(first)) ++first;
+    const bool has_time = cells(first).size() == 3;
+    Layout layout;
+    for (const char* name : {"time", "extension", "force"}) {
+      if (has_time || std::string_view(name) != "time") layout.names.push_back(recognise_column(name));
+    }
+    layout.column = {has_time ? 0 : layout.names.size(), has_time ? std::size_t{1} : 0, layout.names.size() - 1};
+    read_rows(layout, first,
+              {fmt::format("{}: has no heading, taken for {}extension in mm, force in N", file_,
+                           has_time ? "time in s, " : "")});
+  }
+
+  std::string file_;
+  ColumnChoice choice_;
+  std::vector<std::string_view> lines_;
+  char delimiter_ = ',';
+  std::map<std::string, std::string> header_;
+  std::vector<TesterRecord> records_;
+  std::optional<ImportFault> fault_;
+};
+
+}  // namespace
+
+std::string to_string(const ImportFault& fault) {
+  std::string place = fault.file;
+  if (fault.line > 0) place += fmt::format(":{}", fault.line);
+  if (!fault.column.empty()) place += fmt::format(": {}", fault.column);
+  return fmt::format("{}: {}", place, fault.reason);
+}
+
+tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::string_view bytes, const std::string& file,
+                                                                        const ColumnChoice& choice) {
+  const Result<std::string> text = utf8_from_instrument(bytes);
+  if (!text) return tl::unexpected(ImportFault{file, 0, "", text.error().message});
+  return ExportReader(*text, file, choice).read();
+}
+
+}  // namespace nacre::measurement

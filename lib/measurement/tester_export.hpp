@@ -1,0 +1,48 @@
+#pragma once
+// Raw exports of universal testing machines: Instron Bluehill, ZwickRoell testXpert, MTS (793 and TestSuite), and plain
+// tables of time, extension and force. What they have in common is read by what the columns are called, not by maker.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace nacre::measurement {
+
+/// What makes a file, or one specimen, unusable, and where.
+struct ImportFault {
+  std::string file;
+  int line = 0;        ///< 0: the file as a whole
+  std::string column;  ///< heading or column of the sheet; may be empty
+  std::string reason;  ///< a sentence with what was expected
+  bool operator==(const ImportFault&) const = default;
+};
+
+/// `file:line: column: reason`.
+std::string to_string(const ImportFault& fault);
+
+/// One test as the machine recorded it; all vectors as long as `line`, or empty (time only).
+struct TesterRecord {
+  std::string maker;  ///< "Instron Bluehill", "ZwickRoell testXpert", "MTS", or "table"
+  std::vector<double> time_s;
+  std::vector<double> extension_mm;
+  std::vector<double> force_n;
+  std::vector<int> line;                      ///< of the file
+  std::map<std::string, std::string> header;  ///< `date`, `operator`, `machine`, where the file says so
+  std::vector<std::string> warnings;
+};
+
+/// Which columns to take, by words of their headings, where a file has several of a kind; empty: the usual ones.
+struct ColumnChoice {
+  std::string extension;
+  std::string force;
+};
+
+/// Reads all tests of an export: each heading row begins one, but the blocks of an MTS 793 file are parts of the same
+/// test. `bytes` as on disk, `file` for messages. Errors name line, column and what was expected.
+tl::expected<std::vector<TesterRecord>, ImportFault> read_tester_export(std::string_view bytes, const std::string& file,
+                                                                        const ColumnChoice& choice = {});
+
+}  // namespace nacre::measurement

@@ -1,0 +1,100 @@
+// nacre import: raw exports of a testing machine -> a measurement set.
+
+#include "measurement/import.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "output.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string sheet;
+  std::string out;
+  std::string toe = "compensate";
+  bool json = false;
+};
+
+nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
+  const measurement::SpecimenRecord& record = one.record;
+  return {{"specimen", record.specimen},
+          {"file", one.file},
+          {"maker", one.maker},
+          {"pattern", record.design.name()},
+          {"test", std::string(tester::to_string(record.test))},
+          {"modulus_pa", one.test.modulus_pa},
+          {"toughness_pa", one.test.toughness_pa},
+          {"peak_stress_pa", one.test.peak_stress_pa},
+          {"failure_strain", one.test.failure_strain},
+          {"toe_strain", one.test.toe_strain},
+          {"strain_rate_per_s", record.conditions.strain_rate_per_s},
+          {"separated", one.test.separated},
+          {"points", one.test.curve.size()},
+          {"valid", record.valid},
+          {"note", record.note}};
+}
+
+nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
+  return {{"file", fault.file}, {"line", fault.line}, {"column", fault.column}, {"reason", fault.reason}};
+}
+
+void print_import(const measurement::Import& import, const Options& options) {
+  if (!options.json) {
+    for (const auto& one : import.specimens) {
+      fmt::print("{:16} {:20} E {:9.4f} GPa  T {:8.4f} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
+                 one.record.specimen, one.maker, 1e-9 * one.test.modulus_pa, 1e-6 * one.test.toughness_pa,
+                 1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
+                 one.record.valid ? "" : "  NOT VALID");
+    }
+    fmt::print("{} specimens, {} rejected: {}\n", import.specimens.size(), import.rejected.size(), options.out);
+    return;
+  }
+  nlohmann::ordered_json specimens = nlohmann::ordered_json::array(), rejected = specimens;
+  for (const auto& one : import.specimens) specimens.push_back(to_json(one));
+  for (const auto& fault : import.rejected) rejected.push_back(to_json(fault));
+  print_json({{"set", options.out}, {"specimens", specimens}, {"rejected", rejected}, {"warnings", import.warnings}});
+}
+
+int import_exports(const Options& options) {
+  const measurement::ImportSettings settings{.toe = options.toe == "keep" ? measurement::Toe::keep
+                                                                          : measurement::Toe::compensate};
+  const measurement::Import import = measurement::import_exports(
+      std::vector<std::filesystem::path>(options.files.begin(), options.files.end()), options.sheet, settings);
+  for (const std::string& warning : import.warnings) warn(warning);
+  for (const auto& fault : import.rejected) warn(to_string(fault));
+  if (import.specimens.empty()) {
+    throw InputError::format("{}: none of its specimens is usable; the first: {}", options.sheet,
+                             import.rejected.empty() ? "no rows" : to_string(import.rejected.front()));
+  }
+  std::vector<measurement::SpecimenRecord> records;
+  for (const auto& one : import.specimens) records.push_back(one.record);
+  measurement::write_measurement_set(options.out, records);
+  print_import(import, options);
+  return 0;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "import", "Turn exports of a testing machine into a measurement set",
+                                  options, import_exports);
+  command.add_option(
+      "TESTER.csv", options->files,
+      "Exports (Bluehill, testXpert, MTS, plain tables); default: those that the sheet names, beside it");
+  command.add_option("--specimens", options->sheet, "Sheet: which file is which specimen, and its size")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command.add_option("--out", options->out, "Folder of the measurement set")->required();
+  command.add_option("--toe", options->toe, "First part of the curves: compensate (ASTM D638 A1) or keep")
+      ->check(CLI::IsMember({"compensate", "keep"}))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,272 @@
+#include "measurement/import.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "base/result.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const fs::path kExports = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/exports";
+
+std::map<std::string, ImportedSpecimen> by_name(const Import& import) {
+  std::map<std::string, ImportedSpecimen> specimens;
+  for (const ImportedSpecimen& one : import.specimens) specimens.emplace(one.record.specimen, one);
+  return specimens;
+}
+
+TEST(Import, TheSameTestGivesTheSameNumbersWhateverTheMachineWrites) {
+  const Import import = import_exports({}, kExports / "clean/specimens.csv");
+  for (const ImportFault& fault : import.rejected) ADD_FAILURE() << to_string(fault);
+  ASSERT_EQ(import.specimens.size(), 17U);
+  for (const ImportedSpecimen& one : import.specimens) {
+    SCOPED_TRACE(one.record.specimen);
+    EXPECT_NEAR(one.test.modulus_pa, 800e6, 4e6);
+    EXPECT_NEAR(one.test.toe_strain, 0.001, 2e-5);
+    EXPECT_NEAR(one.test.peak_stress_pa, 6e6, 5e4);
+    EXPECT_NEAR(one.test.failure_strain, 0.03 - 0.02 * 6.0 / 3.0 * 0.018, 2e-4);
+    const bool cycled = one.record.specimen == "cycles";
+    EXPECT_NEAR(*one.record.toughness_pa, 0.072e6, 0.0004e6);
+    EXPECT_TRUE(one.record.valid);
+    EXPECT_NEAR(one.record.conditions.strain_rate_per_s, 2.0 / 60 / 54, cycled ? 2e-4 : 2e-6);
+    EXPECT_EQ(one.record.batch, "march");
+    EXPECT_EQ(one.record.other_columns.at("path"), "straight");
+    EXPECT_FALSE(one.record.modulus_pa) << "a notched specimen says nothing of the modulus";
+  }
+}
+
+TEST(Import, MakersAndHeadersAreRecognised) {
+  const auto specimens = by_name(import_exports({}, kExports / "clean/specimens.csv"));
+  EXPECT_EQ(specimens.at("bluehill2_raw").maker, "Instron Bluehill");
+  EXPECT_EQ(specimens.at("bluehill_universal_results").maker, "Instron Bluehill");
+  EXPECT_EQ(specimens.at("testxpert2_de").maker, "ZwickRoell testXpert");
+  EXPECT_EQ(specimens.at("testxpert3_en").maker, "ZwickRoell testXpert");
+  EXPECT_EQ(specimens.at("mts793_blocks").maker, "MTS");
+  EXPECT_EQ(specimens.at("plain").maker, "table");
+  const auto& bluehill = specimens.at("bluehill_universal_results").record.other_columns;
+  EXPECT_EQ(bluehill.at("operator"), "A. Lovelace");
+  EXPECT_EQ(bluehill.at("date"), "2026-03-12 10:21:07");
+  EXPECT_EQ(bluehill.at("machine"), "Instron 5984");
+  const auto& zwick = specimens.at("testxpert2_de").record.other_columns;
+  EXPECT_EQ(zwick.at("operator"), "K. Zuse");
+  EXPECT_EQ(zwick.at("date"), "12.03.2026");
+  EXPECT_EQ(specimens.at("mts_testsuite").record.other_columns.at("operator"), "G. Hopper");
+}
+
+TEST(Import, UnloadingLoopsAreKeptAndAnElasticLoopCostsNoEnergy) {
+  const auto specimens = by_name(import_exports({}, kExports / "clean/specimens.csv"));
+  const ImportedSpecimen &plain = specimens.at("plain"), &cycled = specimens.at("cycles");
+  int unloading = 0;
+  for (std::size_t i = 1; i < cycled.test.curve.size(); ++i)
+    unloading += cycled.test.curve.strain[i] < cycled.test.curve.strain[i - 1];
+  EXPECT_EQ(unloading, 20);
+  EXPECT_NEAR(*cycled.record.toughness_pa, *plain.record.toughness_pa, 1e-3 * *plain.record.toughness_pa);
+}
+
+TEST(Import, EveryDamagedFileGivesOneErrorAndLosesNoOtherSpecimen) {
+  const Import import = import_exports({}, kExports / "damaged/specimens.csv");
+  const std::map<std::string, std::pair<int, std::string>> expected = {
+      {"compression.csv", {2, "never becomes positive"}},
+      {"cut_off.csv", {134, "expected 3"}},
+      {"cut_utf16.csv", {0, "half a character"}},
+      {"empty.csv", {0, "is empty, expected a table"}},
+      {"heading_only.csv", {1, "no numbers below the heading"}},
+      {"letter.txt", {0, "no heading with extension and force, expected names such as"}},
+      {"mixed_decimals.csv", {61, "decimal comma in one file"}},
+      {"no_extension.csv", {1, "no column of extension"}},
+      {"no_force.csv", {1, "no column of force"}},
+      {"overload.csv", {41, "`****` is no number"}},
+      {"text_in_number.csv", {41, "`####` is no number"}},
+      {"three_rows.csv", {2, "expected at least 5"}},
+      {"time_back.csv", {51, "time goes back"}},
+      {"unknown_unit.csv", {2, "`(stone)` is no unit of force, expected one of N, kN"}},
+      {"workbook.csv", {0, "is a workbook, expected a text file"}},
+      {"zero_bytes.csv", {0, "zero bytes"}},
+  };
+  std::map<std::string, int> seen;
+  for (const ImportFault& fault : import.rejected) {
+    const std::string name = fs::path(fault.file).filename().string();
+    ++seen[name];
+    const auto known = expected.find(name);
+    if (known == expected.end()) continue;
+    EXPECT_EQ(fault.line, known->second.first) << to_string(fault);
+    EXPECT_THAT(fault.reason, HasSubstr(known->second.second)) << to_string(fault);
+  }
+  for (const auto& [name, fault] : expected) EXPECT_EQ(seen[name], 1) << name;
+  EXPECT_EQ(seen["specimens.csv"], 6) << "faults of the sheet itself";
+  const auto specimens = by_name(import);
+  ASSERT_EQ(specimens.size(), 2U);
+  EXPECT_TRUE(specimens.at("whole").record.valid);
+}
+
+TEST(Import, ARecordThatStopsBeforeSeparationIsKeptAsNotValid) {
+  const auto specimens = by_name(import_exports({}, kExports / "damaged/specimens.csv"));
+  const ImportedSpecimen& stopped = specimens.at("stopped");
+  EXPECT_FALSE(stopped.record.valid);
+  EXPECT_THAT(stopped.record.note, HasSubstr("not separated"));
+  EXPECT_FALSE(stopped.test.separated);
+}
+
+TEST(Import, FaultsOfTheSheetNameLineColumnAndWhatWasExpected) {
+  const Import import = import_exports({}, kExports / "damaged/specimens.csv");
+  std::map<std::string, std::string> by_column;
+  for (const ImportFault& fault : import.rejected) {
+    if (fs::path(fault.file).filename() == "specimens.csv") by_column[fault.column] += to_string(fault) + "\n";
+  }
+  EXPECT_THAT(by_column["width_mm"], HasSubstr("expected a length in mm"));
+  EXPECT_THAT(by_column["test"], HasSubstr("expected modulus, toughness or tensile"));
+  EXPECT_THAT(by_column["pattern"], HasSubstr("577fffe9fffde"));
+  EXPECT_THAT(by_column["part"], HasSubstr("holds 2 tests"));
+  EXPECT_THAT(by_column["specimen"], HasSubstr("stands twice"));
+  EXPECT_THAT(by_column["file"], HasSubstr("absent.csv"));
+}
+
+class ImportedSet : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("nacre-import-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  Import import(const std::string& sheet, const ImportSettings& settings = {}) const {
+    write("sheet.csv", sheet);
+    return import_exports({}, folder_ / "sheet.csv", settings);
+  }
+  /// A record of `extension_mm` and `force_n` at one point a second.
+  static std::string table(const std::vector<std::pair<double, double>>& points, const std::string& heading) {
+    std::string text = heading + "\n";
+    for (std::size_t i = 0; i < points.size(); ++i)
+      text += std::to_string(i) + "," + std::to_string(points[i].first) + "," + std::to_string(points[i].second) + "\n";
+    return text;
+  }
+  fs::path folder_;
+};
+
+TEST_F(ImportedSet, ReadsBackAsAMeasurementSet) {
+  const Import import = import_exports({}, kExports / "clean/specimens.csv");
+  std::vector<SpecimenRecord> records;
+  for (const ImportedSpecimen& one : import.specimens) records.push_back(one.record);
+  write_measurement_set(folder_ / "set", records);
+  const MeasurementSet set = read_measurement_set(folder_ / "set");
+  EXPECT_TRUE(set.rejected.empty());
+  EXPECT_EQ(set.specimens, records);
+  for (const std::string& warning : set.warnings) EXPECT_THAT(warning, HasSubstr("unknown column")) << warning;
+}
+
+TEST_F(ImportedSet, ASheetOfAGermanSpreadsheetIsRead) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import import = this->import(
+      "file;specimen;pattern;width_mm;thickness_mm;gauge_mm;test\na.csv;A1;mix:0.65;52,04;3,21;54;toughness\n");
+  ASSERT_EQ(import.specimens.size(), 1U);
+  EXPECT_EQ(import.specimens[0].record.conditions.thickness_mm, 3.21);
+  EXPECT_NEAR(import.specimens[0].test.modulus_pa, 800e6 * 52 * 3.2 / 52.04 / 3.21, 4e6);
+}
+
+TEST_F(ImportedSet, TheModulusOfABarComesFromTheColumnThatTheSheetNames) {
+  // The extensometer sees 50 mm of a bar of 2 GPa; the grips travel three times as far.
+  std::string text = "Time (s),Extension (mm),Load (N),Extensometer (mm)\n";
+  for (int i = 0; i <= 200; ++i) {
+    const double strain = 1e-4 * i, force = std::min(2e3 * strain, 20.0) * 13 * 3.2;
+    text += fmt::format("{},{},{},{}\n", i, 3 * 50 * strain, force, 50 * strain);
+  }
+  write("bar.csv", text);
+  const std::string heading = "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,extension_column\n";
+  const Import chosen = import(heading + "bar.csv,B1,rigid,modulus,13,3.2,50,Extensometer\n");
+  ASSERT_EQ(chosen.specimens.size(), 1U);
+  EXPECT_NEAR(*chosen.specimens[0].record.modulus_pa, 2e9, 1e7);
+  const Import usual = import(heading + "bar.csv,B1,rigid,modulus,13,3.2,50,\n");
+  EXPECT_NEAR(*usual.specimens[0].record.modulus_pa, 2e9 / 3, 1e7);
+  const Import absent = import(heading + "bar.csv,B1,rigid,modulus,13,3.2,50,Laser\n");
+  ASSERT_EQ(absent.rejected.size(), 1U);
+  EXPECT_THAT(absent.rejected[0].reason, AllOf(HasSubstr("no column `Laser`"), HasSubstr("Extensometer")));
+}
+
+TEST_F(ImportedSet, ExportsAreFoundByNameAndUnusedOnesAreSaid) {
+  fs::create_directories(folder_ / "machine");
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / "machine" / name);
+  write("sheet.csv", "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid,52,3.2,54\n");
+  const Import import = import_exports({folder_ / "machine/a.csv", folder_ / "machine/b.csv"}, folder_ / "sheet.csv");
+  EXPECT_EQ(import.specimens.size(), 1U);
+  ASSERT_EQ(import.warnings.size(), 1U);
+  EXPECT_THAT(import.warnings[0], HasSubstr("b.csv: no specimen of the sheet names this export"));
+}
+
+TEST_F(ImportedSet, ASheetWithoutARequiredColumnIsRefused) {
+  write("sheet.csv", "file,specimen,pattern,width_mm,gauge_mm\n");
+  EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);
+  write("sheet.csv", "");
+  EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);
+}
+
+TEST(Reduction, ALineThroughTheOriginIsItsOwnModulus) {
+  tester::Curve curve;
+  for (int i = 0; i <= 50; ++i) {
+    curve.strain.push_back(1e-4 * i);
+    curve.stress_pa.push_back(2e9 * 1e-4 * i);
+  }
+  const auto part = linear_part(curve);
+  ASSERT_TRUE(part);
+  EXPECT_NEAR(part->slope_pa, 2e9, 1e-3 * 2e9);
+  EXPECT_NEAR(part->zero_strain, 0.0, 1e-9);
+}
+
+TEST(Reduction, TheModulusIsTheInitialSlopeOfACurveThatBends) {
+  tester::Curve curve;  // stress = a (1 - exp(-strain / b)): initial slope a / b
+  for (int i = 0; i <= 2000; ++i) {
+    curve.strain.push_back(2e-5 * i);
+    curve.stress_pa.push_back(40e6 * (1.0 - std::exp(-curve.strain.back() / 0.02)));
+  }
+  const auto part = linear_part(curve);
+  ASSERT_TRUE(part);
+  // D638's straight part of such a curve is a secant over its first fifth: up to a tenth below the tangent.
+  EXPECT_NEAR(part->slope_pa, 2e9, 0.12 * 2e9);
+}
+
+TEST(Reduction, NoiseOfTheLoadCellMovesTheModulusByLessThanTwoPercent) {
+  for (int seed = 0; seed < 20; ++seed) {
+    tester::Curve curve;
+    for (int i = 0; i <= 300; ++i) {
+      const double noise = std::sin(12.9898 * (i + 311 * seed)) * 43758.5453;
+      curve.strain.push_back(2e-5 * i);
+      curve.stress_pa.push_back(1e9 * 2e-5 * i + 2e4 * (noise - std::floor(noise) - 0.5));
+    }
+    EXPECT_NEAR(linear_part(curve)->slope_pa, 1e9, 0.02e9) << seed;
+  }
+}
+
+TEST(Reduction, KeepingTheToeKeepsTheCurve) {
+  tester::Curve curve;
+  for (int i = 0; i <= 100; ++i) {
+    const double strain = 1e-4 * i;
+    curve.strain.push_back(strain);
+    curve.stress_pa.push_back(1e9 * std::max(0.0, strain - 0.002));
+  }
+  const auto kept = reduce(curve, Toe::keep), compensated = reduce(curve, Toe::compensate);
+  ASSERT_TRUE(kept && compensated);
+  EXPECT_EQ(kept->curve, curve);
+  EXPECT_EQ(kept->toe_strain, 0.0);
+  EXPECT_NEAR(compensated->toe_strain, 0.002, 1e-5);
+  EXPECT_NEAR(compensated->curve.strain.back(), 0.008, 1e-5);
+  EXPECT_NEAR(compensated->toughness_pa, kept->toughness_pa, 1e-3 * kept->toughness_pa);
+}
+
+TEST(Reduction, ACurveThatNeverRisesIsRefused) {
+  const tester::Curve flat{{0, 1, 2, 3, 4, 5}, {0, 0, 0, 0, 0, 0}}, falling{{0, 1, 2, 3, 4}, {5, 4, 3, 2, 1}};
+  EXPECT_FALSE(reduce(flat, Toe::compensate));
+  EXPECT_FALSE(reduce(falling, Toe::compensate));
+}
+
+}  // namespace
+}  // namespace nacre::measurement

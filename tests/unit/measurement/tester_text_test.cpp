@@ -1,0 +1,91 @@
+#include "measurement/tester_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "measurement/tester_columns.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+TEST(InstrumentNumber, ReadsBothDecimalMarksAndGroups) {
+  EXPECT_EQ(instrument_number("1,5", DecimalMark::comma), 1.5);
+  EXPECT_EQ(instrument_number("1.234,5", DecimalMark::comma), 1234.5);
+  EXPECT_EQ(instrument_number("-1,234.5e-3", DecimalMark::point), -1.2345);
+  EXPECT_EQ(instrument_number("+0.25", DecimalMark::point), 0.25);
+  EXPECT_EQ(instrument_number("1,234", DecimalMark::point), 1234.0);
+  EXPECT_EQ(instrument_number("1,234", DecimalMark::comma), 1.234);
+  for (const char* wrong : {"", "-", "1,5", "1..5", "12 mm", "nan", "inf", "0x10", "1,23.4", "----"})
+    EXPECT_FALSE(instrument_number(wrong, DecimalMark::point)) << wrong;
+}
+
+TEST(DecimalEvidence, OnlyUnambiguousNumbersSpeak) {
+  EXPECT_EQ(decimal_evidence("0,123"), DecimalMark::comma);
+  EXPECT_EQ(decimal_evidence("12,5"), DecimalMark::comma);
+  EXPECT_EQ(decimal_evidence("12.5"), DecimalMark::point);
+  EXPECT_EQ(decimal_evidence("1.234,5"), DecimalMark::comma);
+  EXPECT_FALSE(decimal_evidence("1,234"));
+  EXPECT_FALSE(decimal_evidence("12"));
+  EXPECT_FALSE(decimal_evidence("mm"));
+}
+
+TEST(InstrumentText, IsReadInAnyOfItsEncodings) {
+  const std::string expected =
+      "Pr\xC3\xBC"
+      "fzeit;\xC2\xB5m";
+  EXPECT_EQ(*utf8_from_instrument("\xEF\xBB\xBFPr\xC3\xBC"
+                                  "fzeit;\xC2\xB5m"),
+            expected);
+  EXPECT_EQ(*utf8_from_instrument("Pr\xFC"
+                                  "fzeit;\xB5m"),
+            expected);
+  std::string little("\xFF\xFE"), big("\xFE\xFF"), unmarked;
+  for (const char letter : std::string("Pr\xFC"
+                                       "fzeit;\xB5m")) {
+    little += letter;
+    little += '\0';
+    big += '\0';
+    big += letter;
+    unmarked += letter;
+    unmarked += '\0';
+  }
+  EXPECT_EQ(*utf8_from_instrument(little), expected);
+  EXPECT_EQ(*utf8_from_instrument(big), expected);
+  EXPECT_EQ(*utf8_from_instrument(unmarked), expected);
+  EXPECT_FALSE(utf8_from_instrument("PK\x03\x04workbook"));
+}
+
+TEST(Columns, AreRecognisedByNameInAnyLanguageWithTheirUnit) {
+  struct Case {
+    const char* heading;
+    Quantity quantity;
+    double factor;
+  };
+  for (const Case& each :
+       {Case{"Load (N)", Quantity::force, 1.0}, Case{"Standardkraft [kN]", Quantity::force, 1e3},
+        Case{"Kraft in N", Quantity::force, 1.0}, Case{"Force / lbf", Quantity::force, 4.4482216152605},
+        Case{"force_n", Quantity::force, 1.0}, Case{"Axial Force (kN)", Quantity::force, 1e3},
+        Case{"Force (MN)", Quantity::force, 1e6}, Case{"Force (mN)", Quantity::force, 1e-3},
+        Case{"Extension (in)", Quantity::extension, 25.4}, Case{"Tensile extension (mm)", Quantity::extension, 1.0},
+        Case{"Crosshead (mm)", Quantity::extension, 1.0},
+        Case{"Position(Linear:Digital Position) (mm)", Quantity::extension, 1.0},
+        Case{"D\xC3\xA9placement [mm]", Quantity::extension, 1.0},
+        Case{"Verl\xC3\xA4ngerung in mm", Quantity::extension, 1.0},
+        Case{"Extension (\xC2\xB5m)", Quantity::extension, 1e-3}, Case{"time_s", Quantity::time, 1.0},
+        Case{"Pr\xC3\xBC"
+             "fzeit [min]",
+             Quantity::time, 60.0}}) {
+    const ColumnName column = recognise_column(each.heading);
+    ASSERT_TRUE(column.quantity) << each.heading;
+    EXPECT_EQ(*column.quantity, each.quantity) << each.heading;
+    EXPECT_DOUBLE_EQ(unit_factor(each.quantity, column.unit).value_or(-1.0), each.factor) << each.heading;
+  }
+}
+
+TEST(Columns, ThatMeanSomethingElseAreLeftAlone) {
+  for (const char* heading : {"Tensile strain (Extension) (mm/mm)", "Tensile stress (MPa)", "Maximum Load (N)",
+                              "Load at Break (N)", "Extension at Break (mm)", "Test date", "Strain rate", "Specimen"})
+    EXPECT_FALSE(recognise_column(heading).quantity) << heading;
+}
+
+}  // namespace
+}  // namespace nacre::measurement
