@@ -83,6 +83,53 @@ TEST(ExplicitElement, UniformGradientLeavesInnerNodesInEquilibrium) {
   EXPECT_GT(at_boundary, 0.01) << "the gradient should load the boundary";
 }
 
+/// Tractions that a uniform displacement gradient calls for, taken from one step of the solver: on the left side from
+/// the acceleration of a node, on top from that (horizontal) and the grip's reaction (vertical). Pa, tension positive.
+struct Tractions {
+  Eigen::Vector2d left;  ///< P_xX, P_yX
+  Eigen::Vector2d top;   ///< P_xY, P_yY
+};
+
+Tractions tractions_under(const Eigen::Matrix2d& gradient) {
+  const fem::Grid grid = homogeneous_grid(21, 13);
+  const double dt = stable_step(grid);
+  auto solver =
+      fem::ExplicitSolver<double>::create(grid, {.density_kg_per_m3 = kDensity, .time_step_s = dt, .simd = {}}).value();
+  const auto node_of = [&](int row, int column) { return row * (grid.columns + 1) + column; };
+  for (int row = 0; row <= grid.rows; ++row)
+    for (int column = 0; column <= grid.columns; ++column)
+      solver.set_node(node_of(row, column), gradient * kElementSize * Eigen::Vector2d(column, row),
+                      Eigen::Vector2d::Zero());
+  const fem::StepReport report = solver.step().value();
+  // Every node has the mass rho h^2; a side hands h of its length to each of its nodes.
+  const double scale = kDensity * kElementSize / dt;
+  return {.left = scale * solver.velocity_m_per_s(node_of(6, 0)),
+          .top = {-scale * solver.velocity_m_per_s(node_of(grid.rows, 10)).x(), report.top_stress_pa}};
+}
+
+// Simple shear u_x = gamma y keeps J = 1, so that P_xY = P_yX = mu gamma and P_xX = P_yY = 0 at any gamma: to 1e-12 of
+// E, up to gamma = 0.8.
+TEST(ExplicitElement, SimpleShearGivesMuTimesGamma) {
+  const double mu_pa = material::lame_from_engineering(kYoung, kPoisson).mu_pa;
+  for (const double gamma : {1e-4, 0.05, 0.3, 0.8}) {
+    Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();
+    gradient(0, 1) = gamma;
+    const Tractions found = tractions_under(gradient);
+    EXPECT_NEAR(found.left.x(), 0.0, 1e-12 * kYoung);
+    EXPECT_NEAR(found.left.y(), mu_pa * gamma, 1e-12 * kYoung);
+    EXPECT_NEAR(found.top.x(), mu_pa * gamma, 1e-12 * kYoung);
+    EXPECT_NEAR(found.top.y(), 0.0, 1e-12 * kYoung);
+  }
+}
+
+// Any finite gradient: the tractions are those of P = dW/dF (Eq. 2.1), to 1e-12 of E.
+TEST(ExplicitElement, TractionsAreThoseOfTheLaw) {
+  const Eigen::Matrix2d stress = material::first_piola(finite_gradient(), material::lame_from_engineering(kYoung, kPoisson));
+  const Tractions found = tractions_under(finite_gradient());
+  EXPECT_LT((found.left - stress.col(0)).norm(), 1e-12 * kYoung);
+  EXPECT_LT((found.top - stress.col(1)).norm(), 1e-12 * kYoung);
+}
+
 TEST(ExplicitElement, RigidRotationCausesNoForce) {
   double largest_double = 0.0, largest_single = 0.0;
   visit_accelerations<double>(rotation_gradient(),
