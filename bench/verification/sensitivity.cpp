@@ -1,0 +1,108 @@
+// What T depends on that is numerics rather than material: damping, strain rate, time step, number type. Results:
+// docs/studies/verification.md.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "base/result.hpp"
+#include "base/statistics.hpp"
+#include "fracture_row.hpp"
+#include "study/study_table.hpp"
+
+namespace {
+
+using namespace nacre;
+using namespace nacre::verification;
+
+struct Options {
+  int patterns = 10, threads = 0;
+  std::uint64_t seed = 1;
+  double seconds = 1e9;
+  std::string fidelity = "preview", table = "sensitivity.csv";
+};
+
+/// One way to run a specimen that differs from the tester's in one respect.
+struct Variant {
+  std::string name;
+  double gamma_scale = 1.0;
+  tester::Numerics numerics = {};
+  bool double_precision = false;
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> list = {{.name = "the tester"}};
+  for (const double scale : {0.1, 0.3, 3.0, 10.0})
+    list.push_back({.name = fmt::format("gamma x {:g}", scale), .gamma_scale = scale});
+  for (const double scale : {0.5, 2.0, 4.0})
+    list.push_back({.name = fmt::format("strain rate x {:g}", scale), .numerics = {.rate_scale = scale}});
+  list.push_back({.name = "time step x 0.5", .numerics = {.time_step_scale = 0.5}});
+  list.push_back({.name = "double precision", .double_precision = true});
+  return list;
+}
+
+std::string key_of(const Options& options, const pattern::Pattern& pattern, const Variant& variant) {
+  return fmt::format("{} {} {} {}", options.fidelity, options.seed, pattern.key(), variant.name);
+}
+
+Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Variant& variant, tester::Fidelity fidelity) {
+  tester::Simulation simulation{pattern, material::default_parameters(), {}, fidelity};
+  simulation.parameters.toughness.gamma_per_s *= variant.gamma_scale;
+  const tester::FractureTest test = tester::fracture_test(simulation, variant.numerics);
+  return variant.double_precision ? tester::run_fracture_test<double>(test) : tester::run_fracture_test<float>(test);
+}
+
+void print_row(const Options& options, const std::vector<pattern::Pattern>& patterns, const study::StudyTable& table,
+               const Variant& variant) {
+  std::vector<double> ratios, sizes, own, reference;
+  for (const pattern::Pattern& pattern : patterns) {
+    const auto row = table.find(key_of(options, pattern, variant)), base = table.find(key_of(options, pattern, {"the tester"}));
+    if (!row || !base || (*row)[0] <= 0.0 || (*base)[0] <= 0.0) continue;
+    own.push_back((*row)[0]);
+    reference.push_back((*base)[0]);
+    ratios.push_back(std::log(own.back() / reference.back()));
+    sizes.push_back(std::abs(own.back() / reference.back() - 1.0));
+  }
+  if (ratios.empty()) return;
+  fmt::print("| {} | {} | {:+.3f} | {:.3f} | {:.2f} % | {:.1f} % | {:.3f} |\n", variant.name, ratios.size(), mean(ratios),
+             standard_deviation(ratios), 100.0 * quantile(sizes, 0.5), 100.0 * quantile(sizes, 1.0),
+             rank_correlation(own, reference));
+}
+
+void run(const Options& options) {
+  const std::vector<pattern::Pattern> patterns = study_patterns(options.patterns, options.seed);
+  const tester::Fidelity fidelity = *tester::fidelity_from_string(options.fidelity);
+  study::StudyTable table(options.table, kFractureColumns);
+  std::vector<study::Wanted> wanted;
+  for (const pattern::Pattern& pattern : patterns)
+    for (const Variant& variant : variants()) {
+      const std::string key = key_of(options, pattern, variant);
+      wanted.push_back({key, [=] { return fracture_row(key, pull(pattern, variant, fidelity)); }});
+    }
+  const int missing = study::fill(table, wanted, options.seconds, options.threads);
+  fmt::print("{}: T against that of the tester\n\n", options.fidelity);
+  fmt::print("| variant | patterns | mean of log ratio | sd | median change | largest change | Spearman |\n");
+  fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const Variant& variant : variants()) print_row(options, patterns, table, variant);
+  if (missing > 0) fmt::print("\n{} simulations are still missing: run it again\n", missing);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Sensitivity of T to damping, strain rate, time step and precision"};
+  Options options;
+  app.add_option("--patterns", options.patterns, "Patterns")->check(CLI::Range(2, 1000));
+  app.add_option("--fidelity", options.fidelity)->check(CLI::IsMember({"tiny", "preview", "full"}));
+  app.add_option("--seed", options.seed, "Of the patterns");
+  app.add_option("--table", options.table, "CSV of finished simulations, read and continued");
+  app.add_option("--seconds", options.seconds, "Begin no simulation after this time");
+  app.add_option("--threads", options.threads, "0: all allowed cores")->check(CLI::Range(0, 1024));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    run(options);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
