@@ -1,8 +1,7 @@
 // The kernel of the explicit solver, compiled once per instruction set (explicit_kernel_*.cpp define NACRE_SIMD).
 //
-// One sweep over the rows does a whole step, each row in one loop: element row j gives the forces on node row j, these
-// its new velocity, and with the velocities of rows j-3 .. j-1 known, row j-2 is smoothed and moved. Symbols, per
-// element:
+// One sweep over the rows does a whole step: element row j gives the forces on node row j, these its new velocity, and
+// with the velocities of rows j-2 .. j known, row j-1 is smoothed and moved. Symbols, per element:
 //   d0, d1   difference of displacement along the bottom and top edge;  e0, e1  along the left and right edge
 //   A, C     dux/dX and duy/dX at the two heights of the quadrature points;  B, D  dux/dY and duy/dY at their two
 //   abscissae x = J - 1 = tr H + det H;  l = ln J;  t = (mu x + lambda l) / J
@@ -96,7 +95,7 @@ NACRE_INLINE void logarithm(Pack<Real> x, Pack<Real>& log, Pack<Real>& inverse) 
 }
 
 /// t at the four quadrature points, and twice the largest energy density among them:
-/// 2 W = mu ((A - D)^2 + (B + C)^2 + 2 (x - l)) + lambda l^2.
+/// 2 W = mu ((A - D)^2 + (B + C)^2 + 2 (x - l)) + lambda l^2. Here and below 2 u is u + u: the adders have room.
 template <class Real, bool Reduce>
 NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (&change)[2][2], Pack<Real> mu,
                                      Pack<Real> lambda, Pack<Real> (&t)[2][2]) {
@@ -110,7 +109,8 @@ NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (
       t[i][k] = fma(mu, x, pressure) * inverse;
       const Pack<Real> difference = g.a[k] - g.d[i], shear = g.b[i] + g.c[k];
       const Pack<Real> isochoric = fma(shear, shear, difference * difference);
-      const Pack<Real> energy = fma(mu, fma(broadcast(Real{2}), x - log, isochoric), pressure * log);
+      const Pack<Real> rest = x - log;
+      const Pack<Real> energy = fma(mu, (rest + rest) + isochoric, pressure * log);
       largest = larger(energy, largest);  // a NaN does not pass; first_inverted() finds it
     }
   }
@@ -185,9 +185,11 @@ struct EdgeForces {
   Pack<Real> left_x, right_x, left_y, right_y;
 };
 
-template <class Real>
-NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node, int element) {
-  const Pack<Real> one = broadcast(Real{1}), two = broadcast(Real{2});
+/// `meanwhile` is work that needs nothing from here: four logarithms at a time leave half of the core idle.
+template <class Real, class Meanwhile>
+NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node, int element,
+                                          const Meanwhile& meanwhile) {
+  const Pack<Real> one = broadcast(Real{1});
   const Gradient<Real> g = gradient(s, node);
   const Pack<Real> mu = load(s.mu + element), lambda = load(s.lambda + element);
   Pack<Real> change[2][2], t[2][2];
@@ -198,6 +200,7 @@ NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node
   Flags far;
   flag_unless_at_most(far, most, broadcast(Real(kNearChange)));
   EdgeForces<Real> f;
+  meanwhile();
   f.energy = any(far) ? constitutive<Real, true>(g, change, mu, lambda, t)
                       : constitutive<Real, false>(g, change, mu, lambda, t);
 
@@ -205,10 +208,10 @@ NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node
   const Pack<Real> stretch_x[2] = {one + g.a[0], one + g.a[1]}, stretch_y[2] = {one + g.d[0], one + g.d[1]};
   Pack<Real> xx[2], xy[2], yx[2], yy[2];  // P summed over one direction of quadrature points
   for (int k = 0; k < 2; ++k) {
-    xx[k] = fma(mu, fma(two, g.a[k], -sum_d), t[0][k] * stretch_y[0] + t[1][k] * stretch_y[1]);
-    yx[k] = fma(mu, fma(two, g.c[k], sum_b), -(t[0][k] * g.b[0] + t[1][k] * g.b[1]));
-    xy[k] = fma(mu, fma(two, g.b[k], sum_c), -(t[k][0] * g.c[0] + t[k][1] * g.c[1]));
-    yy[k] = fma(mu, fma(two, g.d[k], -sum_a), t[k][0] * stretch_x[0] + t[k][1] * stretch_x[1]);
+    xx[k] = fma(mu, (g.a[k] + g.a[k]) - sum_d, t[0][k] * stretch_y[0] + t[1][k] * stretch_y[1]);
+    yx[k] = fma(mu, (g.c[k] + g.c[k]) + sum_b, -(t[0][k] * g.b[0] + t[1][k] * g.b[1]));
+    xy[k] = fma(mu, (g.b[k] + g.b[k]) + sum_c, -(t[k][0] * g.c[0] + t[k][1] * g.c[1]));
+    yy[k] = fma(mu, (g.d[k] + g.d[k]) - sum_a, t[k][0] * stretch_x[0] + t[k][1] * stretch_x[1]);
   }
   spread<Real>(xx[0], xx[1], f.bottom_x, f.top_x);
   spread<Real>(yx[0], yx[1], f.bottom_y, f.top_y);
@@ -242,7 +245,8 @@ struct NodeForces {
 };
 
 /// One row of elements, and v += f for the row of nodes below it: the grip (`Grip`), which moves no node vertically, or
-/// an interior one. Then, with `Finish`, the filter and motion of the row two below, whose velocities are complete.
+/// an interior one. Beside it, with `Finish`, the filter and motion of the row two below, whose velocities are
+/// complete.
 template <class Real, bool Grip, bool Finish>
 void sweep_row(ExplicitState<Real>& state, int row) {
   const ExplicitState<Real> s = state;  // its pointers stay in registers
@@ -252,7 +256,10 @@ void sweep_row(ExplicitState<Real>& state, int row) {
   NodeForces<Real> forces_x, forces_y;
   for (int column = 0; column < s.element_stride; column += kLanes<Real>) {
     const int element = row * s.element_stride + column;
-    const EdgeForces<Real> f = edge_forces(s, row * s.stride + column, element);
+    const auto finish_below = [&]() __attribute__((always_inline)) {
+      if constexpr (Finish) smooth_and_move(s, sums, row - 2, column);
+    };
+    const EdgeForces<Real> f = edge_forces(s, row * s.stride + column, element, finish_below);
     Flags failed;
     flag_unless_at_most(failed, f.energy, load(s.threshold + element));
     if (any(failed)) [[unlikely]] {
@@ -267,7 +274,6 @@ void sweep_row(ExplicitState<Real>& state, int row) {
     const Pack<Real> force_y = forces_y.next(along_y, f.left_y, f.right_y, r.below_y + column);
     store(vx + column, load(vx + column) + force_x);
     if constexpr (!Grip) store(vy + column, load(vy + column) + force_y);
-    if constexpr (Finish) smooth_and_move(s, sums, row - 2, column);
   }
 }
 
