@@ -12,4 +12,8 @@ namespace nacre::tester {
 /// blow-up with step and element.
 Result<double> explicit_modulus(const fem::Grid& grid, double gamma_per_s, int steps = thesis::kModulusSteps);
 
+/// The same, until E changes by less than `tolerance` (relative) over 1000 steps: what the static solver should give.
+/// Error: blow-up, or still moving after 10^6 steps.
+Result<double> explicit_modulus_at_rest(const fem::Grid& grid, double gamma_per_s, double tolerance = 1e-5);
+
 }  // namespace nacre::tester
