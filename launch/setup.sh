@@ -3,11 +3,15 @@
 say() { printf '%s\n' "nacre: $*" >&2; }
 give_up() { say "$*"; exit 2; }
 
+# may_install MISSING: gives up with a sentence when this user cannot install packages.
+may_install() {
+  [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null ||
+    give_up "installing packages needs root: run this as root, or install sudo, or have somebody type: apt-get install $1"
+}
+
 # as_root COMMAND...: runs it as root, through sudo when needed.
 as_root() {
-  if [ "$(id -u)" -eq 0 ]; then "$@"; return; fi
-  command -v sudo >/dev/null || give_up "installing packages needs root: run this as root, or install sudo"
-  sudo "$@"
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
 # wanted_packages game|tests: names from packages.txt.
@@ -30,12 +34,13 @@ install_packages() {
   local missing log
   missing=$(missing_packages "$1")
   [ -n "$missing" ] || { say "packages: all installed"; return; }
+  may_install "$missing"   # before anything goes to the log, where nobody would see it
   log=$(mktemp -t nacre-apt.XXXXXX)
   say "packages: installing $(wc -w <<<"$missing") ($missing)"
   as_root apt-get update -q >"$log" 2>&1 || give_up "apt-get update failed (see $log): is the network up?"
   # shellcheck disable=SC2086
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing 2>&1 |
-    tee -a "$log" | awk '/^(Setting up|Selecting) / { count++; if (count % 20 == 0) { print "nacre:   " count " steps, at " $NF > "/dev/stderr" } }' || true
+    tee -a "$log" | awk '/^(Setting up|Selecting) / { count++; if (count % 20 == 0) { print "nacre:   " count " steps, at " ($1 == "Setting" ? $3 : $NF) > "/dev/stderr" } }' || true
   missing=$(missing_packages "$1")
   [ -z "$missing" ] || give_up "these packages could not be installed: $missing(see $log)"
   rm -f "$log"
