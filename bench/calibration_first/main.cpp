@@ -102,8 +102,7 @@ void run(std::uint64_t seed, const Study& study) {
   if (study.source == "tester") {
     set.specimens = measured_by_tester(truth, designs, study);
   } else {
-    set.specimens =
-        virtual_laboratory::measure(truth, designs, {tester::TestKind::modulus, tester::TestKind::toughness});
+    set.specimens = virtual_laboratory::measure(truth, {.designs = designs});
   }
   sysid::OfflineSettings settings = offline_settings(study);
   settings.calibration.seed = seed;

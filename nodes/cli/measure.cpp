@@ -7,6 +7,7 @@
 #include "command.hpp"
 #include "output.hpp"
 #include "pattern/design.hpp"
+#include "progress.hpp"
 #include "virtual_lab/laboratory.hpp"
 
 namespace nacre::cli {
@@ -17,16 +18,25 @@ struct Options {
   std::string laboratory;
   std::string out;
   std::string test = "both";
+  std::string orientation = "0";
   bool json = false;
 };
 
 int measure(const Options& options) {
-  std::vector<pattern::Design> designs;
-  for (const std::string& argument : options.patterns) designs.push_back(pattern::design_from_argument(argument));
-  std::vector<tester::TestKind> tests = {tester::TestKind::modulus, tester::TestKind::toughness};
-  if (options.test != "both") tests = {*tester::test_kind_from_string(options.test)};
-  remark(fmt::format("measuring {} designs", designs.size()));
-  const auto records = virtual_laboratory::measure_set(options.laboratory, options.out, designs, tests);
+  virtual_laboratory::Campaign campaign;
+  for (const std::string& argument : options.patterns) {
+    campaign.designs.push_back(pattern::design_from_argument(argument));
+  }
+  if (options.test != "both") campaign.tests = {*tester::test_kind_from_string(options.test)};
+  if (options.orientation == "90") campaign.orientations_deg = {90.0};
+  if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
+  remark(fmt::format("measuring {} designs", campaign.designs.size()));
+  Progress progress("measure:");
+  const auto records =
+      virtual_laboratory::measure_set(options.laboratory, options.out, campaign, [&](double share, int done, int all) {
+        progress.set_share(share, fmt::format("{} of {} simulations", done, all));
+      });
+  progress.end();
   const auto valid = std::count_if(records.begin(), records.end(), [](const auto& record) { return record.valid; });
   if (options.json) {
     print_json({{"specimens", records.size()}, {"valid", valid}, {"set", options.out}});
@@ -48,6 +58,11 @@ void add_measure(CLI::App& app, Action& action) {
       ->required();
   command.add_option("--test", options->test, "Which test")
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
+      ->capture_default_str();
+  command
+      .add_option("--orientation", options->orientation,
+                  "Along the load (0), across it (90), or a specimen and its turned twin (both)")
+      ->check(CLI::IsMember({"0", "90", "both"}))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,17 +17,44 @@ namespace {
 
 using measurement::SpecimenRecord;
 
-/// What is to be measured: every design once per test, in the order given.
-std::vector<Question> questions_of(const Truth& truth, const std::vector<pattern::Design>& designs,
-                                   const std::vector<tester::TestKind>& tests) {
+constexpr double kTurnedDeg = 90.0;
+
+/// What is to be measured: every design once per test and orientation, in the order given.
+std::vector<Question> questions_of(const Truth& truth, const Campaign& campaign) {
   std::vector<Question> questions;
-  for (const pattern::Design& design : designs) {
-    for (const tester::TestKind test : tests) {
-      const Question question{.design = design, .test = test, .conditions = {}, .fidelity = truth.fidelity};
-      if (std::ranges::find(questions, question) == questions.end()) questions.push_back(question);
+  for (const pattern::Design& design : campaign.designs) {
+    for (const tester::TestKind test : campaign.tests) {
+      for (const double orientation_deg : campaign.orientations_deg) {
+        Question question{.design = design, .test = test, .conditions = {}, .fidelity = truth.fidelity};
+        if (design.layout() != nullptr) question.conditions.orientation_deg = orientation_deg;
+        if (std::ranges::find(questions, question) == questions.end()) questions.push_back(question);
+      }
     }
   }
   return questions;
+}
+
+/// Simulated time of a question, in arbitrary units: a fracture takes thousands of times longer than a modulus.
+double effort_of(const Question& question) { return question.test == tester::TestKind::modulus ? 1.0 : 1000.0; }
+
+/// Asks all of them, reporting as they come in.
+std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector<Question>& questions,
+                                           const CampaignProgress& progress) {
+  std::vector<std::optional<Result<Response>>> responses(questions.size());
+  double whole = 0.0, spent = 0.0;
+  for (const Question& question : questions) whole += effort_of(question);
+  int done = 0;
+  std::mutex mutex;
+  parallel_for(static_cast<int>(questions.size()), [&](int i) {
+    const auto q = static_cast<std::size_t>(i);
+    responses[q] = respond(truth, questions[q]);
+    const std::lock_guard lock(mutex);
+    spent += effort_of(questions[q]);
+    if (progress) progress(spent / whole, ++done, static_cast<int>(questions.size()));
+  });
+  std::vector<Result<Response>> all;
+  for (auto& response : responses) all.push_back(*std::move(response));
+  return all;
 }
 
 /// Numbers the specimens of each batch 1, 2, ... in an order drawn from the seed.
@@ -51,20 +79,17 @@ std::filesystem::path truth_file(std::filesystem::path folder) {
 
 }  // namespace
 
-std::vector<SpecimenRecord> measure(const Truth& truth, const std::vector<pattern::Design>& designs,
-                                    const std::vector<tester::TestKind>& tests) {
-  const std::vector<Question> questions = questions_of(truth, designs, tests);
-  std::vector<std::optional<Result<Response>>> responses(questions.size());
-  parallel_for(static_cast<int>(questions.size()), [&](int i) {
-    const auto q = static_cast<std::size_t>(i);
-    responses[q] = respond(truth, questions[q]);
-  });
+std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
+  const std::vector<Question> questions = questions_of(truth, campaign);
+  const std::vector<Result<Response>> responses = responses_to(truth, questions, progress);
   std::vector<SpecimenRecord> records;
   for (std::size_t q = 0; q < questions.size(); ++q) {
+    const Question& question = questions[q];
+    const char* turned = question.conditions.orientation_deg == kTurnedDeg ? "turned-" : "";
     for (int k = 1; k <= truth.replicates; ++k) {
       const std::string name =
-          fmt::format("{}-{}-{}", questions[q].design.name(), tester::to_string(questions[q].test), k);
-      records.push_back(record_specimen(truth, questions[q], *responses[q],
+          fmt::format("{}-{}-{}{}", question.design.name(), tester::to_string(question.test), turned, k);
+      records.push_back(record_specimen(truth, question, responses[q],
                                         {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0}));
     }
   }
@@ -73,11 +98,10 @@ std::vector<SpecimenRecord> measure(const Truth& truth, const std::vector<patter
 }
 
 std::vector<SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file,
-                                        const std::filesystem::path& folder,
-                                        const std::vector<pattern::Design>& designs,
-                                        const std::vector<tester::TestKind>& tests) {
+                                        const std::filesystem::path& folder, const Campaign& campaign,
+                                        const CampaignProgress& progress) {
   const Truth truth = read_laboratory(laboratory_file);
-  std::vector<SpecimenRecord> records = measure(truth, designs, tests);
+  std::vector<SpecimenRecord> records = measure(truth, campaign, progress);
   measurement::write_measurement_set(folder, records);
   write_sealed(truth_file(folder), truth);
   return records;

@@ -121,12 +121,12 @@ TEST(Machine, LoadCellGainScalesEveryStress) {
 TEST(Effects, OfZeroInTheFileMeasureExactlyAsWithout) {
   const std::vector<pattern::Design> designs = {published("577fffe9fffdef"), pattern::Mixture{0.65}};
   const auto plain =
-      measure(parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 1\n", "a"), designs, {TestKind::modulus});
+      measure(parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 1\n", "a"), {designs, {TestKind::modulus}});
   for (const EffectKind& kind : effect_kinds()) {
     const Truth truth = parse_laboratory(
         fmt::format("seed = 3\nfidelity = \"tiny\"\nreplicates = 1\n[[effect]]\nname = \"{}\"\nvalue = 0\n", kind.name),
         "b");
-    EXPECT_EQ(measure(truth, designs, {TestKind::modulus}), plain) << kind.name;
+    EXPECT_EQ(measure(truth, {designs, {TestKind::modulus}}), plain) << kind.name;
     const auto torn = [&](const Truth& laboratory) { return record(laboratory, TestKind::toughness, "s"); };
     EXPECT_EQ(torn(truth), torn(parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 1\n", "a"))) << kind.name;
   }
@@ -186,7 +186,7 @@ TEST(MeasureSet, WritesASetThatReadsBackAndSealsItsTruthBesideIt) {
       "seed = 3\nfidelity = \"tiny\"\nreplicates = 3\n[[effect]]\nname = \"droplet_mixing\"\nvalue = 0.5\n");
   const std::vector<pattern::Design> designs = {published("577fffe9fffdef"), published("3ffc9b4ad4d2d9"),
                                                 pattern::Mixture{0.65}, published("577fffe9fffdef")};
-  const auto records = measure_set(folder.string() + ".lab.toml", folder / "", designs, {TestKind::modulus});
+  const auto records = measure_set(folder.string() + ".lab.toml", folder / "", {designs, {TestKind::modulus}});
   const measurement::MeasurementSet set = measurement::read_measurement_set(folder);
   EXPECT_EQ(records.size(), 3u * 3u);  // the repeated design once
   EXPECT_EQ(set.specimens.size() + set.rejected.size(), records.size());
@@ -198,6 +198,44 @@ TEST(MeasureSet, WritesASetThatReadsBackAndSealsItsTruthBesideIt) {
     EXPECT_EQ(*numbers.rbegin(), static_cast<int>(numbers.size())) << batch;
   EXPECT_EQ(read_laboratory(folder.string() + ".truth.toml").effects.droplet_mixing_pixels, 0.5);
   EXPECT_FALSE(std::filesystem::exists(folder / "truth.toml"));
+}
+
+TEST(Campaign, TurnedTwinsAreMeasuredAcrossAndHomogeneousCouponsOnce) {
+  const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n", "a");
+  std::string text;
+  for (int row = 0; row < 20; ++row) text += "11111000001111100000\n";
+  const pattern::Layout stripes = pattern::layout_from_text(text, "stripes").value();
+  const std::vector<pattern::Design> designs = {stripes, pattern::Mixture{0.65}};
+  const auto straight = measure(truth, {designs, {TestKind::modulus}});
+  const auto both = measure(truth, {designs, {TestKind::modulus}, {0.0, 90.0}});
+  ASSERT_EQ(straight.size(), 4u);
+  ASSERT_EQ(both.size(), 6u);
+  std::map<double, double> modulus_pa;
+  for (const auto& record : both) {
+    if (record.design == designs[0]) modulus_pa[record.conditions.orientation_deg] = record.modulus_pa.value();
+  }
+  EXPECT_GT(modulus_pa.at(0.0), 3.0 * modulus_pa.at(90.0)) << "stripes along the load against stripes across";
+  for (auto record : straight) {
+    const auto same = std::ranges::find(both, record.specimen, &measurement::SpecimenRecord::specimen);
+    ASSERT_NE(same, both.end());
+    record.print_order = same->print_order;
+    EXPECT_EQ(record, *same) << "a twin changes nothing but the order of printing";
+  }
+}
+
+TEST(Campaign, TellsHowFarItIs) {
+  const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n", "a");
+  std::vector<double> shares;
+  int last_done = 0;
+  measure(truth, {{pattern::Mixture{0.2}, pattern::Mixture{0.4}}, {TestKind::modulus}},
+          [&](double share, int done, int all) {
+            shares.push_back(share);
+            EXPECT_EQ(done, ++last_done);
+            EXPECT_EQ(all, 2);
+          });
+  ASSERT_EQ(shares.size(), 2u);
+  EXPECT_LT(shares[0], shares[1]);
+  EXPECT_DOUBLE_EQ(shares[1], 1.0);
 }
 
 }  // namespace
