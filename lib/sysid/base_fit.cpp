@@ -1,7 +1,6 @@
 #include "sysid/base_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sysid/objective.hpp"
@@ -13,9 +12,8 @@ constexpr double kTolerance = 0.002;  // of toughness; the aim is 1 %
 constexpr double kGoodEnough = 0.01;
 constexpr int kMostPeakMatches = 3;
 constexpr double kPeakTolerance = 0.03;
-
-/// Factors on E, tried in turn when W alone cannot meet the toughness.
-constexpr std::array<double, 7> kModulusFactors = {1.0, 0.7, 1.4, 0.4, 2.5, 0.2, 5.0};
+/// Across a bracket of W narrower than this T is taken to jump; scaling E and W meets what is left.
+constexpr double kNarrowest = 0.02;
 
 double clamped(double value, const material::ParameterRange& range) {
   return std::clamp(value, range.minimum, range.maximum);
@@ -33,13 +31,33 @@ MaterialFit::MaterialFit(const measurement::Replicates& measured, const Material
   start_ = {clamped(start.e_pa, ranges.e), clamped(start.w_j_per_m3, ranges.w),
             clamped(start.gamma_per_s, ranges.gamma)};
   best_ = start_;
-  begin_search(start_.e_pa, start_.w_j_per_m3);
+  begin_threshold(start_.e_pa, start_.w_j_per_m3);
 }
 
-void MaterialFit::begin_search(double e_pa, double first_w) {
-  e_pa_ = e_pa;
-  search_.emplace(RatioSearch::Settings{
-      .lower = ranges_.w.minimum, .upper = ranges_.w.maximum, .first = first_w, .tolerance = kTolerance});
+void MaterialFit::begin_threshold(double e_pa, double first_w) {
+  kind_ = Search::threshold;
+  origin_ = {e_pa, first_w, start_.gamma_per_s};
+  search_.emplace(RatioSearch::Settings{.lower = ranges_.w.minimum,
+                                        .upper = ranges_.w.maximum,
+                                        .first = first_w,
+                                        .tolerance = kTolerance,
+                                        .narrowest = kNarrowest});
+}
+
+void MaterialFit::begin_scale() {
+  kind_ = Search::scale;
+  scaled_ = true;
+  origin_ = best_;
+  search_.emplace(RatioSearch::Settings{.lower = ranges_.e.minimum / origin_.e_pa,
+                                        .upper = ranges_.e.maximum / origin_.e_pa,
+                                        .first = measured_.toughness_pa / *best_prediction_.toughness_pa,
+                                        .tolerance = kTolerance,
+                                        .narrowest = kNarrowest});
+}
+
+MaterialTrial MaterialFit::trial_at(double x) const {
+  if (kind_ == Search::threshold) return {origin_.e_pa, x, origin_.gamma_per_s};
+  return {clamped(x * origin_.e_pa, ranges_.e), clamped(x * origin_.w_j_per_m3, ranges_.w), origin_.gamma_per_s};
 }
 
 std::vector<MaterialTrial> MaterialFit::ask(int count) {
@@ -49,10 +67,8 @@ std::vector<MaterialTrial> MaterialFit::ask(int count) {
       finished_ = true;
       break;
     }
-    for (const double w : search_->ask(std::min(count, budget_ - evaluations_))) {
-      trials.push_back({e_pa_, w, start_.gamma_per_s});
-    }
-    if (trials.empty()) finished_ = search_->met() ? !match_peak() : !next_stage();
+    for (const double x : search_->ask(std::min(count, budget_ - evaluations_))) trials.push_back(trial_at(x));
+    if (trials.empty()) finished_ = !next_search();
   }
   return trials;
 }
@@ -61,21 +77,17 @@ bool MaterialFit::match_peak() {
   const double measured_peak = peak_of(measured_.representative_curve), peak = peak_of(best_prediction_.curve);
   if (measured_peak <= 0.0 || peak <= 0.0 || ++peak_matches_ > kMostPeakMatches) return false;
   const double factor = measured_peak / peak;
-  const double e_pa = clamped(e_pa_ * factor * factor, ranges_.e);
-  if (std::abs(factor - 1.0) < kPeakTolerance || e_pa == e_pa_) return false;
-  begin_search(e_pa, best_.w_j_per_m3);
+  const double e_pa = clamped(best_.e_pa * factor * factor, ranges_.e);
+  if (std::abs(factor - 1.0) < kPeakTolerance || e_pa == best_.e_pa) return false;
+  begin_threshold(e_pa, best_.w_j_per_m3);
   return true;
 }
 
-bool MaterialFit::next_stage() {
-  if (met()) return match_peak();
-  while (++stage_ < kModulusFactors.size()) {
-    const double e_pa = clamped(start_.e_pa * kModulusFactors[stage_], ranges_.e);
-    if (e_pa == e_pa_) continue;  // clamped to where the search was before
-    begin_search(e_pa, best_.w_j_per_m3);
-    return true;
-  }
-  return false;
+bool MaterialFit::next_search() {
+  if (search_->met() || met()) return match_peak();
+  if (!any_ || scaled_) return false;
+  begin_scale();
+  return true;
 }
 
 double MaterialFit::error() const { return relative_error(best_prediction_.toughness_pa, measured_.toughness_pa); }
@@ -85,7 +97,7 @@ bool MaterialFit::met() const { return any_ && error() <= kGoodEnough; }
 void MaterialFit::tell(const MaterialTrial& trial, const Prediction& prediction) {
   ++evaluations_;
   const bool usable = prediction.toughness_pa.has_value();
-  search_->tell(trial.w_j_per_m3,
+  search_->tell(kind_ == Search::threshold ? trial.w_j_per_m3 : trial.e_pa / origin_.e_pa,
                 usable ? std::optional(*prediction.toughness_pa / measured_.toughness_pa) : std::nullopt);
   const double misfit = toughness_misfit(measured_, prediction);
   if (usable && (!any_ || misfit < best_misfit_)) {

@@ -18,10 +18,12 @@ struct MaterialRanges {
   material::ParameterRange e, w, gamma;
 };
 
-/// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the measured
-/// modulus as nearly as its range allows, and W is searched until the toughness is met; only when no W meets it other E are tried.
-/// Where a curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W, toughness
-/// hardly depends on E while stress grows with its square root.
+/// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the
+/// measured modulus as nearly as its range allows, and W is searched until the toughness is met. Where no W meets it,
+/// because T jumps across the measured value when a crack arrests, E and W are scaled together from the nearest miss:
+/// at the same W / E a crack runs alike and T grows in proportion. Where a curve was measured, E moves once the
+/// toughness is met so that the peak stress agrees too: at the same W, toughness hardly depends on E while stress grows
+/// with its square root.
 class MaterialFit {
  public:
   MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges, const MaterialTrial& start,
@@ -37,18 +39,22 @@ class MaterialFit {
   const Prediction& best_prediction() const { return best_prediction_; }
 
  private:
-  void begin_search(double e_pa, double first_w);
-  bool next_stage();
+  enum class Search { threshold, scale };
+  void begin_threshold(double e_pa, double first_w);
+  void begin_scale();
+  bool next_search();
   bool match_peak();
+  MaterialTrial trial_at(double x) const;
 
   measurement::Replicates measured_;
   MaterialRanges ranges_;
   MaterialTrial start_;
   int budget_ = 0;
   int evaluations_ = 0;
-  std::optional<RatioSearch> search_;
-  double e_pa_ = 0.0;  ///< of the search in progress
-  std::size_t stage_ = 0;
+  Search kind_ = Search::threshold;
+  std::optional<RatioSearch> search_;  ///< over W, or over the common factor on `origin_`
+  MaterialTrial origin_;               ///< of the search in progress
+  bool scaled_ = false;
   int peak_matches_ = 0;
   bool any_ = false, finished_ = false;
   MaterialTrial best_;

@@ -6,9 +6,8 @@
 namespace nacre::sysid {
 namespace {
 
-constexpr double kSameLogX = 1e-7;       // points nearer than this are one
-constexpr double kNarrowBracket = 1e-6;  // below this the function is taken to jump
-constexpr double kSpread = 0.1;          // of a step or bracket, between the points of one batch
+constexpr double kSameLogX = 1e-7;  // points nearer than this are one
+constexpr double kSpread = 0.1;     // of a step or bracket, between the points of one batch
 
 }  // namespace
 
@@ -55,7 +54,7 @@ std::vector<double> RatioSearch::proposals() const {
     const Sample& left = *below;
     const Sample& right = *(below + 1);
     const double width = right.log_x - left.log_x;
-    if (width < kNarrowBracket) return {};
+    if (width < settings_.narrowest) return {};
     const double share = std::clamp(left.log_ratio / (left.log_ratio - right.log_ratio), 0.02, 0.98);
     const double middle = left.log_x + share * width, spread = kSpread * std::min(share, 1.0 - share) * width;
     return {middle, middle - spread, middle + spread, left.log_x + 0.5 * width};

@@ -13,8 +13,9 @@ class RatioSearch {
  public:
   struct Settings {
     double lower = 0.0, upper = 0.0;
-    double first = 0.0;      ///< first guess, clamped to the bounds
-    double tolerance = 0.0;  ///< of |ratio - 1|
+    double first = 0.0;       ///< first guess, clamped to the bounds
+    double tolerance = 0.0;   ///< of |ratio - 1|
+    double narrowest = 1e-6;  ///< relative width of a bracket across which the function is taken to jump
   };
   explicit RatioSearch(const Settings& settings);
   /// At most `count` points never asked before; empty when the target is met or nothing more can be gained: the target
