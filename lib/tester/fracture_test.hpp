@@ -14,7 +14,8 @@ struct FractureTest {
   double strain_limit = 0.0;
   bool limit_is_no_failure = false;  ///< pure soft material: it is not expected to break
   int steps_per_sample = 1;
-  int frame_count = 0;
+  int frame_count = 0;                ///< frames placed by film_strains(), for which the specimen is pulled twice
+  std::vector<double> frame_strains;  ///< or a frame at the first step that reaches each of these; increasing
 };
 
 /// The specimen of a simulation, ready to be pulled. The simulation must be usable (simulation_fault empty).

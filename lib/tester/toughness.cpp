@@ -144,7 +144,7 @@ FractureTest fracture_test(const Simulation& simulation, const Numerics& numeric
 
 template <class Real>
 Result<ToughnessResult> run_fracture_test(const FractureTest& test) {
-  Result<ToughnessResult> result = pull<Real>(test, {});
+  Result<ToughnessResult> result = pull<Real>(test, test.frame_strains);
   if (!result || test.frame_count == 0) return result;
   // Where things happen is known once the specimen has broken, so it is pulled again.
   return pull<Real>(test, film_strains(*result, test.frame_count));

@@ -1,0 +1,58 @@
+#pragma once
+// A drawing surface in the pictures' own units, whatever their size in points. Wraps cairo.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "animation/picture.hpp"
+
+typedef struct _cairo cairo_t;
+typedef struct _cairo_surface cairo_surface_t;
+
+namespace nacre::animation {
+
+struct Point {
+  double x = 0.0, y = 0.0;
+};
+
+enum class Anchor { left, centre, right };
+
+struct TextStyle {
+  double size = 13.0;
+  std::uint32_t rgb = 0x202020;
+  bool bold = false;
+  Anchor anchor = Anchor::left;
+  bool upwards = false;  ///< turned by a quarter, reading from below
+};
+
+/// y runs down, as in pictures. Throws std::bad_alloc where cairo has no memory.
+class Canvas {
+ public:
+  /// `width_units` across become `width_points` points; the height follows.
+  Canvas(double width_units, double height_units, int width_points);
+
+  void fill(std::uint32_t rgb);
+  void rectangle(Point corner, double width, double height, std::uint32_t rgb);
+  /// Many quadrilaterals of one colour, all turning the same way, without smoothing: neighbours meet without seams, and the
+  /// picture keeps few colours.
+  void quads(std::span<const std::array<Point, 4>> corners, std::uint32_t rgb);
+  void area(std::span<const Point> outline, std::uint32_t rgb);
+  void line(std::span<const Point> points, double width, std::uint32_t rgb);
+  void disc(Point centre, double radius, std::uint32_t rgb);
+  void text(Point at, const std::string& text, const TextStyle& style = {});
+  double text_width(const std::string& text, const TextStyle& style);
+
+  Picture picture() const;
+
+ private:
+  void colour(std::uint32_t rgb);
+  void outline(std::span<const Point> points);
+  void font(const TextStyle& style);
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface_;
+  std::unique_ptr<cairo_t, void (*)(cairo_t*)> context_;
+};
+
+}  // namespace nacre::animation

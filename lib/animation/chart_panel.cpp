@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "animation/panels.hpp"
+
+namespace nacre::animation {
+namespace {
+
+constexpr double kLeft = 690.0, kRight = 932.0, kTop = 104.0, kBottom = 346.0;
+constexpr std::uint32_t kAhead = 0xb4bcc7, kPassedArea = 0xd9f1fa;
+
+/// Distance of ticks for an axis of this length: 1, 2 or 5 times a power of ten, at most six of them.
+double tick_distance(double length) {
+  const double decade = std::pow(10.0, std::floor(std::log10(length)) - 1.0);
+  for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0})
+    if (length / (factor * decade) <= 6.0) return factor * decade;
+  return 50.0 * decade;
+}
+
+struct Axes {
+  double strain_percent = 1.0, stress_mpa = 1.0;  ///< at the far ends
+
+  explicit Axes(const film::Film& film) {
+    const auto& stress = film.curve.stress_pa;
+    const double highest = stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
+    strain_percent = std::max(100.0 * film.failure_strain, 1e-3) * 1.04;
+    stress_mpa = std::max({1e-6 * highest, 1e-6 * film.peak_stress_pa, 1e-6}) * 1.1;
+  }
+  Point at(double strain, double stress_pa) const {
+    const double x = kLeft + (kRight - kLeft) * 100.0 * strain / strain_percent;
+    const double y = kBottom - (kBottom - kTop) * 1e-6 * std::max(stress_pa, 0.0) / stress_mpa;
+    return {x, y};
+  }
+};
+
+void draw_axes(Canvas& canvas, const Axes& axes) {
+  const TextStyle number{.size = 12.0, .rgb = kInk, .anchor = Anchor::centre};
+  const TextStyle number_left{.size = 12.0, .rgb = kInk, .anchor = Anchor::right};
+  const double across = tick_distance(axes.strain_percent), up = tick_distance(axes.stress_mpa);
+  for (double value = 0.0; value <= axes.stress_mpa * 1.0001; value += up) {
+    const double y = axes.at(0.0, 1e6 * value).y;
+    const std::array<Point, 2> rule = {{{kLeft, y}, {kRight, y}}};
+    canvas.line(rule, 0.7, kRule);
+    canvas.text({kLeft - 6.0, y + 4.3}, fmt::format("{:g}", std::round(value / up) * up), number_left);
+  }
+  for (double value = 0.0; value <= axes.strain_percent * 1.0001; value += across) {
+    const double x = axes.at(0.01 * value, 0.0).x;
+    const std::array<Point, 2> tick = {{{x, kBottom}, {x, kBottom + 4.0}}};
+    canvas.line(tick, 1.0, kInk);
+    canvas.text({x, kBottom + 18.0}, fmt::format("{:g}", std::round(value / across) * across), number);
+  }
+  const std::array<Point, 3> frame = {{{kLeft, kTop - 6.0}, {kLeft, kBottom}, {kRight, kBottom}}};
+  canvas.line(frame, 1.2, kInk);
+  const TextStyle label{.size = 13.0, .rgb = kInk, .anchor = Anchor::centre};
+  canvas.text({0.5 * (kLeft + kRight), kBottom + 38.0}, "nominal strain in %", label);
+  TextStyle turned = label;
+  turned.upwards = true;
+  canvas.text({kLeft - 38.0, 0.5 * (kTop + kBottom)}, "nominal stress in MPa", turned);
+}
+
+/// The curve up to a strain, which becomes its last point.
+std::vector<Point> curve_until(const film::Film& film, const Axes& axes, const film::Frame& frame) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < film.curve.size() && film.curve.strain[i] < frame.strain; ++i)
+    points.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
+  points.push_back(axes.at(frame.strain, frame.stress_pa));
+  return points;
+}
+
+void draw_curve(Canvas& canvas, const film::Film& film, const Axes& axes, const film::Frame& frame) {
+  std::vector<Point> whole;
+  for (std::size_t i = 0; i < film.curve.size(); ++i)
+    whole.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
+  std::vector<Point> passed = curve_until(film, axes, frame);
+  std::vector<Point> under = passed;
+  under.push_back({passed.back().x, kBottom});
+  under.push_back({passed.front().x, kBottom});
+  canvas.area(under, kPassedArea);
+  draw_axes(canvas, axes);
+  canvas.line(whole, 1.6, kAhead);
+  canvas.line(passed, 2.2, kInk);
+  canvas.disc(passed.back(), 6.0, kPage);
+  canvas.disc(passed.back(), 4.6, kAccent);
+}
+
+/// Energy taken up so far: the area under the curve.
+double absorbed_pa(const film::Film& film, const film::Frame& frame) {
+  tester::Curve passed;
+  for (std::size_t i = 0; i < film.curve.size() && film.curve.strain[i] < frame.strain; ++i) {
+    passed.strain.push_back(film.curve.strain[i]);
+    passed.stress_pa.push_back(film.curve.stress_pa[i]);
+  }
+  passed.strain.push_back(frame.strain);
+  passed.stress_pa.push_back(frame.stress_pa);
+  return tester::area_under(passed);
+}
+
+void draw_figures(Canvas& canvas, const film::Film& film, const film::Frame& frame) {
+  const std::array<std::array<std::string, 2>, 4> now = {
+      {{"strain", fmt::format("{:.2f} %", 100.0 * frame.strain)},
+       {"stress", fmt::format("{:.2f} MPa", 1e-6 * std::max(0.0, frame.stress_pa))},
+       {"failed elements", fmt::format("{}", frame.broken)},
+       {"energy taken up", fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * absorbed_pa(film, frame))}}};
+  double y = 418.0;
+  for (const auto& [name, value] : now) {
+    canvas.text({kLeft - 44.0, y}, name, {.size = 13.0, .rgb = kFaint});
+    canvas.text({kRight, y}, value, {.size = 13.0, .rgb = kInk, .anchor = Anchor::right});
+    y += 20.0;
+  }
+  const std::array<Point, 2> rule = {{{kLeft - 44.0, y - 10.0}, {kRight, y - 10.0}}};
+  canvas.line(rule, 0.7, kRule);
+  canvas.text({kLeft - 44.0, 506.0}, "toughness", {.size = 13.0, .rgb = kInk, .bold = true});
+  canvas.text({kRight, 506.0}, fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * film.toughness_pa),
+              {.size = 13.0, .rgb = kInk, .bold = true, .anchor = Anchor::right});
+}
+
+}  // namespace
+
+void draw_chart(Canvas& canvas, const film::Film& film, int index) {
+  const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
+  draw_curve(canvas, film, Axes(film), frame);
+  draw_figures(canvas, film, frame);
+}
+
+}  // namespace nacre::animation

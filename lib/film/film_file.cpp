@@ -1,0 +1,171 @@
+#include "film/film_file.hpp"
+
+#include <bit>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include "base/files.hpp"
+#include "film/sections.hpp"
+
+namespace nacre::film {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+constexpr std::string_view kMagic = "NACREFLM";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kFixedBytes = 16;  // magic, version, length of the header
+constexpr std::size_t kLargestFile = 256u << 20;
+constexpr int kLargestSide = 4096, kMostFrames = 1000;
+constexpr std::size_t kMostValues = 64u << 20;
+
+Json crack_json(const crack::Record& crack) {
+  Json value = {{"broken", crack.order.size()}, {"branches", crack.branches}, {"separate_cracks", crack.separate_cracks}};
+  if (!crack.path) return value["path"] = nullptr, value;
+  const crack::Path& path = *crack.path;
+  value["path"] = {{"length_m", path.length_m},           {"straight_length_m", path.straight_length_m},
+                   {"ratio", path.ratio()},               {"bridged_share", path.bridged_share},
+                   {"soft_share", path.material[0]},      {"rigid_share", path.material[1]},
+                   {"interface_share", path.material[2]}, {"crosses", path.crosses},
+                   {"elements", path.elements}};
+  return value;
+}
+
+Json header_json(const Film& film, const std::vector<Section>& sections) {
+  Json frames = Json::array(), lengths = Json::array();
+  for (const Frame& frame : film.frames)
+    frames.push_back({{"strain", frame.strain}, {"stress_pa", frame.stress_pa}, {"broken", frame.broken}});
+  for (const Section& section : sections) lengths.push_back({{"name", section.name}, {"bytes", section.bytes.size()}});
+  return {{"design", film.design},
+          {"fidelity", film.fidelity},
+          {"columns", film.columns},
+          {"rows", film.rows},
+          {"element_size_m", film.element_size_m},
+          {"toughness_pa", film.toughness_pa},
+          {"peak_stress_pa", film.peak_stress_pa},
+          {"failure_strain", film.failure_strain},
+          {"end", film.end},
+          {"energy",
+           {{"largest_j_per_m3", film.largest_energy_j_per_m3}, {"decades", kEnergyDecades}, {"levels", kEnergyLevels}}},
+          {"displacement_step_m", film.displacement_step_m},
+          {"curve", {{"strain", film.curve.strain}, {"stress_pa", film.curve.stress_pa}}},
+          {"crack", crack_json(film.crack)},
+          {"frames", frames},
+          {"sections", lengths}};
+}
+
+/// Header members into a film; throws nlohmann's exceptions where one is missing or of another kind.
+void read_header(const json& header, Film& film) {
+  header.at("design").get_to(film.design);
+  header.at("fidelity").get_to(film.fidelity);
+  header.at("columns").get_to(film.columns);
+  header.at("rows").get_to(film.rows);
+  header.at("element_size_m").get_to(film.element_size_m);
+  header.at("toughness_pa").get_to(film.toughness_pa);
+  header.at("peak_stress_pa").get_to(film.peak_stress_pa);
+  header.at("failure_strain").get_to(film.failure_strain);
+  header.at("end").get_to(film.end);
+  header.at("energy").at("largest_j_per_m3").get_to(film.largest_energy_j_per_m3);
+  header.at("displacement_step_m").get_to(film.displacement_step_m);
+  header.at("curve").at("strain").get_to(film.curve.strain);
+  header.at("curve").at("stress_pa").get_to(film.curve.stress_pa);
+  const json& crack = header.at("crack");
+  crack.at("branches").get_to(film.crack.branches);
+  crack.at("separate_cracks").get_to(film.crack.separate_cracks);
+  film.crack.columns = film.columns;
+  film.crack.rows = film.rows;
+  film.crack.order.resize(crack.at("broken").get<std::size_t>());
+  if (const json& path = crack.at("path"); !path.is_null())
+    film.crack.path = crack::Path{
+        .elements = path.at("elements").get<std::vector<int>>(),
+        .length_m = path.at("length_m"),
+        .straight_length_m = path.at("straight_length_m"),
+        .bridged_share = path.at("bridged_share"),
+        .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
+        .crosses = path.at("crosses")};
+  for (const json& frame : header.at("frames"))
+    film.frames.push_back({.strain = frame.at("strain"),
+                           .stress_pa = frame.at("stress_pa"),
+                           .broken = frame.at("broken"),
+                           .energy_level = {},
+                           .displacement_step = {}});
+}
+
+/// What in the header contradicts itself or the format; empty when nothing does.
+std::string header_fault(const Film& film) {
+  if (film.columns < 1 || film.columns > kLargestSide || film.rows < 1 || film.rows > kLargestSide)
+    return fmt::format("{} x {} elements, expected 1 to {} on a side", film.columns, film.rows, kLargestSide);
+  if (film.frames.empty() || film.frames.size() > kMostFrames)
+    return fmt::format("{} frames, expected 1 to {}", film.frames.size(), kMostFrames);
+  const int elements = film.columns * film.rows;
+  if (film.frames.size() * static_cast<std::size_t>(elements) > kMostValues)
+    return fmt::format("{} frames of {} elements, expected {} values in all", film.frames.size(), elements, kMostValues);
+  if (film.crack.order.size() > static_cast<std::size_t>(elements))
+    return fmt::format("{} failed elements of {}", film.crack.order.size(), elements);
+  if (film.curve.strain.size() != film.curve.stress_pa.size()) return "strain and stress of the curve differ in length";
+  for (const Frame& frame : film.frames)
+    if (frame.broken < 0 || frame.broken > static_cast<int>(film.crack.order.size()))
+      return fmt::format("a frame with {} failed elements of {}", frame.broken, film.crack.order.size());
+  if (film.crack.path)
+    for (const int e : film.crack.path->elements)
+      if (e < 0 || e >= elements) return fmt::format("element {} of {} on the path", e, elements);
+  return {};
+}
+
+Result<Film> read_film_parts(const json& header, std::string_view body) {
+  Film film;
+  std::vector<Section> sections;
+  try {
+    read_header(header, film);
+    for (const json& section : header.at("sections")) {
+      const auto bytes = section.at("bytes").get<std::size_t>();
+      if (bytes > body.size()) return fail("section {} is cut off", section.at("name").get<std::string>());
+      sections.push_back({section.at("name"), std::string(body.substr(0, bytes))});
+      body.remove_prefix(bytes);
+    }
+  } catch (const json::exception& problem) {
+    return fail("header: {}", problem.what());
+  }
+  if (const std::string fault = header_fault(film); !fault.empty()) return fail("header: {}", fault);
+  if (const Result<void> read = read_sections(sections, film); !read) return tl::unexpected(read.error());
+  return film;
+}
+
+}  // namespace
+
+std::string encode(const Film& film) {
+  const std::vector<Section> sections = sections_of(film);
+  const std::string header = header_json(film, sections).dump();
+  std::string bytes(kMagic);
+  for (const std::uint32_t number : {kVersion, static_cast<std::uint32_t>(header.size())})
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  bytes += header;
+  for (const Section& section : sections) bytes += section.bytes;
+  return bytes;
+}
+
+Result<Film> decode(std::string_view bytes) {
+  if (bytes.size() < kFixedBytes || !bytes.starts_with(kMagic))
+    return fail("no fracture film: it does not begin with {}", kMagic);
+  std::uint32_t numbers[2];
+  std::memcpy(numbers, bytes.data() + kMagic.size(), sizeof numbers);
+  if (numbers[0] != kVersion) return fail("fracture film of version {}, expected {}", numbers[0], kVersion);
+  if (numbers[1] > bytes.size() - kFixedBytes) return fail("the header is cut off");
+  const json header = json::parse(bytes.substr(kFixedBytes, numbers[1]), nullptr, false);
+  if (header.is_discarded()) return fail("the header is no JSON");
+  return read_film_parts(header, bytes.substr(kFixedBytes + numbers[1]));
+}
+
+void write_film(const std::filesystem::path& path, const Film& film) { write_file_atomically(path, encode(film)); }
+
+Film read_film(const std::filesystem::path& path) {
+  Result<Film> film = decode(read_file_up_to(path, kLargestFile));
+  if (!film) throw InputError::format("{}: {}", path.string(), film.error().message);
+  return *std::move(film);
+}
+
+}  // namespace nacre::film

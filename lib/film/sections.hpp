@@ -1,0 +1,25 @@
+#pragma once
+// The compressed parts of a film file.
+
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "film/film.hpp"
+
+namespace nacre::film {
+
+/// A name and a zlib stream.
+struct Section {
+  std::string name;
+  std::string bytes;
+};
+
+/// material, breaks, energy, displacement: see docs/FORMATS.md.
+std::vector<Section> sections_of(const Film& film);
+
+/// Fills what the sections hold into a film whose header has been read and checked; sections of other names are passed over.
+/// Error: a section is missing, damaged or of another length.
+Result<void> read_sections(const std::vector<Section>& sections, Film& film);
+
+}  // namespace nacre::film
