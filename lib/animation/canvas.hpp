@@ -36,8 +36,8 @@ class Canvas {
 
   void fill(std::uint32_t rgb);
   void rectangle(Point corner, double width, double height, std::uint32_t rgb);
-  /// Many quadrilaterals of one colour, all turning the same way, without smoothing: neighbours meet without seams, and the
-  /// picture keeps few colours.
+  /// Many quadrilaterals of one colour, all turning the same way, without smoothing: neighbours meet without seams, and
+  /// the picture keeps few colours.
   void quads(std::span<const std::array<Point, 4>> corners, std::uint32_t rgb);
   void area(std::span<const Point> outline, std::uint32_t rgb);
   void line(std::span<const Point> points, double width, std::uint32_t rgb);

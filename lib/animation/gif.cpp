@@ -15,7 +15,7 @@
 namespace nacre::animation {
 namespace {
 
-constexpr int kColours = 255;           // the 256th is for points that stay as they were
+constexpr int kColours = 255;  // the 256th is for points that stay as they were
 constexpr GifByteType kUnchanged = 255;
 constexpr int kSampledPictures = 12;
 
@@ -98,10 +98,8 @@ class Encoder {
 
   /// The part of a picture between the given points (right and bottom excluded).
   void add(const std::vector<GifByteType>& indices, int width, int left, int top, int right, int bottom, int delay) {
-    const GraphicsControlBlock control{.DisposalMode = DISPOSE_DO_NOT,
-                                       .UserInputFlag = false,
-                                       .DelayTime = delay,
-                                       .TransparentColor = kUnchanged};
+    const GraphicsControlBlock control{
+        .DisposalMode = DISPOSE_DO_NOT, .UserInputFlag = false, .DelayTime = delay, .TransparentColor = kUnchanged};
     std::array<GifByteType, 4> block{};
     EGifGCBToExtension(&control, block.data());
     check(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
@@ -122,8 +120,8 @@ class Encoder {
 
  private:
   static int append(GifFileType* file, const GifByteType* bytes, int count) {
-    static_cast<Encoder*>(file->UserData)->bytes_.append(reinterpret_cast<const char*>(bytes),
-                                                         static_cast<std::size_t>(count));
+    static_cast<Encoder*>(file->UserData)
+        ->bytes_.append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
     return count;
   }
   void check(int status) const {
@@ -152,7 +150,8 @@ std::string encoded(const Gif& gif) {
         changes[at] = index == shown[at] ? kUnchanged : index;
         if (index == shown[at]) continue;
         shown[at] = index;
-        left = std::min(left, x), right = std::max(right, x + 1), top = std::min(top, y), bottom = std::max(bottom, y + 1);
+        left = std::min(left, x), right = std::max(right, x + 1), top = std::min(top, y),
+        bottom = std::max(bottom, y + 1);
       }
     // A picture without changes still takes its time: one point of it.
     if (right == 0) left = top = 0, right = bottom = 1;

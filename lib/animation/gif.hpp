@@ -8,8 +8,8 @@
 
 namespace nacre::animation {
 
-/// An endless GIF. Its 255 colours are the commonest of a few pictures; others take the nearest of them. Points that stay as
-/// they were are left out.
+/// An endless GIF. Its 255 colours are the commonest of a few pictures; others take the nearest of them. Points that
+/// stay as they were are left out.
 struct Gif {
   int frame_count = 0;                            ///< >= 1
   std::function<Picture(int)> draw;               ///< all pictures have the size of the first; called twice for some

@@ -18,7 +18,9 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = 0;
-  const auto write = [&](void* to) { return png_image_write_to_memory(&image, to, &size, 0, points.data(), 0, nullptr); };
+  const auto write = [&](void* to) {
+    return png_image_write_to_memory(&image, to, &size, 0, points.data(), 0, nullptr);
+  };
   std::string bytes;
   bool written = write(nullptr) != 0;
   if (written) {

@@ -13,10 +13,11 @@ void draw_title(Canvas& canvas, const film::Film& film) {
   std::string design = film.design;
   if (design.size() > 24) design = design.substr(0, 21) + "...";  // a layout without symmetry
   canvas.text({32.0, 40.0}, fmt::format("Fracture of {}", design), {.size = 21.0, .rgb = kInk, .bold = true});
-  canvas.text({32.0, 62.0},
-              fmt::format("notched specimen, {:.1f} \u00d7 {:.1f} mm, pulled vertically; deformation to scale",
-                          1e3 * film.columns * film.element_size_m, 1e3 * film.rows * film.element_size_m),
-              {.size = 13.0, .rgb = kFaint});
+  canvas.text(
+      {32.0, 62.0},
+      fmt::format("simulated notched specimen, {:.1f} \u00d7 {:.1f} mm, pulled vertically; deformation to scale",
+                  1e3 * film.columns * film.element_size_m, 1e3 * film.rows * film.element_size_m),
+      {.size = 13.0, .rgb = kFaint});
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ void draw_energy_scale(Canvas& canvas, const film::Film& film) {
   }
   canvas.text({kX - 2.0, kHighest - 24.0}, "energy density", {.size = 12.0, .rgb = kInk});
   canvas.text({kX - 2.0, kHighest - 9.0}, "in J/m\u00b3", {.size = 12.0, .rgb = kFaint});
-  static constexpr std::array<const char*, 10> kPowers = {"1",          "10",         "10\u00b2", "10\u00b3", "10\u2074",
+  static constexpr std::array<const char*, 10> kPowers = {"1",        "10",       "10\u00b2", "10\u00b3", "10\u2074",
                                                           "10\u2075", "10\u2076", "10\u2077", "10\u2078", "10\u2079"};
   const double highest = std::log10(film.largest_energy_j_per_m3);
   for (std::size_t power = 0; power < kPowers.size(); ++power) {

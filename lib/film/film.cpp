@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kCurvePoints = 256;
 constexpr std::uint8_t kVoid = 3;
-/// A value follows only when it is off by more than this share of a step: waves below that would flicker and cost half the
-/// file.
+/// A value follows only when it is off by more than this share of a step: waves below that would flicker and cost half
+/// the file.
 constexpr double kEnergyBand = 0.75, kDisplacementBand = 1.0;
 
 double largest_energy(const std::vector<tester::FractureFrame>& frames) {
@@ -36,7 +36,8 @@ std::vector<std::uint8_t> energy_levels(const tester::FractureFrame& frame, cons
     const double energy = frame.energy_j_per_m3[e];
     if (frame.material[e] == kVoid || !(energy > 0.0)) continue;
     const double exact = (std::log10(energy / largest) / kEnergyDecades + 1.0) * (kEnergyLevels - 1);
-    const int level = followed(std::clamp(exact, 0.0, kEnergyLevels - 1.0), previous.empty() ? 0 : previous[e], kEnergyBand);
+    const int level =
+        followed(std::clamp(exact, 0.0, kEnergyLevels - 1.0), previous.empty() ? 0 : previous[e], kEnergyBand);
     levels[e] = static_cast<std::uint8_t>(level);
   }
   return levels;
@@ -63,7 +64,8 @@ std::vector<std::int16_t> displacement_steps(const tester::FractureFrame& frame,
   std::vector<std::int16_t> steps = previous.empty() ? std::vector<std::int16_t>(2 * nodes, 0) : previous;
   for (std::size_t node = 0; node < nodes; ++node) {
     if (!held[node]) continue;
-    const double height_m = static_cast<double>(node / static_cast<std::size_t>(frame.columns + 1)) * frame.element_size_m;
+    const double height_m =
+        static_cast<double>(node / static_cast<std::size_t>(frame.columns + 1)) * frame.element_size_m;
     const double beyond_m[2] = {frame.displacement_m[2 * node],
                                 frame.displacement_m[2 * node + 1] - frame.strain * height_m};
     for (std::size_t axis = 0; axis < 2; ++axis) {

@@ -1,6 +1,6 @@
 #pragma once
-// A fracture test as a film: what a picture of every moment needs, quantised so that it is small. Elements and nodes are
-// numbered as in fem::Grid, row 0 at the bottom.
+// A fracture test as a film: what a picture of every moment needs, quantised so that it is small. Elements and nodes
+// are numbered as in fem::Grid, row 0 at the bottom.
 
 #include <cstdint>
 #include <string>
@@ -24,20 +24,20 @@ inline constexpr double kDisplacementStep = 0.125;
 struct Frame {
   double strain = 0.0;
   double stress_pa = 0.0;
-  int broken = 0;                              ///< so many elements of the crack's order have failed
-  std::vector<std::uint8_t> energy_level;      ///< per element, 0 .. kEnergyLevels - 1
-  std::vector<std::int16_t> displacement_step; ///< x of all nodes, then y; beyond the uniform stretch, see Film
+  int broken = 0;                               ///< so many elements of the crack's order have failed
+  std::vector<std::uint8_t> energy_level;       ///< per element, 0 .. kEnergyLevels - 1
+  std::vector<std::int16_t> displacement_step;  ///< x of all nodes, then y; beyond the uniform stretch, see Film
   bool operator==(const Frame&) const = default;
 };
 
 struct Film {
-  std::string design;    ///< canonical name
+  std::string design;  ///< canonical name
   std::string fidelity;
   int columns = 0, rows = 0;
   double element_size_m = 0.0;
   double toughness_pa = 0.0, peak_stress_pa = 0.0, failure_strain = 0.0;
-  std::string end;       ///< why the test ended
-  tester::Curve curve;   ///< resampled to at most 256 points
+  std::string end;                     ///< why the test ended
+  tester::Curve curve;                 ///< resampled to at most 256 points
   std::vector<std::uint8_t> material;  ///< per element before the test: 0 soft, 1 rigid, 2 interface, 3 void
   crack::Record crack;
   double largest_energy_j_per_m3 = 0.0;
@@ -56,8 +56,8 @@ struct Film {
 /// The film of a toughness test that was run with frames (Numerics::frame_count >= 2).
 Film film_of(const tester::Simulation& simulation, const tester::ToughnessResult& filmed);
 
-/// Films a test whose result is known (curve, breaks, failure strain): the specimen is pulled once more, its frames placed by
-/// film_strains(). Error: as test_toughness.
+/// Films a test whose result is known (curve, breaks, failure strain): the specimen is pulled once more, its frames
+/// placed by film_strains(). Error: as test_toughness.
 Result<Film> record_film(const tester::Simulation& simulation, const tester::ToughnessResult& known,
                          int frame_count = kFrames);
 

@@ -24,13 +24,18 @@ constexpr int kLargestSide = 4096, kMostFrames = 1000;
 constexpr std::size_t kMostValues = 64u << 20;
 
 Json crack_json(const crack::Record& crack) {
-  Json value = {{"broken", crack.order.size()}, {"branches", crack.branches}, {"separate_cracks", crack.separate_cracks}};
+  Json value = {
+      {"broken", crack.order.size()}, {"branches", crack.branches}, {"separate_cracks", crack.separate_cracks}};
   if (!crack.path) return value["path"] = nullptr, value;
   const crack::Path& path = *crack.path;
-  value["path"] = {{"length_m", path.length_m},           {"straight_length_m", path.straight_length_m},
-                   {"ratio", path.ratio()},               {"bridged_share", path.bridged_share},
-                   {"soft_share", path.material[0]},      {"rigid_share", path.material[1]},
-                   {"interface_share", path.material[2]}, {"crosses", path.crosses},
+  value["path"] = {{"length_m", path.length_m},
+                   {"straight_length_m", path.straight_length_m},
+                   {"ratio", path.ratio()},
+                   {"bridged_share", path.bridged_share},
+                   {"soft_share", path.material[0]},
+                   {"rigid_share", path.material[1]},
+                   {"interface_share", path.material[2]},
+                   {"crosses", path.crosses},
                    {"elements", path.elements}};
   return value;
 }
@@ -40,22 +45,23 @@ Json header_json(const Film& film, const std::vector<Section>& sections) {
   for (const Frame& frame : film.frames)
     frames.push_back({{"strain", frame.strain}, {"stress_pa", frame.stress_pa}, {"broken", frame.broken}});
   for (const Section& section : sections) lengths.push_back({{"name", section.name}, {"bytes", section.bytes.size()}});
-  return {{"design", film.design},
-          {"fidelity", film.fidelity},
-          {"columns", film.columns},
-          {"rows", film.rows},
-          {"element_size_m", film.element_size_m},
-          {"toughness_pa", film.toughness_pa},
-          {"peak_stress_pa", film.peak_stress_pa},
-          {"failure_strain", film.failure_strain},
-          {"end", film.end},
-          {"energy",
-           {{"largest_j_per_m3", film.largest_energy_j_per_m3}, {"decades", kEnergyDecades}, {"levels", kEnergyLevels}}},
-          {"displacement_step_m", film.displacement_step_m},
-          {"curve", {{"strain", film.curve.strain}, {"stress_pa", film.curve.stress_pa}}},
-          {"crack", crack_json(film.crack)},
-          {"frames", frames},
-          {"sections", lengths}};
+  return {
+      {"design", film.design},
+      {"fidelity", film.fidelity},
+      {"columns", film.columns},
+      {"rows", film.rows},
+      {"element_size_m", film.element_size_m},
+      {"toughness_pa", film.toughness_pa},
+      {"peak_stress_pa", film.peak_stress_pa},
+      {"failure_strain", film.failure_strain},
+      {"end", film.end},
+      {"energy",
+       {{"largest_j_per_m3", film.largest_energy_j_per_m3}, {"decades", kEnergyDecades}, {"levels", kEnergyLevels}}},
+      {"displacement_step_m", film.displacement_step_m},
+      {"curve", {{"strain", film.curve.strain}, {"stress_pa", film.curve.stress_pa}}},
+      {"crack", crack_json(film.crack)},
+      {"frames", frames},
+      {"sections", lengths}};
 }
 
 /// Header members into a film; throws nlohmann's exceptions where one is missing or of another kind.
@@ -80,13 +86,13 @@ void read_header(const json& header, Film& film) {
   film.crack.rows = film.rows;
   film.crack.order.resize(crack.at("broken").get<std::size_t>());
   if (const json& path = crack.at("path"); !path.is_null())
-    film.crack.path = crack::Path{
-        .elements = path.at("elements").get<std::vector<int>>(),
-        .length_m = path.at("length_m"),
-        .straight_length_m = path.at("straight_length_m"),
-        .bridged_share = path.at("bridged_share"),
-        .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
-        .crosses = path.at("crosses")};
+    film.crack.path =
+        crack::Path{.elements = path.at("elements").get<std::vector<int>>(),
+                    .length_m = path.at("length_m"),
+                    .straight_length_m = path.at("straight_length_m"),
+                    .bridged_share = path.at("bridged_share"),
+                    .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
+                    .crosses = path.at("crosses")};
   for (const json& frame : header.at("frames"))
     film.frames.push_back({.strain = frame.at("strain"),
                            .stress_pa = frame.at("stress_pa"),
@@ -103,7 +109,8 @@ std::string header_fault(const Film& film) {
     return fmt::format("{} frames, expected 1 to {}", film.frames.size(), kMostFrames);
   const int elements = film.columns * film.rows;
   if (film.frames.size() * static_cast<std::size_t>(elements) > kMostValues)
-    return fmt::format("{} frames of {} elements, expected {} values in all", film.frames.size(), elements, kMostValues);
+    return fmt::format("{} frames of {} elements, expected {} values in all", film.frames.size(), elements,
+                       kMostValues);
   if (film.crack.order.size() > static_cast<std::size_t>(elements))
     return fmt::format("{} failed elements of {}", film.crack.order.size(), elements);
   if (film.curve.strain.size() != film.curve.stress_pa.size()) return "strain and stress of the curve differ in length";

@@ -25,9 +25,9 @@ Result<std::string> content(const std::vector<Section>& sections, const std::str
   if (section == sections.end()) return fail("there is no section {}", name);
   std::string bytes(size, '\0');
   uLongf length = static_cast<uLongf>(size);
-  const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
-                                reinterpret_cast<const Bytef*>(section->bytes.data()),
-                                static_cast<uLong>(section->bytes.size()));
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length, reinterpret_cast<const Bytef*>(section->bytes.data()),
+                 static_cast<uLong>(section->bytes.size()));
   if (status != Z_OK || length != size) return fail("section {} is damaged or not {} bytes long", name, size);
   return bytes;
 }

@@ -10,7 +10,9 @@
 #include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "command.hpp"
-#include "frames.hpp"
+#include "crack/crack_record.hpp"
+#include "film/film_file.hpp"
+#include "film_files.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
 #include "pattern/constraints.hpp"
@@ -28,8 +30,12 @@ struct Options {
   std::string fidelity = "full";
   std::string curves;
   std::string frames;
-  int frame_count = 60;
+  std::string film;
+  int frame_count = film::kFrames;
+  int film_width = 960;
   bool json = false;
+
+  bool wants_films() const { return !frames.empty() || !film.empty(); }
 };
 
 /// A design with what the testers said about it.
@@ -38,6 +44,7 @@ struct Specimen {
   pattern::Design design;
   std::optional<Result<tester::ModulusResult>> modulus;
   std::optional<Result<tester::ToughnessResult>> toughness;
+  std::optional<crack::Record> crack;
   double kernel_s = 0.0;  ///< processor time of the toughness test
 
   /// Why there is no number; empty when every test that was run succeeded.
@@ -70,6 +77,15 @@ std::vector<Specimen> read_specimens(const std::vector<std::string>& arguments) 
   return specimens;
 }
 
+/// Pulls the specimen once more for its film, and writes what was asked for.
+void film_specimen(const Specimen& specimen, const tester::Simulation& simulation, const Options& options) {
+  const Result<film::Film> film = film::record_film(simulation, **specimen.toughness, options.frame_count);
+  const std::string stem = file_stem(specimen.design.name());
+  if (!film) throw InputError::format("{}: no film: {}", specimen.argument, film.error().message);
+  if (!options.frames.empty()) film::write_film(std::filesystem::path(options.frames) / (stem + ".film"), *film);
+  if (!options.film.empty()) draw_film(*film, options.film, stem, options.film_width);
+}
+
 void run_tests(std::vector<Specimen>& specimens, const Options& options, const material::ParameterSet& parameters) {
   struct Task {
     Specimen* specimen;
@@ -81,7 +97,6 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
     for (Specimen& specimen : specimens) tasks.push_back({&specimen, test});
   }
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
-  const tester::Numerics numerics{.frame_count = options.frames.empty() ? 0 : options.frame_count};
   Progress progress("simulate: tests", static_cast<std::int64_t>(tasks.size()));
   parallel_for(static_cast<int>(tasks.size()), [&](int i) {
     const Task& task = tasks[static_cast<std::size_t>(i)];
@@ -91,11 +106,38 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
       specimen.modulus = tester::test_modulus(simulation);
     } else {
       const double begun_s = thread_time_s();
-      specimen.toughness = tester::test_toughness(simulation, numerics);
+      specimen.toughness = tester::test_toughness(simulation);
       specimen.kernel_s = thread_time_s() - begun_s;
+      if (*specimen.toughness) {
+        specimen.crack = crack::record_of(simulation, (*specimen.toughness)->breaks);
+        if (options.wants_films()) film_specimen(specimen, simulation, options);
+      }
     }
     progress.advance();
   });
+}
+
+nlohmann::ordered_json to_json(const crack::Record& crack) {
+  nlohmann::ordered_json entry = {{"columns", crack.columns},
+                                  {"rows", crack.rows},
+                                  {"broken", crack.order.size()},
+                                  {"branches", crack.branches},
+                                  {"separate_cracks", crack.separate_cracks}};
+  entry["path_ratio"] = nullptr;
+  if (crack.path) {
+    entry["path_ratio"] = crack.path->ratio();
+    entry["path_length_m"] = crack.path->length_m;
+    entry["straight_length_m"] = crack.path->straight_length_m;
+    entry["bridged_share"] = crack.path->bridged_share;
+    entry["soft_share"] = crack.path->material[0];
+    entry["rigid_share"] = crack.path->material[1];
+    entry["interface_share"] = crack.path->material[2];
+    entry["crosses"] = crack.path->crosses;
+    entry["path"] = crack.path->elements;
+  }
+  entry["order"] = nlohmann::ordered_json::array();
+  for (const tester::Break& broken : crack.order) entry["order"].push_back(broken.element);
+  return entry;
 }
 
 nlohmann::ordered_json to_json(const Specimen& specimen) {
@@ -118,6 +160,7 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
     entry["element_steps_per_s"] =
         static_cast<double>(result.steps) * static_cast<double>(result.element_count) / specimen.kernel_s;
   }
+  entry["crack"] = specimen.crack ? to_json(*specimen.crack) : nlohmann::ordered_json(nullptr);
   return entry;
 }
 
@@ -154,8 +197,18 @@ void write_files(const std::vector<Specimen>& specimens, const Options& options)
     if (!options.curves.empty()) {
       write_curve(std::filesystem::path(options.curves) / (stem + ".csv"), (*specimen.toughness)->curve);
     }
-    if (!options.frames.empty()) write_frames(options.frames, stem, (*specimen.toughness)->frames);
   }
+}
+
+/// Before anything is computed: a GIF shows one specimen, a folder must be there.
+void check_film_options(const Options& options) {
+  if (options.wants_films() && options.test == "modulus")
+    throw InputError("--frames and --film show the toughness test: --test modulus does not run it");
+  if (options.film.empty()) return;
+  if (!is_gif(options.film)) return make_folder(options.film);
+  if (options.patterns.size() > 1)
+    throw InputError::format("--film {}: a GIF shows one specimen, not {}; name a folder for pictures of all",
+                             options.film, options.patterns.size());
 }
 
 int simulate(const Options& options) {
@@ -164,6 +217,7 @@ int simulate(const Options& options) {
   if (!options.params.empty()) parameters = material::read_parameters(options.params, parameters);
   if (!options.curves.empty()) make_folder(options.curves);
   if (!options.frames.empty()) make_folder(options.frames);
+  check_film_options(options);
   run_tests(specimens, options, parameters);
   write_files(specimens, options);
   bool any_succeeded = false;
@@ -190,8 +244,12 @@ void add_simulate(CLI::App& app, Action& action) {
   command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
       ->capture_default_str();
   command.add_option("--curves", options->curves, "Folder for the stress-strain curves, KEY.csv");
-  command.add_option("--frames", options->frames, "Folder for pictures of the fracture, KEY-NNNN.png");
-  command.add_option("--frame-count", options->frame_count, "Pictures per specimen")
+  command.add_option("--frames", options->frames, "Folder for fracture films, KEY.film (docs/FORMATS.md)");
+  command.add_option("--film", options->film, "Film of one specimen as a GIF, or folder for pictures KEY-NNNN.png");
+  command.add_option("--film-width", options->film_width, "Width of the film's pictures in points")
+      ->check(CLI::Range(kNarrowestPicture, kWidestPicture))
+      ->capture_default_str();
+  command.add_option("--frame-count", options->frame_count, "Frames per film")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -71,14 +71,33 @@ TEST_F(CommandLine, SimulateLeavesFieldsOfATestNotRunNull) {
   EXPECT_TRUE(document[0]["modulus_pa"].is_number());
 }
 
-TEST_F(CommandLine, SimulateWritesCurvesAndFrames) {
+TEST_F(CommandLine, SimulateWritesCurvesFilmsAndPictures) {
   const Outcome outcome = run_nacre({"simulate", "mix:0.65", "--test", "toughness", "--fidelity", "tiny", "--curves",
-                                     path("curves"), "--frames", path("frames"), "--frame-count", "5"});
+                                     path("curves"), "--frames", path("frames"), "--frame-count", "5", "--film",
+                                     path("pictures"), "--film-width", "400"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(fs::file_size(path("curves/mix_0.65.csv")), 100U);
-  const auto pictures = std::distance(fs::directory_iterator(path("frames")), {});
-  EXPECT_GE(pictures, 2);
-  EXPECT_LE(pictures, 5);
+  EXPECT_GT(fs::file_size(path("frames/mix_0.65.film")), 1000U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("pictures")), {}), 5);
+  EXPECT_TRUE(fs::exists(path("pictures/mix_0.65-0004.png")));
+
+  const Outcome drawn = run_nacre({"film", path("frames/mix_0.65.film"), "--out", path("film.gif"), "--width", "400"});
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_GT(fs::file_size(path("film.gif")), 2000U);
+  expect_refused(run_nacre({"film", path("curves/mix_0.65.csv"), "--out", path("no.gif")}), {"mix_0.65.csv", "film"});
+  expect_refused(run_nacre({"simulate", "soft", "rigid", "--film", path("two.gif")}), {"two.gif", "one specimen"});
+  expect_refused(run_nacre({"simulate", "soft", "--test", "modulus", "--film", path("no.gif")}), {"--film", "modulus"});
+}
+
+TEST_F(CommandLine, SimulateTellsTheCrackThatItsFilmShows) {
+  const Outcome outcome = run_nacre({"simulate", "rigid", "--test", "toughness", "--fidelity", "tiny", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto crack = nlohmann::json::parse(outcome.out)[0]["crack"];
+  EXPECT_EQ(crack["columns"], 40);
+  EXPECT_GE(crack["path_ratio"].get<double>(), 1.0);
+  EXPECT_EQ(crack["rigid_share"], 1.0);
+  EXPECT_EQ(crack["order"].size(), crack["broken"].get<std::size_t>());
+  EXPECT_GE(crack["order"].size(), crack["path"].size());
 }
 
 TEST_F(CommandLine, SimulateAnswersTheSameTwice) {

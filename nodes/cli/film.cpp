@@ -1,0 +1,40 @@
+// nacre film: a recorded fracture film as a GIF or as pictures.
+
+#include <filesystem>
+#include <string>
+
+#include "command.hpp"
+#include "film/film_file.hpp"
+#include "film_files.hpp"
+#include "output.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string film;
+  std::string out;
+  int width = 960;
+};
+
+int draw(const Options& options) {
+  const film::Film film = film::read_film(options.film);
+  if (!is_gif(options.out)) make_folder(options.out);
+  draw_film(film, options.out, std::filesystem::path(options.film).stem().string(), options.width);
+  return 0;
+}
+
+}  // namespace
+
+void add_film(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "film", "Draw a recorded fracture film", options, draw);
+  command.add_option("FILM", options->film, "Film of `nacre simulate --frames` or of a run, RUN/films/*.film")
+      ->required();
+  command.add_option("--out", options->out, "GIF to write, or folder for PNG pictures")->required();
+  command.add_option("--width", options->width, "Width of the pictures in points")
+      ->check(CLI::Range(kNarrowestPicture, kWidestPicture))
+      ->capture_default_str();
+}
+
+}  // namespace nacre::cli
