@@ -115,7 +115,7 @@ struct BaseCalibration::State {
       const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE, m)];
       const double w = material.toughness.empty() ? eta[at(kW, m)] : material.toughness.back().best().w_j_per_m3;
       material.toughness.emplace_back(base, ranges, MaterialTrial{e_pa, w, dampings_per_s[damping]},
-                                      std::max(1, settings.toughness_budget));
+                                      std::max(1, settings.toughness_budget - used_by(material)));
     }
   }
 
@@ -158,11 +158,24 @@ struct BaseCalibration::State {
     return worst;
   }
 
+  /// Toughness simulations of one material so far: its budget counts over all dampings.
+  static int used_by(const Material& material) {
+    int used = 0;
+    for (const MaterialFit& fit : material.toughness) used += fit.evaluations();
+    return used;
+  }
+
+  /// Some material may not be simulated any more.
+  bool spent() const {
+    return std::ranges::any_of(
+        materials, [&](const Material& material) { return used_by(material) >= settings.toughness_budget; });
+  }
+
   /// Called when the fits at one damping have ended; false when there is nothing left to try.
   bool next_damping() {
     constexpr double kGoodEnough = 0.01;
     if (worst_error(damping) <= kGoodEnough) return false;
-    if (damping + 1 < dampings_per_s.size()) {
+    if (damping + 1 < dampings_per_s.size() && !spent()) {
       ++damping;
       begin_toughness();
       return true;

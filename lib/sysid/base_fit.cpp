@@ -1,6 +1,7 @@
 #include "sysid/base_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sysid/objective.hpp"
@@ -11,7 +12,8 @@ namespace {
 constexpr double kTolerance = 0.002;  // of toughness; the aim is 1 %
 constexpr double kGoodEnough = 0.01;
 constexpr int kMostPeakMatches = 3;
-constexpr double kPeakTolerance = 0.03;
+constexpr double kPeakTolerance = 0.03;  /// Factors on E, tried in turn.
+constexpr std::array kModulusFactors = {1.0, 0.5, 2.0, 0.25};
 /// Across a bracket of W narrower than this T is taken to jump; scaling E and W meets what is left.
 constexpr double kNarrowest = 0.02;
 
@@ -46,7 +48,6 @@ void MaterialFit::begin_threshold(double e_pa, double first_w) {
 
 void MaterialFit::begin_scale() {
   kind_ = Search::scale;
-  scaled_ = true;
   origin_ = best_;
   search_.emplace(RatioSearch::Settings{.lower = ranges_.e.minimum / origin_.e_pa,
                                         .upper = ranges_.e.maximum / origin_.e_pa,
@@ -85,9 +86,17 @@ bool MaterialFit::match_peak() {
 
 bool MaterialFit::next_search() {
   if (search_->met() || met()) return match_peak();
-  if (!any_ || scaled_) return false;
-  begin_scale();
-  return true;
+  if (any_ && kind_ == Search::threshold) {
+    begin_scale();
+    return true;
+  }
+  while (++modulus_ < kModulusFactors.size()) {
+    const double e_pa = clamped(start_.e_pa * kModulusFactors[modulus_], ranges_.e);
+    if (e_pa == clamped(start_.e_pa * kModulusFactors[modulus_ - 1], ranges_.e)) continue;
+    begin_threshold(e_pa, start_.w_j_per_m3);
+    return true;
+  }
+  return false;
 }
 
 double MaterialFit::error() const { return relative_error(best_prediction_.toughness_pa, measured_.toughness_pa); }

@@ -21,9 +21,9 @@ struct MaterialRanges {
 /// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the
 /// measured modulus as nearly as its range allows, and W is searched until the toughness is met. Where no W meets it,
 /// because T jumps across the measured value when a crack arrests, E and W are scaled together from the nearest miss:
-/// at the same W / E a crack runs alike and T grows in proportion. Where a curve was measured, E moves once the
-/// toughness is met so that the peak stress agrees too: at the same W, toughness hardly depends on E while stress grows
-/// with its square root.
+/// at the same W / E a crack runs alike and T grows in proportion. Where that fails too, other E are tried. Where a
+/// curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W, toughness
+/// hardly depends on E while stress grows with its square root.
 class MaterialFit {
  public:
   MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges, const MaterialTrial& start,
@@ -33,6 +33,7 @@ class MaterialFit {
   bool finished() const { return finished_; }
   /// Within 1 % of the measured toughness.
   bool met() const;
+  int evaluations() const { return evaluations_; }
   double error() const;
   double progress() const;
   const MaterialTrial& best() const { return best_; }
@@ -54,7 +55,7 @@ class MaterialFit {
   Search kind_ = Search::threshold;
   std::optional<RatioSearch> search_;  ///< over W, or over the common factor on `origin_`
   MaterialTrial origin_;               ///< of the search in progress
-  bool scaled_ = false;
+  std::size_t modulus_ = 0;            ///< of the factors on E, the one in use
   int peak_matches_ = 0;
   bool any_ = false, finished_ = false;
   MaterialTrial best_;
