@@ -6,19 +6,30 @@
 #include <ctime>
 #include <utility>
 
+#include "runtime/journal.hpp"
+#include "runtime/log_file.hpp"
 #include "wire/channels.hpp"
+#include "wire/header.hpp"
 
 namespace nacre::game_test {
 namespace {
 
-// Of this thread: what other programs do on the machine is no fault of a core.
+void write_input(runtime::LogWriter& writer, const runtime::Input& input) {
+  if (const auto* message = std::get_if<runtime::Message>(&input)) {
+    const wire::Header header{1, "game", 1, 1, "game"};
+    ASSERT_TRUE(writer.append(1, message->channel, wire::stamp_header(message->channel, message->payload, header)));
+  } else if (const auto* done = std::get_if<runtime::WorkDone>(&input)) {
+    ASSERT_TRUE(writer.append(1, runtime::kWorkChannel, runtime::pack({done->id, done->result})));
+  }
+}
+
+}  // namespace
+
 double processor_time_s() {
   std::timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-}  // namespace
 
 void InProcessGame::add(const std::string& node, std::unique_ptr<runtime::NodeCore> core,
                         std::map<std::string, runtime::WorkFunction> work) {
@@ -101,6 +112,23 @@ std::size_t InProcessGame::replay(const std::string& node, runtime::NodeCore& fr
     EXPECT_EQ(outputs.log, expected.log);
   }
   return journal.size();
+}
+
+std::int64_t InProcessGame::write_journal(const std::string& node, const std::filesystem::path& file) const {
+  runtime::LogWriter writer(file);
+  std::int64_t records = 0;
+  for (const auto& [input, outputs] : journal_.at(node)) {
+    write_input(writer, input);
+    for (const runtime::Message& message : outputs.messages) {
+      EXPECT_TRUE(writer.append(1, std::string(runtime::kOutPrefix) + message.channel, message.payload));
+    }
+    for (const runtime::Compute& compute : outputs.computes) {
+      EXPECT_TRUE(writer.append(1, runtime::kComputeChannel, runtime::pack({compute.id, compute.kind, compute.spec})));
+    }
+    records += 1 + static_cast<std::int64_t>(outputs.messages.size() + outputs.computes.size());
+  }
+  EXPECT_TRUE(writer.flush());
+  return records;
 }
 
 }  // namespace nacre::game_test

@@ -2,6 +2,8 @@
 // A whole game in one process: the cores pass messages to each other through a queue, long work is done in between. No
 // LCM, no clock; the order of delivery is a seeded choice, so that a game can be played shuffled and with repeats.
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -62,6 +64,9 @@ class InProcessGame {
   /// Feeds everything that `node` received to a fresh core and compares what it says. Returns the number of inputs.
   std::size_t replay(const std::string& node, runtime::NodeCore& fresh) const;
 
+  /// Writes what `node` received and said as its shell would have journaled it. Returns the number of records.
+  std::int64_t write_journal(const std::string& node, const std::filesystem::path& file) const;
+
   /// Longest time that a core has computed within one step.
   double longest_step_s() const { return longest_step_s_; }
 
@@ -86,5 +91,8 @@ class InProcessGame {
   std::map<std::string, std::vector<std::pair<runtime::Input, runtime::Outputs>>> journal_;
   double longest_step_s_ = 0.0;
 };
+
+/// Processor time of this thread: what other programs do on the machine is no fault of what is measured.
+double processor_time_s();
 
 }  // namespace nacre::game_test
