@@ -47,7 +47,7 @@ std::string bus_url(int port, bool lan) {
   return fmt::format("udpm://{}:{}?ttl={}&recv_buf_size=2097152", kMulticastGroup, port, lan ? 1 : 0);
 }
 
-Result<void> check_multicast_route(int port) {
+Result<std::string> multicast_source(int port) {
   const int socket_fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (socket_fd < 0) return fail("no UDP socket: {}", std::strerror(errno));
   sockaddr_in group{};
@@ -56,10 +56,25 @@ Result<void> check_multicast_route(int port) {
   inet_pton(AF_INET, kMulticastGroup, &group.sin_addr);
   const int status = ::connect(socket_fd, reinterpret_cast<const sockaddr*>(&group), sizeof group);
   const int reason = errno;
+  sockaddr_in own{};
+  socklen_t length = sizeof own;
+  ::getsockname(socket_fd, reinterpret_cast<sockaddr*>(&own), &length);
   ::close(socket_fd);
-  if (status == 0) return {};
+  if (own.sin_addr.s_addr == htonl(INADDR_ANY)) own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // a route to lo
+  char text[INET_ADDRSTRLEN] = {};
+  if (status == 0) return std::string(inet_ntop(AF_INET, &own.sin_addr, text, sizeof text));
   return fail("no route for multicast to {} ({}): run `ip link set lo up; ip route add 224.0.0.0/4 dev lo` as root",
               kMulticastGroup, std::strerror(reason));
+}
+
+Result<void> check_multicast_route(int port, bool lan) {
+  const Result<std::string> source = multicast_source(port);
+  if (!source) return tl::unexpected(source.error());
+  if (!lan || !source->starts_with("127.")) return {};
+  return fail(
+      "multicast to {} stays on this machine, and the run spans hosts: run "
+      "`ip route replace 224.0.0.0/4 dev INTERFACE` as root, INTERFACE the one to the other machines",
+      kMulticastGroup);
 }
 
 /// LCM's callbacks only queue; everything else happens outside lcm's handle(), which an exception would leave unusable.

@@ -21,8 +21,12 @@ std::int64_t now_utime();
 /// `udpm://239.255.76.67:PORT?ttl=0&recv_buf_size=2097152`; ttl 1 when the run spans hosts of one network.
 std::string bus_url(int port, bool lan = false);
 
-/// Whether multicast can leave this host; the error says which command mends it.
-Result<void> check_multicast_route(int port);
+/// The address of this host that multicast leaves from; 127.0.0.1 when it stays here.
+Result<std::string> multicast_source(int port);
+
+/// Whether multicast has a way: out of this process, for `lan` also out of this host. The error says which command
+/// mends it.
+Result<void> check_multicast_route(int port, bool lan = false);
 
 struct BusOptions {
   std::string url;

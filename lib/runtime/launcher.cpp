@@ -30,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 using State = SupervisedNode::State;
 
 RunFolder prepare_folder(const LaunchOptions& options, const std::optional<game::Scenario>& scenario) {
+  if (!options.only.empty()) return RunFolder::visit(options.resume);
   return scenario ? RunFolder::create(options.logs, options.run_name, *scenario) : RunFolder::resume(options.resume);
 }
 
@@ -44,12 +45,27 @@ std::optional<game::Scenario> new_scenario(const LaunchOptions& options) {
 /// A run that goes on takes its old port when it is still free.
 std::unique_ptr<PortReservation> reserve_port(const LaunchOptions& options, const game::Scenario& scenario,
                                               int port_of_last_start) {
+  if (!options.only.empty()) return std::make_unique<PortReservation>(port_of_last_start);
   const int wanted = options.port.value_or(scenario.port);
   if (wanted != 0 || port_of_last_start == 0) return std::make_unique<PortReservation>(wanted);
   try {
     return std::make_unique<PortReservation>(port_of_last_start);
   } catch (const InputError&) {
     return std::make_unique<PortReservation>(0);
+  }
+}
+
+/// Nodes that go by another machine must be nodes of the run, and the run must reach that machine.
+void expect_nodes(const LaunchOptions& options, const game::Scenario& scenario) {
+  const std::vector<std::string> nodes = scenario.nodes();
+  for (const auto* named : {&options.elsewhere, &options.only}) {
+    for (const std::string& node : *named) {
+      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
+      throw InputError::format("{}: no node of this run: expected one of {}", node, fmt::join(nodes, ", "));
+    }
+    if (named->empty() || scenario.hosts == "lan") continue;
+    throw InputError::format(
+        "the scenario says hosts = \"{}\": no message leaves this machine; expected hosts = \"lan\"", scenario.hosts);
   }
 }
 
@@ -60,13 +76,16 @@ class Launch {
         run_(std::move(run)),
         port_(std::move(port)),
         display_(stdout, terminal_columns(STDOUT_FILENO)) {
-    run_.set_port(port_->port());
+    if (!is_guest()) run_.set_port(port_->port());
     std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that has gone must not end the run
   }
 
   int play();
 
  private:
+  /// Takes part in a run that another launcher, on another machine, has begun and will sum up.
+  bool is_guest() const { return !options_.only.empty(); }
+  bool is_started_here(const std::string& node) const;
   void start_recorder();
   void open_endpoint();
   void start_nodes();
@@ -75,6 +94,7 @@ class Launch {
   void show_output(SupervisedNode& node);
   void announce_when_ready();
   bool game_is_over();
+  bool guests_part_is_over() const;
   bool has_failed() const;
   void stop(std::vector<SupervisedNode*> processes);
   void sum_up(bool is_complete);
@@ -92,6 +112,7 @@ class Launch {
   bool recorder_is_ready_ = false;
   bool is_announced_ = false;
   bool is_stopping_ = false;
+  bool heard_last_round_ = false;
   Clock::time_point said_waiting_ = Clock::now();
   Clock::time_point looked_for_end_ = Clock::now();
 };
@@ -118,9 +139,21 @@ void Launch::open_endpoint() {
   endpoint_ = std::move(*endpoint);
 }
 
+bool Launch::is_started_here(const std::string& node) const {
+  const auto names = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), node) != list.end();
+  };
+  return is_guest() ? names(options_.only) : !names(options_.elsewhere);
+}
+
 void Launch::start_nodes() {
   const fs::path folder = options_.program_folder.empty() ? this_program().parent_path() : options_.program_folder;
   for (const std::string& name : run_.scenario().nodes()) {
+    if (!is_started_here(name)) {
+      nodes_.push_back(std::make_unique<SupervisedNode>(
+          SupervisedNode::Settings{.name = name, .command = {}, .log_file = {}, .restarts = {}}));
+      continue;
+    }
     nodes_.push_back(std::make_unique<SupervisedNode>(SupervisedNode::Settings{
         .name = name,
         .command = {(folder / ("nacre_" + name)).string(), "--run-dir", run_.path().string(), "--scenario",
@@ -140,14 +173,16 @@ std::vector<SupervisedNode*> Launch::nodes() const {
 void Launch::take_message(const Received& received) {
   if (received.message.channel == "ROUND") {
     const auto round = wire::decode_safe<round_summary_t>(received.message.payload);
-    if (round) display_.say(in_words(*round));
+    if (!round) return;
+    display_.say(in_words(*round));
+    heard_last_round_ = heard_last_round_ || round->last;
     return;
   }
   if (received.message.channel != "STATUS") return;
   const auto status = wire::decode_safe<node_status_t>(received.message.payload);
   if (!status) return;
   for (const auto& node : nodes_) {
-    if (node->name() == received.header.node) node->saw(*status, received.header.epoch);
+    if (node->name() == received.header.node) node->saw(*status, received.header.epoch, Clock::now());
   }
 }
 
@@ -185,7 +220,7 @@ std::string Launch::names_of_nodes_not_ready() const {
 }
 
 void Launch::announce_when_ready() {
-  if (is_announced_) return;
+  if (is_announced_ || is_guest()) return;
   const std::string missing = names_of_nodes_not_ready();
   if (missing.empty()) {
     run_t message{};
@@ -202,21 +237,31 @@ void Launch::announce_when_ready() {
   }
 }
 
+/// The nodes started here have finished, and whoever else plays has finished too or left.
+bool Launch::guests_part_is_over() const {
+  const auto now = Clock::now();
+  return std::all_of(nodes_.begin(), nodes_.end(), [&](const auto& node) {
+    return node->state() == State::finished || (heard_last_round_ && node->is_silent(now));
+  });
+}
+
 /// Every node says that it has finished, and the validation agent has written the last round down.
 bool Launch::game_is_over() {
+  if (is_guest()) return guests_part_is_over();
   const bool all_finished =
       std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->state() == State::finished; });
   if (!all_finished || Clock::now() - looked_for_end_ < std::chrono::milliseconds(500)) return false;
   looked_for_end_ = Clock::now();
+  if (!is_started_here("validation_agent")) return heard_last_round_;
   const std::vector<round_summary_t> rounds = read_rounds(run_.path());
   return !rounds.empty() && rounds.back().last;
 }
 
 bool Launch::has_failed() const {
   const auto failed = [](const auto& node) { return node->state() == State::failed; };
-  const auto gone = [](const auto& node) { return node->state() == State::stopped; };
+  const auto gone = [](const auto& node) { return node->state() == State::stopped || node->runs_elsewhere(); };
   return std::any_of(nodes_.begin(), nodes_.end(), failed) || std::all_of(nodes_.begin(), nodes_.end(), gone) ||
-         recorder_->state() == State::failed;
+         (recorder_ && recorder_->state() == State::failed);
 }
 
 /// SIGINT, five seconds, SIGTERM, five seconds, SIGKILL; a further Ctrl-C goes to the next signal at once.
@@ -253,10 +298,10 @@ int Launch::play() {
   display_.say(
       fmt::format("run {} on UDP port {}, in {}", run_.manifest().run_id, port_->port(), run_.path().string()));
   open_endpoint();
-  start_recorder();
-  while (!recorder_is_ready_ && recorder_->state() != State::failed && !interrupts_.any()) turn(kTurn);
+  if (!is_guest()) start_recorder();
+  while (recorder_ && !recorder_is_ready_ && recorder_->state() != State::failed && !interrupts_.any()) turn(kTurn);
   bool is_complete = false;
-  if (recorder_is_ready_) start_nodes();
+  if (is_guest() || recorder_is_ready_) start_nodes();
   while (!interrupts_.any() && !nodes_.empty() && !has_failed() && !is_complete) {
     turn(kTurn);
     announce_when_ready();
@@ -267,8 +312,8 @@ int Launch::play() {
                : was_interrupted ? "stopping"
                                  : "a node has failed for good: stopping");
   stop(nodes());
-  stop({recorder_.get()});
-  sum_up(is_complete);
+  if (recorder_) stop({recorder_.get()});
+  if (!is_guest()) sum_up(is_complete);
   return is_complete ? 0 : 1;
 }
 
@@ -278,8 +323,9 @@ int launch(const LaunchOptions& options) {
   const std::optional<game::Scenario> scenario = new_scenario(options);
   const int old_port = scenario ? 0 : read_manifest(options.resume).port;
   const game::Scenario& read = scenario ? *scenario : game::read_scenario(options.resume / "scenario.toml");
+  expect_nodes(options, read);
   auto port = reserve_port(options, read, old_port);
-  if (const auto route = check_multicast_route(port->port()); !route) {
+  if (const auto route = check_multicast_route(port->port(), read.hosts == "lan"); !route) {
     throw InputError(route.error().message + "; `nacre doctor` says more");
   }
   Launch run(options, prepare_folder(options, scenario), std::move(port));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/restart_budget.hpp"
 
@@ -20,11 +21,14 @@ struct LaunchOptions {
   std::filesystem::path program_folder;  ///< of nacre_NODE; empty: beside this program
   std::filesystem::path nacre;           ///< program whose `record` is the recorder; empty: this program
   RestartBudget::Settings restarts;
+  std::vector<std::string> elsewhere;  ///< nodes of the run that another machine starts (hosts = "lan")
+  std::vector<std::string> only;       ///< take part with these nodes in a run that another machine has launched
 };
 
 /// Plays the game until its last round, Ctrl-C (SIGINT, SIGTERM, SIGHUP) or the failure of a node for good. Exit
 /// status: 0 the game was played to its end, 1 it was stopped before or a node failed. Throws InputError for what a
-/// person has to mend first.
+/// person has to mend first. With `only`, `resume` is the run's folder, shared or copied: neither recorder nor RUN come
+/// from here, and the end is that these nodes have finished and nobody who still plays is heard.
 int launch(const LaunchOptions& options);
 
 }  // namespace nacre::runtime

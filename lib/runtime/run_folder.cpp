@@ -172,13 +172,12 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
   return run;
 }
 
-RunFolder RunFolder::resume(const fs::path& folder) {
+RunFolder RunFolder::opened(const fs::path& folder) {
   RunFolder run;
   std::error_code error;
   run.path_ = fs::canonical(folder, error);
   if (error) throw InputError::format("{}: no such run: {}", folder.string(), error.message());
   run.manifest_ = read_manifest(run.path_);
-  run.hold();
   const std::string text = read_file(run.scenario_file());
   if (content_hash(text) != run.manifest_.scenario_hash) {
     throw InputError::format(
@@ -187,9 +186,17 @@ RunFolder RunFolder::resume(const fs::path& folder) {
         run.scenario_file().string(), run.manifest_.scenario_hash);
   }
   run.scenario_ = game::read_scenario(run.scenario_file());
+  return run;
+}
+
+RunFolder RunFolder::resume(const fs::path& folder) {
+  RunFolder run = opened(folder);
+  run.hold();
   run.manifest_.resumed.push_back(utc_now());
   return run;
 }
+
+RunFolder RunFolder::visit(const fs::path& folder) { return opened(folder); }
 
 RunFolder::RunFolder(RunFolder&& other) noexcept
     : path_(std::move(other.path_)),

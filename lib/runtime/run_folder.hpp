@@ -52,6 +52,8 @@ class RunFolder {
   static RunFolder create(const std::filesystem::path& logs, const std::string& name, const game::Scenario& scenario);
   /// Opens a run's folder to go on with it. Throws InputError: not a run's folder, or another launcher holds it.
   static RunFolder resume(const std::filesystem::path& folder);
+  /// Opens a run's folder, or a copy of it, beside the launcher that holds it. Throws InputError: not a run's folder.
+  static RunFolder visit(const std::filesystem::path& folder);
   ~RunFolder();
   RunFolder(RunFolder&& other) noexcept;
 
@@ -66,6 +68,7 @@ class RunFolder {
 
  private:
   RunFolder() = default;
+  static RunFolder opened(const std::filesystem::path& folder);
   void hold();
   void write_manifest() const;
   std::filesystem::path path_;

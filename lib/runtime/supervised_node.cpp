@@ -34,6 +34,7 @@ SupervisedNode::SupervisedNode(Settings settings) : settings_(std::move(settings
   status_.round = -1;
   status_.progress = -1.0;
   status_.eta_s = -1.0;
+  if (runs_elsewhere()) state_ = State::starting;
 }
 
 SupervisedNode::~SupervisedNode() {
@@ -68,6 +69,7 @@ std::vector<std::string> SupervisedNode::take_output() {
 }
 
 std::optional<std::string> SupervisedNode::supervise(Clock::time_point now) {
+  if (runs_elsewhere()) return listen(now);
   if (process_) {
     const std::optional<ProcessEnd> end = process_->poll_end();
     if (!end) return std::nullopt;
@@ -108,9 +110,25 @@ std::string SupervisedNode::take_end(const ProcessEnd& end, Clock::time_point no
   return fmt::format("{} died ({}){}; it is started again", name(), end.in_words(), said);
 }
 
-void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch) {
+bool SupervisedNode::is_silent(Clock::time_point now) const {
+  constexpr auto kPatience = std::chrono::seconds(10);  // a node speaks twice a second
+  return runs_elsewhere() && (!heard_ || now - *heard_ > kPatience);
+}
+
+/// A node elsewhere that falls silent, or is heard again.
+std::optional<std::string> SupervisedNode::listen(Clock::time_point now) {
+  const bool is_silent_now = is_silent(now);
+  if (is_silent_now == was_silent_ || state_ == State::finished) return std::nullopt;
+  was_silent_ = is_silent_now;
+  if (is_silent_now) return fmt::format("{} is not heard any more; the game waits for it", name());
+  return fmt::format("{} is heard from elsewhere", name());
+}
+
+void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now) {
   if (process_ && epoch < started_utime_) return;
-  if (!process_ && state_ != State::stopped) return;  // a late word of a process that has died
+  // A late word of a process that has died.
+  if (!process_ && state_ != State::stopped && !runs_elsewhere()) return;
+  heard_ = now;
   status_ = status;
   // A stopped node that speaks again runs elsewhere: started by hand, perhaps on another machine.
   if (status.finished) {

@@ -1,5 +1,5 @@
 #pragma once
-// One process that the launcher looks after: output, readiness, restarts.
+// One node that the launcher looks after: output, readiness, restarts; or one that runs elsewhere: whether it is heard.
 
 #include <chrono>
 #include <cstdio>
@@ -24,8 +24,8 @@ class SupervisedNode {
   using Clock = std::chrono::steady_clock;
   struct Settings {
     std::string name;
-    std::vector<std::string> command;
-    std::filesystem::path log_file;  ///< everything it prints, appended
+    std::vector<std::string> command;  ///< empty: the node runs elsewhere
+    std::filesystem::path log_file;    ///< everything it prints, appended
     RestartBudget::Settings restarts;
   };
   enum class State { starting, running, finished, restarting, stopped, failed };
@@ -40,7 +40,7 @@ class SupervisedNode {
   /// Takes note of an end and starts again what is due. Returns a sentence for a person when something happened.
   std::optional<std::string> supervise(Clock::time_point now);
   /// A STATUS of this node. Those of an earlier process are ignored.
-  void saw(const node_status_t& status, std::int64_t epoch);
+  void saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now);
   /// From now on an end is what was asked for: no restarts.
   void expect_end() { end_is_expected_ = true; }
   void signal(int signal) const;
@@ -48,6 +48,9 @@ class SupervisedNode {
   const std::string& name() const { return settings_.name; }
   State state() const { return state_; }
   bool is_alive() const { return process_ != nullptr; }
+  bool runs_elsewhere() const { return settings_.command.empty(); }
+  /// Of a node elsewhere: not heard for ten seconds, or never.
+  bool is_silent(Clock::time_point now) const;
   /// Subscribed and able to take part; also true for one that has finished.
   bool is_ready() const { return state_ == State::running || state_ == State::finished; }
   int output() const { return process_ ? process_->output() : -1; }
@@ -55,6 +58,7 @@ class SupervisedNode {
 
  private:
   std::string take_end(const ProcessEnd& end, Clock::time_point now);
+  std::optional<std::string> listen(Clock::time_point now);
 
   Settings settings_;
   RestartBudget budget_;
@@ -67,6 +71,8 @@ class SupervisedNode {
   node_status_t status_{};
   int restarts_ = 0;
   bool end_is_expected_ = false;
+  std::optional<Clock::time_point> heard_;
+  bool was_silent_ = true;
 };
 
 std::string_view to_string(SupervisedNode::State state);

@@ -41,10 +41,16 @@ struct Finding {
 };
 
 Finding check_route(int port) {
-  const auto route = runtime::check_multicast_route(port);
-  if (route) return {"multicast route", Verdict::good, "multicast has a way out", ""};
-  return {"multicast route", Verdict::fault, route.error().message,
-          "ip link set lo up; ip route add 224.0.0.0/4 dev lo"};
+  const auto source = runtime::multicast_source(port);
+  if (!source) {
+    return {"multicast route", Verdict::fault, source.error().message,
+            "ip link set lo up; ip route add 224.0.0.0/4 dev lo"};
+  }
+  if (source->starts_with("127.")) {
+    return {"multicast route", Verdict::good,
+            "multicast has a way; it stays on this machine (enough for hosts = local)", ""};
+  }
+  return {"multicast route", Verdict::good, "multicast leaves from " + *source, ""};
 }
 
 /// A message that this process sends to itself: route, firewall and port together.

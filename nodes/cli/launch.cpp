@@ -19,6 +19,12 @@ int play(const runtime::LaunchOptions& options) {
   if (!options.resume.empty() && options.seed) {
     throw InputError("nacre launch: --seed belongs to a new run; a resumed one keeps its seed");
   }
+  if (!options.only.empty() && options.resume.empty()) {
+    throw InputError("nacre launch: --only takes part in a run: expected --resume RUN, its folder or a copy of it");
+  }
+  if (!options.only.empty() && !options.elsewhere.empty()) {
+    throw InputError("nacre launch: expected either --only or --elsewhere, not both");
+  }
   return runtime::launch(options);
 }
 
@@ -60,6 +66,10 @@ void add_launch(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 65535));
   command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: beside nacre");
   command.add_option("--seed", options->seed, "Seed instead of the scenario's");
+  command.add_option("--elsewhere", options->elsewhere,
+                     "Node that another machine starts (hosts = \"lan\"); repeatable");
+  command.add_option("--only", options->only,
+                     "With --resume: take part with this node in a run launched on another machine; repeatable");
 }
 
 void add_record(CLI::App& app, Action& action) {
