@@ -29,6 +29,8 @@ void run(SQLite::Database& database, const char* sql, const Values&... values) {
       statement.bind(index, value ? 1 : 0);
     } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
       statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()), static_cast<int>(value.size() * sizeof(double)));
+    } else if constexpr (std::is_same_v<Value, std::vector<std::int32_t>>) {
+      statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()), static_cast<int>(value.size() * sizeof(std::int32_t)));
     } else if constexpr (std::is_same_v<Value, std::string_view>) {
       statement.bind(index, std::string(value));
     } else {
@@ -118,6 +120,21 @@ void keep(SQLite::Database& db, const wire::SimulateResult& s) {
   }
 }
 
+/// Answers to the analyser's own question `analyser/rN/films`: how the designs proposed in round N break.
+void keep(SQLite::Database& db, const wire::Fracture& f) {
+  int round = 0;
+  if (std::sscanf(f.request_id.c_str(), "analyser/r%d/films", &round) != 1) return;
+  const auto of_path = [&](auto value) { return f.crack.path ? std::optional<double>(value(*f.crack.path)) : std::nullopt; };
+  std::vector<std::int32_t> path, breaks;
+  if (f.crack.path) path.assign(f.crack.path->elements.begin(), f.crack.path->elements.end());
+  for (const tester::Break& broken : f.crack.order) breaks.push_back(broken.element);
+  run(db, "INSERT OR REPLACE INTO crack VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", round, f.design.name(), f.film, f.crack.columns, f.crack.rows,
+      f.broken, f.crack.branches, f.crack.separate_cracks, of_path([](const auto& p) { return p.length_m; }),
+      of_path([](const auto& p) { return p.straight_length_m; }), of_path([](const auto& p) { return p.bridged_share; }),
+      of_path([](const auto& p) { return p.material[0]; }), of_path([](const auto& p) { return p.material[1]; }),
+      of_path([](const auto& p) { return p.material[2]; }), f.crack.path && f.crack.path->crosses, path, breaks);
+}
+
 template <class Domain>
 void keep_domain(SQLite::Database& db, const std::string& payload) {
   if (const auto value = wire::read<Domain>(payload)) keep(db, *value);
@@ -136,6 +153,7 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
   if (channel == "PROPOSAL") keep_domain<wire::Proposal>(db, payload);
   if (channel == "MEASUREMENT") keep_domain<wire::Measurement>(db, payload);
   if (channel == "SIMULATED") keep_domain<wire::SimulateResult>(db, payload);
+  if (channel == "FRACTURE") keep_domain<wire::Fracture>(db, payload);
   if (channel == "REVIEW") keep_message<review_t>(db, payload);
   if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);
 }

@@ -82,6 +82,37 @@ void read_model(SQLite::Database& db, RunRecord& run) {
   });
 }
 
+std::vector<std::int32_t> elements(const SQLite::Column& blob) {
+  std::vector<std::int32_t> result(static_cast<std::size_t>(blob.getBytes()) / sizeof(std::int32_t));
+  if (!result.empty()) std::memcpy(result.data(), blob.getBlob(), result.size() * sizeof(std::int32_t));
+  return result;
+}
+
+void read_cracks(SQLite::Database& db, RunRecord& run) {
+  constexpr const char* kCracks =
+      "SELECT round, design, film, columns, rows, broken, branches, separate_cracks, path, breaks, path_length_m, straight_length_m, bridged_share, "
+      "soft_share, rigid_share, interface_share, crosses FROM crack";
+  each_row(db, kCracks, [&](SQLite::Statement& q) {
+    RecordedCrack recorded{.crack = {}, .broken = q.getColumn(5).getInt(), .film = q.getColumn(2).getString()};
+    crack::Record& record = recorded.crack;
+    record.columns = q.getColumn(3).getInt();
+    record.rows = q.getColumn(4).getInt();
+    record.branches = q.getColumn(6).getInt();
+    record.separate_cracks = q.getColumn(7).getInt();
+    for (const std::int32_t element : elements(q.getColumn(9))) record.order.push_back({element, 0.0});
+    if (!q.getColumn(10).isNull()) {
+      const std::vector<std::int32_t> path = elements(q.getColumn(8));
+      record.path = crack::Path{.elements = {path.begin(), path.end()},
+                                .length_m = q.getColumn(10).getDouble(),
+                                .straight_length_m = q.getColumn(11).getDouble(),
+                                .bridged_share = q.getColumn(12).getDouble(),
+                                .material = {q.getColumn(13).getDouble(), q.getColumn(14).getDouble(), q.getColumn(15).getDouble()},
+                                .crosses = q.getColumn(16).getInt() != 0};
+    }
+    run.rounds[q.getColumn(0).getInt()].cracks[q.getColumn(1).getString()] = std::move(recorded);
+  });
+}
+
 void read_diagnoses(SQLite::Database& db, RunRecord& run) {
   each_row(db, "SELECT round, verdict, summary, held_out_error_before, held_out_error_after FROM diagnosis", [&](SQLite::Statement& q) {
     RecordedDiagnosis diagnosis;
@@ -141,6 +172,7 @@ RunRecord read_run_record(const std::filesystem::path& path) {
     RunRecord run;
     read_summaries(db, run);
     read_model(db, run);
+    read_cracks(db, run);
     read_diagnoses(db, run);
     read_specimens(db, run);
     return run;

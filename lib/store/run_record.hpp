@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "crack/crack_record.hpp"
 #include "explore/search.hpp"
 #include "measurement/measurement.hpp"
 #include "optimize/pareto.hpp"
@@ -42,6 +43,13 @@ struct RecordedSimulation {
   tester::Curve curve;
 };
 
+/// How the model of a round lets a proposed design break.
+struct RecordedCrack {
+  crack::Record crack;  ///< order without strains
+  int broken = 0;
+  std::string film;     ///< file in RUN/films; empty when there is none
+};
+
 /// One round; parts that have not been heard of yet are empty.
 struct RoundRecord {
   std::optional<wire::RoundSummary> summary;
@@ -51,6 +59,7 @@ struct RoundRecord {
   std::vector<RecordedProposal> proposals;
   std::optional<RecordedDiagnosis> diagnosis;
   std::map<std::string, RecordedSimulation> simulated;  ///< by design
+  std::map<std::string, RecordedCrack> cracks;          ///< of the proposals, by design
 };
 
 struct MeasuredSpecimen {

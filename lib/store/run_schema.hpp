@@ -2,7 +2,7 @@
 
 namespace nacre::store {
 
-inline constexpr int kRunSchemaVersion = 1;
+inline constexpr int kRunSchemaVersion = 2;
 
 /// Tables of run.db. SI units; hypervolumes and gap in GPa MPa; curves as pairs (strain, stress_pa) of double, little-endian.
 inline constexpr const char* kRunSchema = R"sql(
@@ -56,6 +56,12 @@ inline constexpr const char* kRunSchema = R"sql(
   CREATE TABLE simulated (  -- what the model of a round says about measured designs
     round INTEGER NOT NULL, design TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL, failure TEXT NOT NULL,
     curve BLOB NOT NULL, PRIMARY KEY (round, design)
+  ) STRICT;
+  CREATE TABLE crack (  -- how proposed designs break by the model of their round; path and breaks: int32 elements; film: file in films/
+    round INTEGER NOT NULL, design TEXT NOT NULL, film TEXT NOT NULL, columns INTEGER NOT NULL, rows INTEGER NOT NULL, broken INTEGER NOT NULL,
+    branches INTEGER NOT NULL, separate_cracks INTEGER NOT NULL, path_length_m REAL, straight_length_m REAL, bridged_share REAL,
+    soft_share REAL, rigid_share REAL, interface_share REAL, crosses INTEGER, path BLOB NOT NULL, breaks BLOB NOT NULL,
+    PRIMARY KEY (round, design)
   ) STRICT;
 )sql";
 

@@ -10,7 +10,7 @@
 namespace nacre::store {
 namespace {
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr int kBusyTimeoutMs = 30'000;  // another run may be writing
 constexpr const char* kSchema = R"sql(
   CREATE TABLE simulation (
@@ -22,6 +22,10 @@ constexpr const char* kSchema = R"sql(
     failure_strain REAL NOT NULL,
     curve          BLOB NOT NULL
   ) STRICT, WITHOUT ROWID;
+)sql";
+// Version 2: elements that failed, for simulations whose crack was asked for; pairs of int32 and float32.
+constexpr const char* kBreakSchema = R"sql(
+  CREATE TABLE breaks (key TEXT PRIMARY KEY, pairs BLOB NOT NULL) STRICT, WITHOUT ROWID;
 )sql";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
@@ -47,6 +51,10 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& pat
   const int version = database.execAndGet("PRAGMA user_version").getInt();
   if (version == 0 && !database.tableExists("simulation")) {
     database.exec(kSchema);
+    database.exec(kBreakSchema);
+    database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  } else if (version == 1) {  // nothing that was simulated is lost
+    database.exec(kBreakSchema);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   } else if (version != kSchemaVersion) {
     refuse(path, "it has schema version " + std::to_string(version) + ", this program expects " +
@@ -64,6 +72,13 @@ std::vector<float> pack_curve(const tester::Curve& curve) {
   }
   return pairs;
 }
+
+/// An element that failed, as it lies in the file.
+struct PackedBreak {
+  std::int32_t element;
+  float strain;
+};
+static_assert(sizeof(PackedBreak) == 8);
 
 tester::Curve unpack_curve(const void* bytes, int size) {
   std::vector<float> pairs(static_cast<std::size_t>(size) / sizeof(float));
@@ -131,6 +146,34 @@ void SimulationCache::insert(const std::string& key, const CachedSimulation& ans
     // A null pointer would be stored as NULL, not as an empty curve.
     const void* bytes = curve.empty() ? "" : static_cast<const void*>(curve.data());
     insertion.bind(7, bytes, static_cast<int>(curve.size() * sizeof(float)));
+    insertion.exec();
+  });
+}
+
+std::optional<std::vector<tester::Break>> SimulationCache::find_breaks(const std::string& key) const {
+  const std::lock_guard lock(mutex_);
+  return guarded(path_, [&]() -> std::optional<std::vector<tester::Break>> {
+    SQLite::Statement query(*database_, "SELECT pairs FROM breaks WHERE key = ?");
+    query.bind(1, key);
+    if (!query.executeStep()) return std::nullopt;
+    const SQLite::Column pairs = query.getColumn(0);
+    std::vector<PackedBreak> packed(static_cast<std::size_t>(pairs.getBytes()) / sizeof(PackedBreak));
+    if (!packed.empty()) std::memcpy(packed.data(), pairs.getBlob(), packed.size() * sizeof(PackedBreak));
+    std::vector<tester::Break> breaks;
+    for (const PackedBreak& broken : packed) breaks.push_back({broken.element, broken.strain});
+    return breaks;
+  });
+}
+
+void SimulationCache::insert_breaks(const std::string& key, const std::vector<tester::Break>& breaks) {
+  std::vector<PackedBreak> packed;
+  for (const tester::Break& broken : breaks) packed.push_back({broken.element, static_cast<float>(broken.strain)});
+  const std::lock_guard lock(mutex_);
+  guarded(path_, [&] {
+    SQLite::Statement insertion(*database_, "INSERT INTO breaks VALUES (?, ?) ON CONFLICT (key) DO NOTHING");
+    insertion.bind(1, key);
+    const void* bytes = packed.empty() ? "" : static_cast<const void*>(packed.data());
+    insertion.bind(2, bytes, static_cast<int>(packed.size() * sizeof(PackedBreak)));
     insertion.exec();
   });
 }

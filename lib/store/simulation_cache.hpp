@@ -7,8 +7,9 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "tester/curve.hpp"
+#include "tester/tester.hpp"
 
 namespace SQLite {
 class Database;
@@ -38,7 +39,10 @@ class SimulationCache {
   std::optional<CachedSimulation> find(const std::string& key) const;
   /// Keeps the first answer when the key is already there. Throws InputError when it cannot be written (disk full).
   void insert(const std::string& key, const CachedSimulation& answer);
-  std::int64_t size() const;
+  /// Elements that failed in a toughness test, strains as float; nothing when they were not kept.
+  std::optional<std::vector<tester::Break>> find_breaks(const std::string& key) const;
+  void insert_breaks(const std::string& key, const std::vector<tester::Break>& breaks);
+  std::int64_t size() const;  ///< answers
 
  private:
   std::filesystem::path path_;

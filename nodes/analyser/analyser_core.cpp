@@ -14,8 +14,8 @@ namespace nacre::analyser {
 namespace {
 
 bool is_kept(const std::string& channel) {
-  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT", "PROPOSAL", "MEASUREMENT",
-                                              "REVIEW",     "ROUND", "SIMULATED"};
+  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT", "PROPOSAL",  "MEASUREMENT",
+                                              "REVIEW",     "ROUND", "SIMULATED", "FRACTURE"};
   return kKept.contains(channel);
 }
 
@@ -44,6 +44,15 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
     const auto model = wire::read<wire::AdoptedModel>(message.payload);
     models_.emplace(model->round, *model);
     ask_about_measured_designs();
+    ask_for_films();
+  } else if (message.channel == "PROPOSAL") {
+    const auto proposal = wire::read<wire::Proposal>(message.payload);
+    // Tiny specimens are for processes: nobody looks at them.
+    if (scenario_.fidelity != tester::Fidelity::tiny && proposed_.insert(proposal->round).second) {
+      std::vector<pattern::Design>& designs = unfilmed_[proposal->round];
+      for (const wire::ProposedDesign& proposed : proposal->designs) designs.push_back(proposed.design);
+      ask_for_films();
+    }
   } else if (message.channel == "MEASUREMENT") {
     const auto measured = wire::read<wire::Measurement>(message.payload);
     measurements_.emplace(measured->record.specimen, message.payload);
@@ -52,6 +61,8 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
     accept_question(*wire::read<wire::DiagnoseRequest>(message.payload));
   } else if (message.channel == "SIMULATED") {
     accept_answer(*wire::read<wire::SimulateResult>(message.payload));
+  } else if (message.channel == "FRACTURE") {
+    accept_fracture(*wire::read<wire::Fracture>(message.payload));
   } else if (message.channel == "ROUND") {
     close_round(*wire::read<wire::RoundSummary>(message.payload));
   }
@@ -131,18 +142,60 @@ void AnalyserCore::ask_about_measured_designs() {
       request.curve_points = kCurvePoints;
       request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
                              designs.begin() + static_cast<std::ptrdiff_t>(end));
-      open_answers_[request.request_id];
-      outputs_.messages.push_back({"SIMULATE", wire::write(request)});
+      ask(request);
     }
     round = unasked_.erase(round);
+  }
+}
+
+void AnalyserCore::ask(const wire::SimulateRequest& request) {
+  open_answers_[request.request_id].with_fractures = request.crack || request.film;
+  outputs_.messages.push_back({"SIMULATE", wire::write(request)});
+}
+
+void AnalyserCore::ask_for_films() {
+  for (auto proposal = unfilmed_.begin(); proposal != unfilmed_.end();) {
+    const auto model = models_.find(proposal->first);
+    if (model == models_.end()) {  // still on its way
+      ++proposal;
+      continue;
+    }
+    if (!proposal->second.empty()) {
+      wire::SimulateRequest request;
+      request.request_id = fmt::format("analyser/r{}/films", proposal->first);
+      request.toughness = request.crack = request.film = true;
+      request.fidelity = scenario_.fidelity;
+      request.parameters = game::material_side(model->second.parameters);
+      request.designs = proposal->second;
+      ask(request);
+    }
+    proposal = unfilmed_.erase(proposal);
   }
 }
 
 void AnalyserCore::accept_answer(const wire::SimulateResult& part) {
   const auto open = open_answers_.find(part.request_id);
   if (open == open_answers_.end()) return;
-  open->second.insert(part.chunk);
-  if (static_cast<int>(open->second.size()) == part.chunks) open_answers_.erase(open);
+  OpenAnswer& answer = open->second;
+  answer.chunks = static_cast<std::size_t>(part.chunks);
+  answer.chunk.insert(part.chunk);
+  for (std::size_t i = 0; i < part.results.size(); ++i)
+    if (part.results[i].failure.empty()) answer.broke.insert(static_cast<std::size_t>(part.first) + i);
+  close_when_complete(part.request_id);
+}
+
+void AnalyserCore::accept_fracture(const wire::Fracture& fracture) {
+  const auto open = open_answers_.find(fracture.request_id);
+  if (open == open_answers_.end()) return;
+  open->second.fracture.insert(static_cast<std::size_t>(fracture.design_index));
+  close_when_complete(fracture.request_id);
+}
+
+void AnalyserCore::close_when_complete(const std::string& request_id) {
+  const auto open = open_answers_.find(request_id);
+  const OpenAnswer& answer = open->second;
+  const bool numbers = answer.chunks > 0 && answer.chunk.size() == answer.chunks;
+  if (numbers && (!answer.with_fractures || answer.fracture.size() >= answer.broke.size())) open_answers_.erase(open);
 }
 
 void AnalyserCore::report_when_ready() {

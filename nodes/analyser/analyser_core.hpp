@@ -19,7 +19,8 @@ inline constexpr int kCurvePoints = 64;
 
 /// Keeps every message of the game in run.db (Compute kind "store"), answers DIAGNOSE with DIAGNOSIS (kind "diagnose")
 /// once all measurements meant have arrived, asks the farm at the end of each round what the round's model says about
-/// the measured designs, and then has the report written (kind "report"). See works.hpp.
+/// the measured designs, and of proposed designs how they break (films in RUN/films), and then has the report written
+/// (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
   AnalyserCore(const game::Scenario& scenario, double numerics_sd_log_modulus);
@@ -31,11 +32,15 @@ class AnalyserCore : public runtime::NodeCore {
   void accept_work(const runtime::WorkDone& work);
   void accept_question(const wire::DiagnoseRequest& request);
   void accept_answer(const wire::SimulateResult& part);
+  void accept_fracture(const wire::Fracture& fracture);
   void store(const std::string& channel, const std::string& payload);
   void diagnose_when_complete();
   void close_round(const wire::RoundSummary& round);
   std::vector<pattern::Design> measured_designs() const;
   void ask_about_measured_designs();
+  void ask_for_films();
+  void ask(const wire::SimulateRequest& request);
+  void close_when_complete(const std::string& request_id);
   void report_when_ready();
 
   game::Scenario scenario_;
@@ -50,8 +55,18 @@ class AnalyserCore : public runtime::NodeCore {
   std::set<std::string> storing_;  // ids of "store" work in progress
   std::set<int> closed_;           // rounds
   std::set<int> unasked_;          // closed rounds whose model has not been asked about the measured designs
-  std::map<std::string, std::set<int>> open_answers_;  // request id -> chunks that have come
-  std::optional<int> report_due_;                      // round
+  std::set<int> proposed_;         // rounds
+  std::map<int, std::vector<pattern::Design>> unfilmed_;  // proposals whose films have not been asked for, by round
+  /// What has come of the answer to a request.
+  struct OpenAnswer {
+    bool with_fractures = false;
+    std::size_t chunks = 0;  ///< in all; 0 before the first has come
+    std::set<int> chunk;
+    std::set<std::size_t> broke;     ///< designs that a FRACTURE is sent for
+    std::set<std::size_t> fracture;  ///< designs whose FRACTURE has come
+  };
+  std::map<std::string, OpenAnswer> open_answers_;  // by request id
+  std::optional<int> report_due_;                   // round
   bool reporting_ = false;
   int reports_ = 0;
   int round_ = 0;

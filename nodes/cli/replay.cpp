@@ -65,7 +65,8 @@ runtime::NodeProgram make_node(const std::string& node, const game::Scenario& sc
   if (node == "simulator_farm") {
     return {
         .core = simulator_farm::make_core(scenario),
-        .work = simulator_farm::work_functions(std::make_shared<store::SimulationCache>(scratch / "simulations.db"))};
+        .work = simulator_farm::work_functions(std::make_shared<store::SimulationCache>(scratch / "simulations.db"),
+                                                scratch / "films")};
   }
   return make_laboratory(scenario);
 }

@@ -11,13 +11,6 @@
 namespace nacre::simulator_farm {
 namespace {
 
-// Asking an answered question again for its curve: the cache has it, nothing is simulated twice.
-constexpr std::string_view kCurveSuffix = "/curve";
-
-bool wants_curve(const wire::SimulateRequest& request, tester::TestKind test) {
-  return request.curve_points > 0 && test == tester::TestKind::toughness;
-}
-
 void warn(runtime::Outputs& outputs, std::string text) {
   outputs.log.push_back({runtime::LogLevel::warning, std::move(text)});
 }
@@ -59,17 +52,16 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   if (open_requests_ == 0) asked_ = answered_ = 0;
   for (const pattern::Design& design : request.designs) {
     for (tester::TestKind test : tests_of(request)) {
-      const bool with_curve = wants_curve(request, test);
+      const Extras wanted = wanted_extras(request, test);
       const std::string key = tester::simulation_key(simulation_of(request, design), test);
       Question& question = questions_[key];
-      const bool curve_is_there = question.with_curve && !question.running;
-      if (question.answered && (!with_curve || curve_is_there || !question.answer.failure.empty())) continue;
+      if (question.suffices(wanted)) continue;
       question.test = test;
       // A design that stands twice in the request waits twice and is settled twice.
       question.waiting.push_back(request.request_id);
       ++entry.missing;
       ++asked_;
-      if (!question.running) launch(key, question_of(request, design, test, with_curve), outputs);
+      if (!question.running) launch(key, request, design, wanted, outputs);
     }
   }
   if (entry.missing == 0) {
@@ -79,36 +71,36 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   }
 }
 
-void FarmCore::launch(const std::string& key, const wire::SimulateRequest& question, runtime::Outputs& outputs) {
-  Question& entry = questions_[key];
-  entry.running = true;
-  entry.with_curve = question.curve_points > 0;
-  outputs.computes.push_back({.id = entry.answered ? fmt::format("{}{}", key, kCurveSuffix) : key,
+void FarmCore::launch(const std::string& key, const wire::SimulateRequest& request, const pattern::Design& design,
+                      const Extras& wanted, runtime::Outputs& outputs) {
+  Question& question = questions_[key];
+  question.running = true;
+  question.computing = question.has | wanted;
+  // Asking an answered question again for more of it: the cache has the numbers, nothing is simulated twice for them.
+  outputs.computes.push_back({.id = question.answered ? fmt::format("{}/{}", key, to_string(question.computing)) : key,
                               .kind = "simulate",
-                              .spec = wire::write(question)});
+                              .spec = wire::write(question_of(request, design, question.test, question.computing))});
 }
 
 void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) {
-  std::string_view key = work.id;
-  if (key.ends_with(kCurveSuffix)) key.remove_suffix(kCurveSuffix.size());
-  const auto position = questions_.find(std::string(key));
-  auto result = wire::read<wire::SimulateResult>(work.result);
-  if (position == questions_.end() || !result || result->results.size() != 1) {
+  const auto position = questions_.find(work.id.substr(0, work.id.find('/')));
+  auto result = read_answer(work.result);
+  if (position == questions_.end() || !result) {
     return warn(outputs, fmt::format("the result of {} is ignored: {}", work.id,
                                      result ? "nobody asked for it" : result.error().message));
   }
   Question& question = position->second;
   question.answered = true;
   question.running = false;
-  question.answer = std::move(result->results.front());
+  question.has = question.computing;
+  question.answer = *std::move(result);
   const std::vector<std::string> waiting = std::exchange(question.waiting, {});
   for (const std::string& id : waiting) {
     Request& request = requests_.at(id);
-    if (wants_curve(request.request, question.test) && !question.with_curve && question.answer.failure.empty()) {
+    const Extras wanted = wanted_extras(request.request, question.test);
+    if (!question.suffices(wanted)) {
       question.waiting.push_back(id);
-      if (!question.running) {
-        launch(position->first, question_of(request.request, question.answer.design, question.test, true), outputs);
-      }
+      if (!question.running) launch(position->first, request.request, question.answer.design.design, wanted, outputs);
       continue;
     }
     ++answered_;
@@ -119,12 +111,20 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
   }
 }
 
+bool FarmCore::Question::suffices(const Extras& wanted) const {
+  return answered && (!answer.design.failure.empty() || has.covers(wanted));
+}
+
+const FarmCore::Question& FarmCore::question(const wire::SimulateRequest& request, const pattern::Design& design,
+                                             tester::TestKind test) const {
+  return questions_.at(tester::simulation_key(simulation_of(request, design), test));
+}
+
 wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, const pattern::Design& design) const {
   wire::SimulatedDesign whole;
   whole.design = design;
   for (tester::TestKind test : tests_of(request)) {
-    const wire::SimulatedDesign& part =
-        questions_.at(tester::simulation_key(simulation_of(request, design), test)).answer;
+    const wire::SimulatedDesign& part = question(request, design, test).answer.design;
     if (!part.failure.empty()) {
       wire::SimulatedDesign failed;
       failed.design = design;
@@ -154,11 +154,23 @@ void FarmCore::answer(const wire::SimulateRequest& request, runtime::Outputs& ou
   for (const wire::SimulateResult& part : wire::simulate_answer(request.request_id, results)) {
     outputs.messages.push_back({"SIMULATED", wire::write(part)});
   }
+  if (!wanted_extras(request, tester::TestKind::toughness).fracture() || !request.toughness) return;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i].failure.empty()) continue;
+    std::optional<wire::Fracture> fracture =
+        question(request, request.designs[i], tester::TestKind::toughness).answer.fracture;
+    if (!fracture) continue;
+    fracture->request_id = request.request_id;
+    fracture->design_index = static_cast<int>(i);
+    if (!request.film) fracture->film.clear();  // the answer does not depend on what others asked
+    outputs.messages.push_back({"FRACTURE", wire::write(*fracture)});
+  }
 }
 
 runtime::Status FarmCore::status() const {
   if (open_requests_ == 0) {
-    return {.phase = game_over_ ? "the game is over" : "idle", .round = round_, .progress = -1.0, .finished = game_over_};
+    return {
+        .phase = game_over_ ? "the game is over" : "idle", .round = round_, .progress = -1.0, .finished = game_over_};
   }
   return {.phase = fmt::format("simulating {} of {}", answered_, asked_),
           .round = round_,

@@ -8,6 +8,7 @@
 
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
+#include "simulator_farm/question.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {
@@ -16,9 +17,9 @@ namespace nacre::simulator_farm {
 inline constexpr int kCurvePoints = 256;
 
 /// SIMULATE in, one Compute (kind "simulate", see simulate_work.hpp) per question that nobody has asked yet, SIMULATED
-/// out when all questions of a request are answered. A question is one design, one test, one set of parameters and
-/// conditions; its simulation_key is the id of its Compute. Equal questions of different requests are computed once.
-/// Computes are handed out in the order of the requests.
+/// out when all questions of a request are answered, and a FRACTURE per design where crack or film was asked for. A
+/// question is one design, one test, one set of parameters and conditions; its simulation_key is the id of its Compute.
+/// Equal questions of different requests are computed once. Computes are handed out in the order of the requests.
 class FarmCore : public runtime::NodeCore {
  public:
   runtime::Outputs step(const runtime::Input& input) override;
@@ -29,9 +30,11 @@ class FarmCore : public runtime::NodeCore {
     tester::TestKind test = tester::TestKind::modulus;
     bool answered = false;
     bool running = false;
-    bool with_curve = false;  ///< the running or finished simulation was asked for its curve
-    wire::SimulatedDesign answer;
+    Extras has, computing;  ///< of the answer, and of the one that is being computed
+    Answer answer;
     std::vector<std::string> waiting;  ///< request ids, in the order of asking
+    /// Whether the answer is there and holds what is wanted (a failure has nothing to add).
+    bool suffices(const Extras& wanted) const;
   };
   struct Request {
     wire::SimulateRequest request;
@@ -40,7 +43,10 @@ class FarmCore : public runtime::NodeCore {
 
   void accept(const std::string& payload, runtime::Outputs& outputs);
   void settle(const runtime::WorkDone& work, runtime::Outputs& outputs);
-  void launch(const std::string& key, const wire::SimulateRequest& question, runtime::Outputs& outputs);
+  void launch(const std::string& key, const wire::SimulateRequest& request, const pattern::Design& design,
+              const Extras& wanted, runtime::Outputs& outputs);
+  const Question& question(const wire::SimulateRequest& request, const pattern::Design& design,
+                           tester::TestKind test) const;
   void answer(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
   wire::SimulatedDesign assembled(const wire::SimulateRequest& request, const pattern::Design& design) const;
 

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
       cache_file = std::filesystem::absolute(options.run_dir).lexically_normal() / ".." / "simulations.db";
     auto cache = std::make_shared<store::SimulationCache>(cache_file.lexically_normal());
     return runtime::NodeProgram{.core = simulator_farm::make_core(scenario),
-                                .work = simulator_farm::work_functions(std::move(cache)),
+                                .work = simulator_farm::work_functions(std::move(cache), options.run_dir / "films"),
                                 .default_threads = scenario.farm_threads};
   };
   return runtime::node_main(argc, argv, "simulator_farm", make, [&](CLI::App& app) {

@@ -1,9 +1,34 @@
 #include "simulator_farm/question.hpp"
 
+#include <utility>
+
 #include "game/model.hpp"
+#include "runtime/journal.hpp"
 #include "simulator_farm/farm_core.hpp"
 
 namespace nacre::simulator_farm {
+namespace {
+
+/// Not part of the question: equal questions are equal specs.
+constexpr const char* kRequestId = "simulator_farm/question";
+
+}  // namespace
+
+Extras operator|(const Extras& a, const Extras& b) {
+  return {.curve = a.curve || b.curve, .crack = a.crack || b.crack, .film = a.film || b.film};
+}
+
+std::string to_string(const Extras& extras) {
+  std::string text;
+  for (const auto& [wanted, name] : {std::pair{extras.curve, "curve"}, {extras.crack, "crack"}, {extras.film, "film"}})
+    if (wanted) text += (text.empty() ? "" : "+") + std::string(name);
+  return text;
+}
+
+Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test) {
+  if (test != tester::TestKind::toughness) return {};
+  return {.curve = request.curve_points > 0, .crack = request.crack, .film = request.film};
+}
 
 tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design) {
   return {design, game::material_side(request.parameters), request.conditions, request.fidelity};
@@ -17,15 +42,42 @@ std::vector<tester::TestKind> tests_of(const wire::SimulateRequest& request) {
 }
 
 wire::SimulateRequest question_of(const wire::SimulateRequest& request, const pattern::Design& design,
-                                  tester::TestKind test, bool with_curve) {
+                                  tester::TestKind test, const Extras& extras) {
   wire::SimulateRequest question = request;
-  question.request_id = "simulator_farm/question";  // not part of the question: equal questions are equal specs
+  question.request_id = kRequestId;
   question.modulus = test == tester::TestKind::modulus;
   question.toughness = test == tester::TestKind::toughness;
-  question.curve_points = with_curve ? kCurvePoints : 0;
+  question.curve_points = extras.curve ? kCurvePoints : 0;
+  question.crack = extras.crack;
+  question.film = extras.film;
   question.parameters = simulation_of(request, design).parameters;
   question.designs = {design};
   return question;
+}
+
+std::string write_answer(const Answer& answer) {
+  const std::string numbers = wire::write(
+      wire::SimulateResult{.request_id = kRequestId, .chunk = 0, .chunks = 1, .first = 0, .results = {answer.design}});
+  if (!answer.fracture) return numbers;
+  wire::Fracture fracture = *answer.fracture;
+  fracture.request_id = kRequestId;
+  return runtime::pack({numbers, wire::write(fracture)});
+}
+
+Result<Answer> read_answer(const std::string& bytes) {
+  std::string numbers = bytes;
+  Answer answer;
+  if (const auto fields = runtime::unpack(bytes); fields && fields->size() == 2) {
+    auto fracture = wire::read<wire::Fracture>((*fields)[1]);
+    if (!fracture) return tl::unexpected(fracture.error());
+    answer.fracture = *std::move(fracture);
+    numbers = (*fields)[0];
+  }
+  auto result = wire::read<wire::SimulateResult>(numbers);
+  if (!result) return tl::unexpected(result.error());
+  if (result->results.size() != 1) return fail("{} designs answer one question", result->results.size());
+  answer.design = std::move(result->results.front());
+  return answer;
 }
 
 }  // namespace nacre::simulator_farm

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "crack/crack_record.hpp"
+#include "film/film_file.hpp"
 #include "material/parameters.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/question.hpp"
@@ -54,6 +56,23 @@ wire::SimulatedDesign made_up(const wire::SimulateRequest& question) {
     }
   }
   return answer;
+}
+
+wire::Fracture made_up_fracture(const wire::SimulateRequest& question) {
+  wire::Fracture fracture;
+  fracture.design = question.designs.front();
+  fracture.crack = {.columns = 10, .rows = 10, .order = {{7, 0.25}}, .path = std::nullopt, .branches = 3};
+  fracture.broken = 1;
+  if (question.film) fracture.film = "some.film";
+  return fracture;
+}
+
+/// Like done(), for questions with crack or film.
+runtime::WorkDone broken(const Compute& compute) {
+  const auto question = wire::read<wire::SimulateRequest>(compute.spec).value();
+  Answer answer{made_up(question), std::nullopt};
+  if (question.crack || question.film) answer.fracture = made_up_fracture(question);
+  return {compute.id, write_answer(answer)};
 }
 
 runtime::WorkDone done(const Compute& compute) {
@@ -192,6 +211,48 @@ TEST(SimulatorFarm, EffectsOfTheTestingMachineAreNoQuestionForTheSimulator) {
   EXPECT_THAT(ask(farm, observed).computes, IsEmpty());
 }
 
+TEST(SimulatorFarm, FracturesGoToThoseWhoAskedForThem) {
+  FarmCore farm;
+  auto plain = request("a/1", {kRigid, kSoft});
+  plain.modulus = false;
+  const auto first = ask(farm, plain).computes;
+  ASSERT_THAT(first, SizeIs(2));
+  auto crack = request("b/1", {kSoft, kRigid});
+  crack.modulus = false;
+  crack.crack = true;
+  auto film = request("c/1", {kRigid});
+  film.modulus = false;
+  film.film = true;
+  EXPECT_THAT(ask(farm, crack).computes, IsEmpty())
+      << "the simulations are running; what is missing is asked afterwards";
+  EXPECT_THAT(ask(farm, film).computes, IsEmpty());
+  std::vector<Compute> open = first;
+  std::map<std::string, std::vector<wire::Fracture>> fractures;
+  std::set<std::string> ids, answered;
+  while (!open.empty()) {
+    const Compute compute = open.back();
+    open.pop_back();
+    EXPECT_TRUE(ids.insert(compute.id).second) << "one id, one question: " << compute.id;
+    const Outputs outputs = farm.step(broken(compute));
+    open.insert(open.end(), outputs.computes.begin(), outputs.computes.end());
+    for (const Message& message : outputs.messages) {
+      if (message.channel == "SIMULATED")
+        answered.insert(wire::read<wire::SimulateResult>(message.payload)->request_id);
+      else if (const auto fracture = wire::read<wire::Fracture>(message.payload).value(); message.channel == "FRACTURE")
+        fractures[fracture.request_id].push_back(fracture);
+    }
+  }
+  EXPECT_EQ(answered, (std::set<std::string>{"a/1", "b/1", "c/1"}));
+  EXPECT_EQ(fractures.count("a/1"), 0u);
+  ASSERT_THAT(fractures["b/1"], SizeIs(2));
+  EXPECT_EQ(fractures["b/1"][0].design, kSoft);
+  EXPECT_EQ(fractures["b/1"][1].design, kRigid);
+  EXPECT_EQ(fractures["b/1"][1].design_index, 1);
+  EXPECT_EQ(fractures["b/1"][1].film, "") << "whatever others asked";
+  ASSERT_THAT(fractures["c/1"], SizeIs(1));
+  EXPECT_EQ(fractures["c/1"][0].film, "some.film");
+}
+
 TEST(SimulatorFarm, ForeignBytesChangeNothing) {
   FarmCore farm;
   EXPECT_THAT(farm.step(Message{"SIMULATE", "rubbish"}).log, SizeIs(1));
@@ -208,11 +269,11 @@ class SimulateWork : public testing::Test {
 
 TEST_F(SimulateWork, TheSameQuestionIsSimulatedOnceEvenByTwoFarms) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
-  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, false);
-  const std::string first = work_functions(cache).at("simulate")(wire::write(question));
+  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
+  const std::string first = work_functions(cache, folder_ / "films").at("simulate")(wire::write(question));
   EXPECT_EQ(cache->size(), 1);
   auto second_cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
-  EXPECT_EQ(work_functions(second_cache).at("simulate")(wire::write(question)), first);
+  EXPECT_EQ(work_functions(second_cache, folder_ / "films").at("simulate")(wire::write(question)), first);
   EXPECT_EQ(cache->size(), 1);
   const auto result = wire::read<wire::SimulateResult>(first);
   ASSERT_TRUE(result);
@@ -222,14 +283,52 @@ TEST_F(SimulateWork, TheSameQuestionIsSimulatedOnceEvenByTwoFarms) {
 TEST_F(SimulateWork, ToughnessAndCurveAgree) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const pattern::Design design = pattern::Pattern(0x577fffe9fffdefULL);
-  const auto question = question_of(request("a/1", {design}), design, tester::TestKind::toughness, true);
-  const auto result = wire::read<wire::SimulateResult>(work_functions(cache).at("simulate")(wire::write(question)));
+  const auto question = question_of(request("a/1", {design}), design, tester::TestKind::toughness, {.curve = true});
+  const auto result =
+      wire::read<wire::SimulateResult>(work_functions(cache, folder_ / "films").at("simulate")(wire::write(question)));
   ASSERT_TRUE(result);
   const wire::SimulatedDesign& answer = result->results.front();
   ASSERT_EQ(answer.failure, "");
   ASSERT_THAT(answer.curve.strain, SizeIs(kCurvePoints));
   // The tester records so densely that the area is right to 0.1 %.
   EXPECT_NEAR(tester::area_under(answer.curve), answer.toughness_pa, 1e-3 * answer.toughness_pa);
+}
+
+TEST_F(SimulateWork, AFilmIsMadeOnceAndTheCrackIsThatOfTheTest) {
+  auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
+  const pattern::Design design = pattern::Pattern(0x577fffe9fffdefULL);
+  const auto plain = question_of(request("a/1", {design}), design, tester::TestKind::toughness, {});
+  const auto filmed = question_of(request("a/1", {design}), design, tester::TestKind::toughness, {.film = true});
+  const auto work = work_functions(cache, folder_ / "films").at("simulate");
+  EXPECT_FALSE(read_answer(work(wire::write(plain)))->fracture) << "nobody asked";
+  const std::string bytes = work(wire::write(filmed));
+  const Answer answer = read_answer(bytes).value();
+  ASSERT_TRUE(answer.fracture);
+  const tester::Simulation simulation = simulation_of(filmed, design);
+  const auto tested = tester::test_toughness(simulation).value();
+  EXPECT_EQ(answer.fracture->broken, static_cast<int>(tested.breaks.size()));
+  EXPECT_EQ(answer.fracture->crack.path, crack::record_of(simulation, tested.breaks).path);
+  const auto file = folder_ / "films" / answer.fracture->film;
+  const film::Film film = film::read_film(file);
+  EXPECT_EQ(film.design, design.name());
+  EXPECT_EQ(film.crack, answer.fracture->crack);
+  EXPECT_EQ(film.frames.size(), static_cast<std::size_t>(film::kFrames));
+  const auto written = std::filesystem::last_write_time(file);
+  EXPECT_EQ(work(wire::write(filmed)), bytes);
+  EXPECT_EQ(std::filesystem::last_write_time(file), written) << "it is there already";
+  EXPECT_EQ(cache->size(), 1);
+}
+
+TEST_F(SimulateWork, AFailedSimulationHasNoFracture) {
+  auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
+  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::toughness, {.crack = true});
+  store::CachedSimulation failed;
+  failed.failure = "J <= 0";
+  cache->insert(tester::simulation_key(simulation_of(question, kMixed), tester::TestKind::toughness), failed);
+  const Answer answer =
+      read_answer(work_functions(cache, folder_ / "films").at("simulate")(wire::write(question))).value();
+  EXPECT_EQ(answer.design.failure, "J <= 0");
+  EXPECT_FALSE(answer.fracture);
 }
 
 }  // namespace

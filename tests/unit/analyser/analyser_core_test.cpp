@@ -103,6 +103,55 @@ std::vector<std::string> answers_to(const Message& request) {
   return payloads;
 }
 
+std::string proposal_of(int round, std::vector<std::uint64_t> patterns) {
+  wire::Proposal proposal;
+  proposal.round = round;
+  for (const std::uint64_t bits : patterns)
+    proposal.designs.push_back(
+        {.design = pattern::Pattern(bits), .modulus_pa = 1e9, .toughness_pa = 1e5, .bin = 0, .reason = "bin"});
+  return wire::write(proposal);
+}
+
+TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
+  Watched analyser;
+  analyser.hear("PROPOSAL", proposal_of(1, {5, 6}));
+  EXPECT_THAT(analyser.sent_on("SIMULATE"), IsEmpty()) << "the model is still on its way";
+  analyser.hear("PARAMETERS", model_of(1));
+  ASSERT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
+  const Message request = analyser.sent_on("SIMULATE").front();
+  const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
+  EXPECT_TRUE(asked.film && asked.crack && asked.toughness && !asked.modulus);
+  EXPECT_THAT(asked.designs, ElementsAre(pattern::Pattern(5), pattern::Pattern(6)));
+  analyser.hear("PROPOSAL", proposal_of(1, {5, 6}));
+  analyser.hear("ROUND", round_of(1, false));
+  EXPECT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1)) << "once";
+
+  for (const std::string& answer : answers_to(request)) analyser.hear("SIMULATED", answer);
+  for (const int index : {1, 0}) {
+    analyser.finish_stores();
+    EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "how a design breaks has not come";
+    wire::Fracture fracture{.request_id = asked.request_id,
+                            .design_index = index,
+                            .design = asked.designs[static_cast<std::size_t>(index)],
+                            .crack = {},
+                            .broken = 0,
+                            .film = "a.film"};
+    fracture.crack.columns = fracture.crack.rows = 40;
+    fracture.film = "a.film";
+    analyser.hear("FRACTURE", wire::write(fracture));
+  }
+  analyser.finish_stores();
+  EXPECT_THAT(analyser.ids("report"), SizeIs(1));
+}
+
+TEST(Analyser, TinySpecimensAreNotFilmed) {
+  game::Scenario scenario;
+  scenario.fidelity = tester::Fidelity::tiny;
+  AnalyserCore core(scenario, 0.006);
+  (void)core.step(Message{"PARAMETERS", model_of(1)});
+  EXPECT_THAT(core.step(Message{"PROPOSAL", proposal_of(1, {5, 6})}).messages, IsEmpty());
+}
+
 TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
   Watched analyser;
   analyser.hear("MEASUREMENT", measurement_of("a", 5));

@@ -82,6 +82,32 @@ TEST_F(SimulationCacheFile, ThreadsAndASecondConnectionWriteSideBySide) {
   EXPECT_EQ(second.find("key 101"), kAnswer);
 }
 
+TEST_F(SimulationCacheFile, BreaksAreKeptBesideTheAnswer) {
+  SimulationCache cache(path_);
+  cache.insert("key", kAnswer);
+  EXPECT_EQ(cache.find_breaks("key"), std::nullopt) << "they were not asked for";
+  const std::vector<tester::Break> breaks = {{31'999, 0.25}, {7, 0.5}};
+  cache.insert_breaks("key", breaks);
+  cache.insert_breaks("key", {});
+  cache.insert_breaks("unbroken", {});
+  EXPECT_EQ(SimulationCache(path_).find_breaks("key"), breaks);
+  EXPECT_EQ(cache.find_breaks("unbroken"), std::vector<tester::Break>{});
+  EXPECT_EQ(cache.find("key"), kAnswer);
+}
+
+TEST_F(SimulationCacheFile, AnOlderFileKeepsItsAnswers) {
+  SimulationCache(path_).insert("key", kAnswer);
+  {
+    SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+    database.exec("DROP TABLE breaks");
+    database.exec("PRAGMA user_version = 1");
+  }
+  SimulationCache cache(path_);
+  EXPECT_EQ(cache.find("key"), kAnswer);
+  cache.insert_breaks("key", {{1, 0.5}});
+  EXPECT_TRUE(cache.find_breaks("key"));
+}
+
 TEST_F(SimulationCacheFile, AFileThatIsNoDatabaseIsRefusedByNameWithARemedy) {
   std::filesystem::create_directories(folder_);
   std::ofstream(path_) << std::string(5000, 'x');
