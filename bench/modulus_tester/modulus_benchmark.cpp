@@ -37,7 +37,7 @@ void assembly(benchmark::State& state) {
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond);
 
-/// The factorisation of the full specimen by itself, held as in the tester but for one unknown.
+/// The factorisation of the full specimen by itself, held as in the tester.
 struct Factorisation {
   Factorisation() {
     const tester::Simulation simulation = published(tester::Fidelity::full);
