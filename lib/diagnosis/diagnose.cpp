@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "base/files.hpp"
 #include "base/result.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/verdict.hpp"
-
-#include <toml++/toml.h>
 
 namespace nacre::diagnosis {
 namespace {
@@ -100,10 +98,16 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
   const Eigen::VectorXd variances = observations.covariance().diagonal();
+  const auto with_numerics = [&](const Fit& fit) -> Eigen::VectorXd {
+    std::vector<Eigen::Index> all(static_cast<std::size_t>(observations.size()));
+    std::iota(all.begin(), all.end(), 0);
+    return fit.predicted + observations.shared_numerics(observations.log_moduli() - fit.predicted, all);
+  };
+  const Eigen::VectorXd base_log = with_numerics(base), extended_log = with_numerics(extended);
   std::vector<ResidualRow> rows;
   for (int i = 0; i < observations.size(); ++i) {
     const Observation& g = observations.groups[static_cast<std::size_t>(i)];
-    rows.push_back({g.design.name(), g.conditions.orientation_deg, std::exp(g.log_modulus), std::exp(base.predicted[i]), std::exp(extended.predicted[i]), std::sqrt(variances[i])});
+    rows.push_back({g.design.name(), g.conditions.orientation_deg, std::exp(g.log_modulus), std::exp(base_log[i]), std::exp(extended_log[i]), std::sqrt(variances[i])});
   }
   return rows;
 }
@@ -138,16 +142,17 @@ std::string_view to_string(Verdict verdict) {
 }
 
 Diagnosis diagnose_modulus(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
-  const Observations observations = observe_moduli(specimens, settings.numerics_sd_log_modulus);
-  if (observations.size() < kLeastGroups) {
-    throw InputError::format("a diagnosis of the modulus needs at least {} designs with a valid modulus, there are {}", kLeastGroups, observations.size());
+  const Observations measured = observe_moduli(specimens, settings.floor.log_modulus_sd);
+  if (measured.size() < kLeastGroups) {
+    throw InputError::format("a diagnosis of the modulus needs at least {} designs with a valid modulus, there are {}", kLeastGroups, measured.size());
   }
   if (settings.bootstraps * settings.name_level < 2.0) {
     throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}", settings.bootstraps, settings.name_level,
                              std::ceil(2.0 / settings.name_level));
   }
-  const ModulusModel model(observations.groups, settings.fidelity);
-  const Evidence evidence = gather_evidence(model, observations, settings);
+  const ModulusModel model(measured.groups, settings.fidelity);
+  const Evidence evidence = gather_evidence(model, measured, settings);
+  const Observations& observations = evidence.observations;
   const Decision decision = decide(evidence);
 
   Diagnosis diagnosis;
@@ -156,6 +161,7 @@ Diagnosis diagnose_modulus(const std::vector<measurement::SpecimenRecord>& speci
   diagnosis.contrasts = decision.contrasts;
   diagnosis.replicate_sd = observations.replicate_sd;
   diagnosis.numerics_sd = observations.numerics_sd;
+  diagnosis.numerics_shared_sd = observations.numerics_shared.norm() / std::sqrt(observations.size());
   diagnosis.noise_known = observations.replicate_dof > 0;
   diagnosis.base_fit = evidence.base.fit.parameters.modulus;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) diagnosis.candidates.push_back(candidate_of(evidence, decision, k));
@@ -174,22 +180,6 @@ Diagnosis diagnose_modulus(const std::vector<measurement::SpecimenRecord>& speci
   if (!diagnosis.noise_known) diagnosis.summary += " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
   if (settings.progress) settings.progress(1.0, "done");
   return diagnosis;
-}
-
-double read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity) {
-  const std::string text = read_file(file);
-  const toml::parse_result table = [&] {
-    try {
-      return toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
-  }();
-  const auto value = table[tester::to_string(fidelity)]["log_modulus_sd"].value<double>();
-  if (!value || !(*value >= 0.0) || *value > 1.0) {
-    throw InputError::format("{}: expected [{}] log_modulus_sd, a number between 0 and 1", file.string(), tester::to_string(fidelity));
-  }
-  return *value;
 }
 
 }  // namespace nacre::diagnosis

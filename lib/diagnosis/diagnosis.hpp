@@ -1,13 +1,13 @@
 #pragma once
 // What a diagnosis answers (docs/METHODS.md, "Diagnosis"), and how to ask for one.
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "diagnosis/modulus_floor.hpp"
 #include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
@@ -70,7 +70,8 @@ struct NextExperiment {
 struct ResidualRow {
   std::string design;
   double orientation_deg = 0.0;
-  double measured_pa = 0.0, base_pa = 0.0, extended_pa = 0.0;
+  double measured_pa = 0.0;
+  double base_pa = 0.0, extended_pa = 0.0;  ///< with what numerics are found to leave along the shared directions
   double standard_error = 0.0;  ///< of log E, replicates and numerics together
 };
 
@@ -84,7 +85,8 @@ struct Diagnosis {
   std::vector<NextExperiment> next_experiments;
   double p_misfit = 1.0;              ///< omnibus: chance of a base misfit as large
   double replicate_sd = 0.0;          ///< pooled standard deviation of log E
-  double numerics_sd = 0.0;           ///< floor of two numerics, log E
+  double numerics_sd = 0.0;           ///< what numerics leave of log E: independent part, per layout
+  double numerics_shared_sd = 0.0;    ///< and along the directions that all layouts share, root mean square over groups
   bool noise_known = true;            ///< false: no replicates, relative statements only
   material::ModulusParameters base_fit;
   material::ParameterSet extended_fit;  ///< base parameters and extension of the named model; base fit otherwise
@@ -96,7 +98,7 @@ struct DiagnosisSettings {
   tester::Fidelity fidelity = tester::Fidelity::full;
   int bootstraps = 2000;             ///< at least 2 / name_level: fewer could never reach the level
   std::uint64_t seed = 1;
-  double numerics_sd_log_modulus = 0.0;  ///< from data/numerics_floor.toml
+  ModulusFloor floor;                ///< from data/numerics_floor.toml
   double name_level = 0.003;         ///< family-wise level of a name
   double unexplained_level = 0.01;   ///< level of a misfit without a name
   /// Called now and then with the share of the work done (0..1) and what is being done.
@@ -106,9 +108,6 @@ struct DiagnosisSettings {
 /// Diagnoses the modulus side of a set of specimens. Throws InputError when fewer than eight groups of specimens have a valid
 /// modulus (six base parameters are refitted), or when there are too few bootstraps for the level of a name.
 Diagnosis diagnose_modulus(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
-
-/// Reads the standard deviation of log E that two numerics leave after a base refit, for a fidelity. Throws InputError.
-double read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity);
 
 /// The JSON document of `nacre diagnose --json`.
 std::string to_json(const Diagnosis& diagnosis);

@@ -6,6 +6,8 @@
 namespace nacre::diagnosis {
 namespace {
 
+/// How often the directions of the numerics are computed anew at models fitted with them.
+constexpr int kMeshPasses = 2;
 /// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is needed.
 constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
 
@@ -52,6 +54,43 @@ Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
   return best;
 }
 
+/// Shares of the whole work between which a step lies.
+struct Stretch {
+  double begin = 0.0, end = 1.0;
+};
+
+/// Base and every single effect, fitted to the observations of the evidence.
+void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
+  const auto report = [&](double share, std::string_view phase) {
+    if (evidence.settings.progress) evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
+  };
+  report(0.0, "fitting the base model");
+  evidence.base.fit = fit_model(evidence.model, evidence.observations, {}, start);
+  report(0.3, "signatures of the effects");
+  evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
+  evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
+  evidence.singles.clear();
+  for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
+    report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()), "fitting base and " + evidence.effects[k]);
+    evidence.singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, best_start(evidence, k)));
+  }
+}
+
+/// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the material true: each
+/// direction with a factor of its own, because an effect that smooths or sharpens a layout changes what its elements cost.
+void share_numerics(Evidence& evidence) {
+  const double amplitude = evidence.settings.floor.mesh_amplitude;
+  std::vector<Eigen::VectorXd> directions = {amplitude * evidence.model.mesh_change(evidence.base.fit.parameters)};
+  for (const Fit& single : evidence.singles) {
+    if (material::find_effect(single.effects.front())->side != material::EffectSide::material) continue;
+    directions.push_back(amplitude * evidence.model.mesh_change(single.parameters) - directions.front());
+  }
+  Eigen::MatrixXd& shared = evidence.observations.numerics_shared;
+  shared.resize(evidence.observations.size(), static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t k = 0; k < directions.size(); ++k) shared.col(static_cast<Eigen::Index>(k)) = directions[k];
+  evidence.observations.numerics_sd = evidence.settings.floor.mesh_remainder_sd;
+}
+
 }  // namespace
 
 std::vector<Signature> signatures_on(const ModulusModel& model, const Fit& anchor, const std::vector<std::string>& effects) {
@@ -78,22 +117,16 @@ std::vector<Signature> signatures_on(const ModulusModel& model, const Fit& ancho
   return signatures;
 }
 
-Evidence gather_evidence(const ModulusModel& model, const Observations& observations, const DiagnosisSettings& settings) {
-  const auto report = [&](double share, std::string_view phase) {
-    if (settings.progress) settings.progress(share, phase);
-  };
-  Evidence evidence{model, observations, settings, {}, modulus_effects(), {}, {}, {}};
-  report(0.0, "fitting the base model");
+Evidence gather_evidence(const ModulusModel& model, const Observations& measured, const DiagnosisSettings& settings) {
+  Evidence evidence{model, measured, settings, {}, modulus_effects(), {}, {}, {}};
   const CoordinateMap map(std::span<const std::string>{});
-  evidence.base.fit = fit_model(model, observations, {}, map.coordinates(settings.start.modulus));
-  report(0.2, "signatures of the effects");
-  evidence.base.signatures = signatures_on(model, evidence.base.fit, evidence.effects);
-  evidence.base.directions = contrast_directions(observations, evidence.base.fit.predicted);
-  for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
-    report(0.35 + 0.35 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()), "fitting base and " + evidence.effects[k]);
-    evidence.singles.push_back(fit_model(model, observations, {evidence.effects[k]}, best_start(evidence, k)));
+  const int passes = settings.floor.mesh_amplitude > 0.0 ? 1 + kMeshPasses : 1;
+  for (int pass = 0; pass < passes; ++pass) {
+    if (pass > 0) share_numerics(evidence);
+    fit_models(evidence, pass == 0 ? map.coordinates(settings.start.modulus) : evidence.base.fit.u, {0.7 * pass / passes, 0.7 * (pass + 1) / passes});
   }
-  report(0.7, "bootstrap of the base model");
+  const Observations& observations = evidence.observations;
+  if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
   evidence.base_statistics = anchor_statistics(evidence.base, {observations.log_moduli(), Whitener(observations.covariance())});
   evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
   return evidence;

@@ -35,6 +35,13 @@ Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::
   return result;
 }
 
+/// log E of all groups by a model refitted to `rows`, with what those rows say of the numerics that all layouts share.
+Eigen::VectorXd predicted_from(const Observations& observations, const Fit& fit, const Refit& refit, const std::vector<Eigen::Index>& rows) {
+  const Eigen::VectorXd model = fit.predicted + fit.jacobian * refit.delta;
+  const Eigen::VectorXd residuals = observations.log_moduli() - model;
+  return model + observations.shared_numerics(residuals(rows), rows);
+}
+
 double reduction(const std::vector<DesignErrors>& errors, const std::vector<std::size_t>& picks) {
   double before = 0.0, after = 0.0;
   for (const std::size_t i : picks) before += errors[i].before, after += errors[i].after;
@@ -69,10 +76,11 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
       const Refit own = refit(model, train, y, whitener);
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - drop_needed) chosen = &model, chosen_refit = own;
     }
+    const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train), after = y - predicted_from(observations, *chosen, chosen_refit, train);
     for (std::size_t d = static_cast<std::size_t>(fold); d < designs.size(); d += kFolds) {
       for (const Eigen::Index row : designs[d]) {
-        errors[d].before += std::abs(y[row] - base.predicted[row] - base.jacobian.row(row).dot(plain.delta));
-        errors[d].after += std::abs(y[row] - chosen->predicted[row] - chosen->jacobian.row(row).dot(chosen_refit.delta));
+        errors[d].before += std::abs(before[row]);
+        errors[d].after += std::abs(after[row]);
         ++errors[d].groups;
       }
     }

@@ -61,6 +61,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"p_misfit", d.p_misfit},
                                  {"replicate_sd", d.replicate_sd},
                                  {"numerics_sd", d.numerics_sd},
+                                 {"numerics_shared_sd", d.numerics_shared_sd},
                                  {"noise_known", d.noise_known},
                                  {"residuals", array_of(d.residuals)}};
   return document.dump(2);

@@ -102,6 +102,17 @@ double ModulusModel::log_modulus(const Observation& group, const material::Param
   return std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
 }
 
+Eigen::VectorXd ModulusModel::mesh_change(const material::ParameterSet& set) const {
+  Eigen::VectorXd finer(static_cast<Eigen::Index>(groups_.size()));
+  parallel_for(static_cast<int>(groups_.size()), [&](int i) {
+    const Observation& group = groups_[static_cast<std::size_t>(i)];
+    const auto result = tester::test_modulus({group.design, set, group.conditions, fidelity_}, {.refinement = 2});
+    if (!result) throw std::runtime_error(fmt::format("modulus of {} at h/2: {}", group.design.name(), result.error().message));
+    finer[i] = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+  });
+  return finer - predict(set);
+}
+
 Eigen::MatrixXd ModulusModel::predict(std::span<const material::ParameterSet> sets) const {
   const int count = static_cast<int>(groups_.size());
   Eigen::MatrixXd y(count, static_cast<int>(sets.size()));

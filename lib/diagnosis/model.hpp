@@ -51,6 +51,8 @@ class ModulusModel {
   /// Predicted log E, groups x parameter sets; all cores. Throws std::runtime_error when a simulation is impossible.
   Eigen::MatrixXd predict(std::span<const material::ParameterSet> sets) const;
   Eigen::VectorXd predict(const material::ParameterSet& set) const { return predict(std::span(&set, 1)); }
+  /// log E on elements of size h/2 less log E on the tester's elements, per group; measurement side included, not remembered.
+  Eigen::VectorXd mesh_change(const material::ParameterSet& set) const;
 
  private:
   double log_modulus(const Observation& group, const material::ParameterSet& set) const;

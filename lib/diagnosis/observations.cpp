@@ -55,7 +55,15 @@ Eigen::MatrixXd Observations::covariance(double replicate_variance) const {
       if (groups[static_cast<std::size_t>(j)].design == a.design) matrix(i, j) += numerics_sd * numerics_sd;
     }
   }
+  if (numerics_shared.rows() == size()) matrix += numerics_shared * numerics_shared.transpose();
   return matrix;
+}
+
+Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& rows) const {
+  if (numerics_shared.rows() != size()) return Eigen::VectorXd::Zero(size());
+  const Eigen::MatrixXd all = covariance();
+  const Eigen::VectorXd weights = all(rows, rows).llt().solve(residuals_at_rows);
+  return numerics_shared * (numerics_shared(rows, Eigen::all).transpose() * weights);
 }
 
 Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd) {

@@ -12,7 +12,7 @@ namespace nacre::diagnosis {
 /// Everything the decision rests on: the base model, every effect (and pair, when needed) fitted jointly with it.
 struct Evidence {
   const ModulusModel& model;
-  const Observations& observations;
+  Observations observations;  ///< with what numerics leave, shared directions included
   const DiagnosisSettings& settings;
   Anchor base;
   std::vector<std::string> effects;  ///< candidates, in the order of the library
@@ -33,7 +33,8 @@ struct Decision {
   std::string reason;                   ///< the step that decided, in words
 };
 
-/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure.
+/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure. With a floor that has a common direction
+/// the fits are done first with independent layouts and again with the directions along which finer elements move these models.
 Evidence gather_evidence(const ModulusModel& model, const Observations& observations, const DiagnosisSettings& settings);
 
 /// Signatures of every effect on top of a fitted model, at several sizes each.

@@ -21,8 +21,8 @@ bool is_kept(const std::string& channel) {
 
 }  // namespace
 
-AnalyserCore::AnalyserCore(const game::Scenario& scenario, double numerics_sd_log_modulus)
-    : scenario_(scenario), numerics_sd_log_modulus_(numerics_sd_log_modulus) {}
+AnalyserCore::AnalyserCore(const game::Scenario& scenario, const diagnosis::ModulusFloor& floor)
+    : scenario_(scenario), floor_(floor) {}
 
 runtime::Outputs AnalyserCore::step(const runtime::Input& input) {
   outputs_ = {};
@@ -97,7 +97,7 @@ void AnalyserCore::diagnose_when_complete() {
                                                        .measurements = payloads,
                                                        .bootstraps = scenario_.diagnosis.bootstraps,
                                                        .seed = scenario_.seed,
-                                                       .numerics_sd_log_modulus = numerics_sd_log_modulus_})});
+                                                       .floor = floor_})});
   waiting_diagnosis_.reset();
 }
 
@@ -236,7 +236,7 @@ runtime::Status AnalyserCore::status() const {
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   return std::make_unique<AnalyserCore>(
-      scenario, diagnosis::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity));
+      scenario, diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity));
 }
 
 }  // namespace nacre::analyser

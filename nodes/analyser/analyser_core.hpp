@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/modulus_floor.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
 #include "wire/convert.hpp"
@@ -23,7 +24,7 @@ inline constexpr int kCurvePoints = 64;
 /// (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
-  AnalyserCore(const game::Scenario& scenario, double numerics_sd_log_modulus);
+  AnalyserCore(const game::Scenario& scenario, const diagnosis::ModulusFloor& floor);
   runtime::Outputs step(const runtime::Input& input) override;
   runtime::Status status() const override;
 
@@ -44,7 +45,7 @@ class AnalyserCore : public runtime::NodeCore {
   void report_when_ready();
 
   game::Scenario scenario_;
-  double numerics_sd_log_modulus_;
+  diagnosis::ModulusFloor floor_;
   runtime::Outputs outputs_;  // of the present step
 
   std::map<std::string, std::string> measurements_;  // specimen -> payload of its MEASUREMENT

@@ -10,7 +10,7 @@
 namespace nacre::analyser {
 namespace {
 
-constexpr std::size_t kFixedFields = 4;
+constexpr std::size_t kFixedFields = 6;
 
 /// A spec that this program wrote itself must read back.
 template <class T>
@@ -25,7 +25,7 @@ DiagnosisTask task_from(const std::string& spec) {
   task.request = expected(wire::read<wire::DiagnoseRequest>(fields.at(0)));
   task.bootstraps = std::stoi(fields.at(1));
   task.seed = std::stoull(fields.at(2));
-  task.numerics_sd_log_modulus = std::stod(fields.at(3));
+  task.floor = {.log_modulus_sd = std::stod(fields.at(3)), .mesh_amplitude = std::stod(fields.at(4)), .mesh_remainder_sd = std::stod(fields.at(5))};
   task.measurements.assign(fields.begin() + kFixedFields, fields.end());
   return task;
 }
@@ -81,7 +81,8 @@ diagnosis_t undecided(int round, const std::string& why) {
 
 std::string diagnosis_spec(const DiagnosisTask& task) {
   std::vector<std::string> fields = {wire::write(task.request), std::to_string(task.bootstraps),
-                                     std::to_string(task.seed), fmt::format("{}", task.numerics_sd_log_modulus)};
+                                     std::to_string(task.seed), fmt::format("{}", task.floor.log_modulus_sd),
+                                     fmt::format("{}", task.floor.mesh_amplitude), fmt::format("{}", task.floor.mesh_remainder_sd)};
   fields.insert(fields.end(), task.measurements.begin(), task.measurements.end());
   return runtime::pack(fields);
 }
@@ -93,7 +94,7 @@ std::string diagnose_work(const std::string& spec) {
   settings.fidelity = task.request.fidelity;
   settings.bootstraps = task.bootstraps;
   settings.seed = task.seed;
-  settings.numerics_sd_log_modulus = task.numerics_sd_log_modulus;
+  settings.floor = task.floor;
   const std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   try {
     return wire::encode(message_of(diagnosis::diagnose_modulus(specimens, settings), task.request.round));

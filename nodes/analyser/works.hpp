@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/node_core.hpp"
+#include "diagnosis/modulus_floor.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::analyser {
@@ -21,7 +22,7 @@ struct DiagnosisTask {
   std::vector<std::string> measurements;  ///< payloads of the MEASUREMENTs meant, in the order of the request
   int bootstraps = 2000;
   std::uint64_t seed = 1;
-  double numerics_sd_log_modulus = 0.0;
+  diagnosis::ModulusFloor floor;
 };
 /// Spec of "diagnose"; its result is the payload of the DIAGNOSIS.
 std::string diagnosis_spec(const DiagnosisTask& task);

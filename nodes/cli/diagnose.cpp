@@ -72,7 +72,7 @@ int diagnose(const Options& options) {
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
   const std::filesystem::path floor = options.numerics_floor.empty() ? shipped_numerics_floor() : std::filesystem::path(options.numerics_floor);
-  settings.numerics_sd_log_modulus = diagnosis::read_numerics_floor(floor, settings.fidelity);
+  settings.floor = diagnosis::read_modulus_floor(floor, settings.fidelity);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
   const diagnosis::Diagnosis d = diagnosis::diagnose_modulus(set.specimens, settings);
@@ -94,7 +94,7 @@ void add_diagnose(CLI::App& app, Action& action) {
   command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
   command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
-  command.add_option("--numerics-floor", options->numerics_floor, "What two numerics of one truth differ by (data/numerics_floor.toml)");
+  command.add_option("--numerics-floor", options->numerics_floor, "What the tester's elements leave of an error (data/numerics_floor.toml)");
   command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")->check(CLI::Range(1000, 1'000'000))->capture_default_str();
   command.add_option("--seed", options->seed, "Of the resampling")->capture_default_str();
   command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");

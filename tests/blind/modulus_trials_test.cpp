@@ -125,8 +125,9 @@ TEST(BlindModulusTrials, NothingHiddenIsBaseSufficient) {
 
 TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) { expect_found(run_trial(laboratory(13, "interface_anisotropy", 0.4)), "interface_anisotropy", 0.4, 0.25); }
 
-// The size of droplet mixing is known to half at best: what two meshes differ by lines up with it (docs/studies/diagnosis-first.md).
-TEST(BlindModulusTrials, DropletMixingIsFound) { expect_found(run_trial(laboratory(14, "droplet_mixing", 0.6)), "droplet_mixing", 0.6, 0.5); }
+// What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 % too small
+// (docs/studies/numerics-floor.md).
+TEST(BlindModulusTrials, DropletMixingIsFound) { expect_found(run_trial(laboratory(14, "droplet_mixing", 0.6)), "droplet_mixing", 0.6, 0.25); }
 
 TEST(BlindModulusTrials, MachineComplianceIsFound) {
   std::string toml = "seed = 15\nfidelity = \"full\"\nreplicates = 4\n[noise]\nmodulus = 0.01\n[[effect]]\nname = \"machine_compliance\"\nvalue = 2e-10\n";

@@ -21,7 +21,7 @@ using testing::StartsWith;
 
 /// A core with all that it has asked for.
 struct Watched {
-  AnalyserCore core{game::Scenario{}, 0.006};
+  AnalyserCore core{game::Scenario{}, {.log_modulus_sd = 0.006}};
   std::vector<runtime::Compute> computes;
   std::vector<Message> messages;
   std::vector<runtime::LogLine> log;

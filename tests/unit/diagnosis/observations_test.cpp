@@ -32,5 +32,35 @@ TEST(Observations, ScatterIsThatOfTheReplicates) {
   EXPECT_NEAR(observations.replicate_sd, std::log(2.1 / 2.0) / std::sqrt(2.0), 1e-12);
 }
 
+Observations three_groups() {
+  Observations observations;
+  for (const char* key : {"577fffe9fffdef", "3ffc9b4ad4d2d9", "7fffffffffffff"}) {
+    observations.groups.emplace_back();
+    observations.groups.back().design = *pattern::design_from_name(key);
+    observations.groups.back().replicates = 4;
+  }
+  observations.replicate_sd = 0.01;
+  observations.numerics_sd = 0.002;
+  observations.numerics_shared = Eigen::Vector3d(0.05, 0.1, -0.02);
+  return observations;
+}
+
+TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheNumerics) {
+  const Eigen::MatrixXd covariance = three_groups().covariance();
+  EXPECT_NEAR(covariance(0, 1), 0.05 * 0.1, 1e-12);
+  EXPECT_NEAR(covariance(1, 2), -0.1 * 0.02, 1e-12);
+  EXPECT_NEAR(covariance(0, 0), 0.01 * 0.01 / 4 + 0.002 * 0.002 + 0.05 * 0.05, 1e-12);
+}
+
+// What lies along the direction is expected to be numerics, also where nothing was measured; what lies across it is not.
+TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForNumerics) {
+  const Observations observations = three_groups();
+  const Eigen::VectorXd expected = observations.shared_numerics(Eigen::Vector2d(0.05, 0.1), {0, 1});
+  EXPECT_NEAR(expected[0], 0.05, 0.001);
+  EXPECT_NEAR(expected[2], -0.02, 0.001);
+  const Eigen::VectorXd across = observations.shared_numerics(Eigen::Vector2d(0.1, -0.05), {0, 1});
+  EXPECT_LT(across.norm(), 1e-3);
+}
+
 }  // namespace
 }  // namespace nacre::diagnosis

@@ -18,6 +18,7 @@ struct SyntheticSet {
   int replicates = 3;
   double noise = 0.015;
   std::uint64_t seed = 1;
+  int refinement = 1;  ///< elements of the specimens: 2 is another numerics than the diagnosis has
 };
 
 /// Specimens whose moduli the tester predicts for `truth`, with lognormal replicate noise.
@@ -29,7 +30,7 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
   const auto test = [&](const pattern::Design& design, double orientation_deg) {
     tester::Simulation simulation{design, truth, {}, tester::Fidelity::tiny};
     simulation.conditions.orientation_deg = orientation_deg;
-    const double modulus = measurement::observe_modulus(tester::test_modulus(simulation).value().modulus_pa, truth.extensions);
+    const double modulus = measurement::observe_modulus(tester::test_modulus(simulation, {.refinement = set.refinement}).value().modulus_pa, truth.extensions);
     for (int i = 0; i < set.replicates; ++i) {
       measurement::SpecimenRecord specimen;
       specimen.specimen = design.name() + "-" + std::to_string(static_cast<int>(orientation_deg)) + "-" + std::to_string(i);

@@ -1,0 +1,35 @@
+#include "diagnosis/modulus_floor.hpp"
+
+#include <optional>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+
+#include <toml++/toml.h>
+
+namespace nacre::diagnosis {
+
+ModulusFloor read_modulus_floor(const std::filesystem::path& file, tester::Fidelity fidelity) {
+  const std::string text = read_file(file);
+  const toml::parse_result table = [&] {
+    try {
+      return toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    }
+  }();
+  const auto section = table[tester::to_string(fidelity)];
+  const auto number = [&](const char* key, double largest, std::optional<double> otherwise) {
+    const auto value = section[key] ? section[key].value<double>() : otherwise;
+    if (!value || !(*value >= 0.0) || *value > largest)
+      throw InputError::format("{}: expected [{}] {}, a number between 0 and {}", file.string(), tester::to_string(fidelity), key, largest);
+    return *value;
+  };
+  ModulusFloor floor;
+  floor.log_modulus_sd = number("log_modulus_sd", 1.0, std::nullopt);
+  floor.mesh_amplitude = number("mesh_amplitude", 10.0, 0.0);
+  floor.mesh_remainder_sd = number("mesh_remainder_sd", 1.0, floor.log_modulus_sd);
+  return floor;
+}
+
+}  // namespace nacre::diagnosis
