@@ -9,11 +9,14 @@
 namespace nacre::film {
 namespace {
 
+/// Of zlib's 1 to 9: the best one takes six times as long (1.7 s for a full specimen) and saves 4 %.
+constexpr int kCompression = 7;
+
 std::string compressed(const std::string& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string result(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
+                static_cast<uLong>(bytes.size()), kCompression) != Z_OK)
     throw std::logic_error("zlib cannot compress");
   result.resize(size);
   return result;
