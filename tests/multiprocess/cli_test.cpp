@@ -1,23 +1,15 @@
 // The command line as people and scripts meet it: what it answers, and what it says to bad input.
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "program.hpp"
+#include "program_test.hpp"
 
 namespace nacre {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 const std::string kPublishedA = std::string(NACRE_SOURCE_DIR) + "/data/patterns/published_a.txt";
 
@@ -72,9 +64,9 @@ TEST_F(CommandLine, SimulateLeavesFieldsOfATestNotRunNull) {
 }
 
 TEST_F(CommandLine, SimulateWritesCurvesFilmsAndPictures) {
-  const Outcome outcome = run_nacre({"simulate", "mix:0.65", "--test", "toughness", "--fidelity", "tiny", "--curves",
-                                     path("curves"), "--frames", path("frames"), "--frame-count", "5", "--film",
-                                     path("pictures"), "--film-width", "400"});
+  const Outcome outcome =
+      run_nacre({"simulate", "mix:0.65", "--test", "toughness", "--fidelity", "tiny", "--curves", path("curves"),
+                 "--frames", path("frames"), "--frame-count", "5", "--film", path("pictures"), "--film-width", "400"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(fs::file_size(path("curves/mix_0.65.csv")), 100U);
   EXPECT_GT(fs::file_size(path("frames/mix_0.65.film")), 1000U);

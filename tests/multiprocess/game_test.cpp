@@ -2,20 +2,17 @@
 // people who measure by hand, and they are the same game every time.
 
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "base/random.hpp"
 #include "nacre/measurement_t.hpp"
 #include "nacre/parameters_t.hpp"
 #include "persons_game.hpp"
-#include "program.hpp"
+#include "program_test.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/log_file.hpp"
@@ -27,11 +24,6 @@
 
 namespace nacre {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr double kPatienceS = 240.0;  // for one game, on a machine that does other things too
 
@@ -384,7 +376,7 @@ TEST_F(Game, CorruptAndForeignMessagesChangeNothing) {
   ASSERT_EQ(game.status(), 0) << game.said();
   expect_undisturbed_course(game.folder());
   for (const wire::Measurement& taken : measurements_taken(game.folder())) {
-    EXPECT_THAT(taken.record.specimen, testing::Not(HasSubstr("stranger")));
+    EXPECT_THAT(taken.record.specimen, Not(HasSubstr("stranger")));
   }
   EXPECT_GT(stranger.sent(), 100U);
   EXPECT_THAT(game.said(), AllOf(HasSubstr("of run \"undisturbed\""), HasSubstr("it is no round_summary_t")));

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <set>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "persons_game.hpp"
-#include "program.hpp"
+#include "program_test.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre {
@@ -19,10 +15,7 @@ namespace {
 
 using measurement::SpecimenRecord;
 using tester::TestKind;
-using testing::AllOf;
 using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr const char* kScenario = R"(rounds = 1
 fidelity = "tiny"
@@ -44,7 +37,7 @@ modulus_evaluations = 12
 class InjectedGame : public testing::Test {
  protected:
   void launch(const std::string& name, const std::string& more = "") {
-    static const std::filesystem::path folder = fresh_folder("games");  // one for all: they share the farm's cache
+    static const fs::path folder = fresh_folder("games");  // one for all: they share the farm's cache
     person_ = std::make_unique<PersonsGame>(folder, name, kScenario + more);
   }
   void TearDown() override {
@@ -78,7 +71,7 @@ TEST_F(InjectedGame, InjectSaysWhenNobodyAnswers) {
   launch("unanswered");
   person_->wait_for("beginning", [&] { return person_->game().said().find("the game begins") != std::string::npos; });
   person_->game().kill_everything();
-  const std::filesystem::path set = fresh_folder("unheard");
+  const fs::path set = fresh_folder("unheard");
   SpecimenRecord specimen;
   specimen.specimen = "S-1";
   specimen.design = pattern::Mixture{0.5};

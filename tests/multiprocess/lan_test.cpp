@@ -3,26 +3,20 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "played_game.hpp"
-#include "program.hpp"
+#include "program_test.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/round_history.hpp"
 
 namespace nacre {
 namespace {
 
-namespace fs = std::filesystem;
 using runtime::ChildProcess;
-using testing::AllOf;
-using testing::HasSubstr;
 
 constexpr double kPatienceS = 240.0;
 constexpr int kPort = 7766;

@@ -2,24 +2,14 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "base/files.hpp"
-#include "program.hpp"
+#include "program_test.hpp"
 
 namespace nacre {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 class Launcher : public testing::Test {
  protected:
