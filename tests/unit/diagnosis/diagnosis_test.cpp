@@ -52,32 +52,6 @@ TEST(Diagnosis, DropletMixingIsNamed) { expect_named(diagnose_effect("droplet_mi
 
 TEST(Diagnosis, MachineComplianceIsNamed) { expect_named(diagnose_effect("machine_compliance", 2e-10), "machine_compliance", 2e-10, 0.6e-10); }
 
-/// Specimens on elements of half the size: what the diagnosis has to call numerics.
-Diagnosis diagnose_on_finer_elements(const material::ParameterSet& truth) {
-  SyntheticSet set;
-  set.patterns = 14;
-  set.replicates = 4;
-  set.noise = 0.01;
-  set.refinement = 2;
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  settings.fidelity = tester::Fidelity::tiny;
-  settings.floor = {.log_modulus_sd = 0.006, .mesh_amplitude = 1.7, .mesh_remainder_sd = 0.003};
-  return diagnose_modulus(synthetic_specimens(set, truth), settings);
-}
-
-TEST(Diagnosis, FinerElementsOfOneTruthAreNoEffect) {
-  const Diagnosis diagnosis = diagnose_on_finer_elements(synthetic_truth());
-  EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
-}
-
-// With layouts taken as independent the size came out 39 % too small.
-TEST(Diagnosis, DropletMixingKeepsItsSizeOnFinerElements) {
-  material::ParameterSet truth = synthetic_truth();
-  truth.extensions["droplet_mixing"] = {0.6};
-  expect_named(diagnose_on_finer_elements(truth), "droplet_mixing", 0.6, 0.15);
-}
-
 TEST(Diagnosis, TheJsonHasTheFieldsOfTheFormat) {
   const auto document = nlohmann::json::parse(to_json(diagnose_effect("interface_anisotropy", 0.25)));
   for (const char* field : {"verdict", "effects", "candidates", "contrasts", "gain", "next_experiments"}) EXPECT_TRUE(document.contains(field)) << field;
