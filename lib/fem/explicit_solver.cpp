@@ -10,7 +10,7 @@
 namespace nacre::fem {
 namespace {
 
-constexpr int kCheckInterval = 64;
+constexpr int kCheckInterval = 16;
 
 /// Largest alpha = gamma dt of Eq. 2.4. The filter multiplies a wave, after its acceleration was added, by
 /// f = 1 - alpha (1 - m), where m >= -1/3 is its mean over nine nodes relative to itself. With s = (omega dt)^2

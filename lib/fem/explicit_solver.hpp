@@ -69,9 +69,9 @@ class ExplicitSolver {
   ~ExplicitSolver();
 
   /// Advances by one time step. Allocates nothing. Error: blow-up (J <= 0 or not a number in an element), with step and
-  /// element; found at once when the element passes its threshold, else within 64 steps.
+  /// element; found at once when the element passes its threshold, else within 16 steps.
   Result<StepReport> step();
-  /// Looks for blow-up now, as step() does every 64 steps.
+  /// Looks for blow-up now, as step() does every 16 steps.
   Result<void> check() const;
 
   std::int64_t steps() const { return steps_; }
