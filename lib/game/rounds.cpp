@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "measurement/conditions.hpp"
+
 namespace nacre::game {
 namespace {
 
@@ -88,6 +90,13 @@ std::vector<Order> proposal_orders(const Scenario& scenario, int round, std::spa
   return orders;
 }
 
+std::vector<Order> person_orders(const Scenario& scenario, int round, const Design& design) {
+  std::vector<Order> orders;
+  order_both_tests(orders, scenario, round, design, OrderReason::person);
+  for (Order& order : orders) order.id += "/person";
+  return orders;
+}
+
 std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments) {
   std::vector<Order> orders;
   for (const Experiment& experiment : experiments) {
@@ -128,10 +137,7 @@ std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns
 }
 
 bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
-  const auto near = [](double a, double b, double relative) { return std::abs(a - b) <= relative * b; };
-  return std::abs(tested.orientation_deg - ordered.orientation_deg) < 0.5 &&
-         near(tested.strain_rate_per_s, ordered.strain_rate_per_s, 0.25) &&
-         near(tested.thickness_mm, ordered.thickness_mm, 0.1);
+  return measurement::same_conditions(tested, ordered);
 }
 
 }  // namespace nacre::game

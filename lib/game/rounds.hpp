@@ -46,6 +46,9 @@ std::vector<Order> opening_orders(const Scenario& scenario, std::span<const patt
 /// Modulus and toughness orders of designs proposed for `round`.
 std::vector<Order> proposal_orders(const Scenario& scenario, int round, std::span<const pattern::Design> designs);
 
+/// Modulus and toughness orders of a design that a person wants measured.
+std::vector<Order> person_orders(const Scenario& scenario, int round, const pattern::Design& design);
+
 /// At most diagnosis.discrimination_orders of the experiments; a question asked twice is ordered once.
 std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments);
 

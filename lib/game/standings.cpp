@@ -7,16 +7,14 @@
 #include "base/random.hpp"
 #include "base/statistics.hpp"
 #include "game/rounds.hpp"
+#include "measurement/conditions.hpp"
 
 namespace nacre::game {
 namespace {
 
-// Specimens with conditions that answer a standard order, put under the standard conditions: replicates of each other.
-std::vector<measurement::Replicates> summarise_nominally(std::vector<measurement::SpecimenRecord> specimens) {
-  for (measurement::SpecimenRecord& specimen : specimens) {
-    if (answers(specimen.conditions, {})) specimen.conditions = {};
-  }
-  return measurement::summarise(specimens);
+// Specimens that answer the same nominal question are replicates of each other.
+std::vector<measurement::Replicates> summarise_nominally(const std::vector<measurement::SpecimenRecord>& specimens) {
+  return measurement::summarise(measurement::at_nominal_conditions(specimens));
 }
 
 bool upright(const tester::TestConditions& conditions) { return std::abs(conditions.orientation_deg) < 0.5; }

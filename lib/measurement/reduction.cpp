@@ -91,6 +91,16 @@ tester::Curve compensated(const tester::Curve& curve, const LinearPart& part) {
 
 }  // namespace
 
+tester::Curve forward_part(const tester::Curve& curve) {
+  tester::Curve forward;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (!forward.empty() && curve.strain[i] <= forward.strain.back()) continue;
+    forward.strain.push_back(curve.strain[i]);
+    forward.stress_pa.push_back(curve.stress_pa[i]);
+  }
+  return forward;
+}
+
 Result<LinearPart> linear_part(const tester::Curve& curve) {
   if (curve.size() < kFewestPoints) return fail("{} points, expected at least {}", curve.size(), kFewestPoints);
   const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -

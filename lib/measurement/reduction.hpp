@@ -15,6 +15,10 @@ enum class Toe {
   keep,
 };
 
+/// The part of a curve along which strain grows beyond what was reached before: what area_between() can compare.
+/// Snap-back and unloading are left out.
+tester::Curve forward_part(const tester::Curve& curve);
+
 /// The initial straight part of a curve.
 struct LinearPart {
   double slope_pa = 0.0;     ///< Young's modulus by D638 11.4: stress over strain along it

@@ -19,16 +19,6 @@ double weighted_mean(const std::vector<double>& weights, std::size_t count, Coun
 
 }  // namespace
 
-tester::Curve forward_part(const tester::Curve& curve) {
-  tester::Curve forward;
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (!forward.empty() && curve.strain[i] <= forward.strain.back()) continue;
-    forward.strain.push_back(curve.strain[i]);
-    forward.stress_pa.push_back(curve.stress_pa[i]);
-  }
-  return forward;
-}
-
 Prediction observed(const Prediction& prediction, const material::Extensions& extensions) {
   Prediction shown = prediction;
   if (shown.modulus_pa) shown.modulus_pa = measurement::observe_modulus(*shown.modulus_pa, extensions);

@@ -1,13 +1,12 @@
 #pragma once
 // Pieces of objective (2.8) that the fits share.
 
+#include "measurement/reduction.hpp"
 #include "sysid/calibration.hpp"
 
 namespace nacre::sysid {
 
-/// The part of a curve along which strain grows beyond what was reached before: what area_between() can compare.
-/// Snap-back and unloading are left out.
-tester::Curve forward_part(const tester::Curve& curve);
+using measurement::forward_part;
 
 /// A prediction as the testing machine would show it: measurement-side extensions applied to modulus, curve and
 /// toughness.

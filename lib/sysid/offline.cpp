@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/random.hpp"
+#include "measurement/conditions.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::sysid {
@@ -36,7 +37,7 @@ std::set<std::string> draw(std::vector<std::string> names, int count, std::uint6
 
 Split split_set(const measurement::MeasurementSet& set, const OfflineSettings& settings) {
   Split split;
-  const std::vector<Replicates> all = measurement::summarise(set.specimens);
+  const std::vector<Replicates> all = measurement::summarise(measurement::at_nominal_conditions(set.specimens));
   std::vector<Replicates> patterns;
   for (const Replicates& design : all) {
     if (design.design.layout() != nullptr) patterns.push_back(design);

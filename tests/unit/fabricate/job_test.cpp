@@ -52,12 +52,23 @@ TEST(Job, EverySpecimenLiesOnItsTrayApartFromTheOthers) {
   }
 }
 
+TEST(Job, TraysAreFilledBeforeAnotherIsTaken) {
+  // 16 notched specimens, eight to a tray, and 16 bars, ten to a tray.
+  EXPECT_EQ(plan_job(request_of(4, 4)).trays, 4);
+}
+
 TEST(Job, EveryModelIsPrintedOnceBeforeAnyIsPrintedAgain) {
   const Job job = plan_job(request_of(4, 3));
-  for (std::size_t block = 0; block < 3; ++block) {
-    std::set<std::size_t> models;
-    for (std::size_t i = 0; i < 8; ++i) models.insert(job.specimens[8 * block + i].model);
-    EXPECT_EQ(models.size(), 8U) << "block " << block;
+  for (const SpecimenKind kind : {SpecimenKind::toughness, SpecimenKind::tensile_bar}) {
+    std::vector<std::size_t> order;
+    for (const Placed& specimen : job.specimens) {
+      if (job.models[specimen.model].wanted.kind == kind) order.push_back(specimen.model);
+    }
+    ASSERT_EQ(order.size(), 12U);
+    for (std::size_t block = 0; block < 3; ++block) {
+      const std::set<std::size_t> models(order.begin() + 4 * block, order.begin() + 4 * block + 4);
+      EXPECT_EQ(models.size(), 4U) << "block " << block;
+    }
   }
 }
 

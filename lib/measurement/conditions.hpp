@@ -1,0 +1,17 @@
+#pragma once
+// When two specimens were asked the same question, though callipers and clocks say slightly different things.
+
+#include <vector>
+
+#include "measurement/measurement.hpp"
+
+namespace nacre::measurement {
+
+/// Same orientation, rate within a quarter, thickness within a tenth of `ordered`.
+bool same_conditions(const tester::TestConditions& tested, const tester::TestConditions& ordered);
+
+/// The specimens under nominal conditions: the standard ones where same_conditions() holds, otherwise those of the
+/// first specimen (by name) of the same kind, so that replicates of 3.17 and 3.24 mm come together. The order is kept.
+std::vector<SpecimenRecord> at_nominal_conditions(std::vector<SpecimenRecord> specimens);
+
+}  // namespace nacre::measurement

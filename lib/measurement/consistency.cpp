@@ -1,0 +1,221 @@
+#include "measurement/consistency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "base/statistics.hpp"
+#include "measurement/conditions.hpp"
+#include "measurement/reduction.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+using Members = std::vector<const SpecimenRecord*>;
+
+double value_of(const SpecimenRecord& specimen) {
+  const auto value = specimen.test == tester::TestKind::modulus ? modulus_of(specimen) : toughness_of(specimen);
+  return value.value_or(0.0);
+}
+
+double peak_of(const SpecimenRecord& specimen) {
+  const auto& stress = specimen.curve.stress_pa;
+  return stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
+}
+
+double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+/// How far a number is from the others, in their scatter or the usual one, whichever is larger.
+double scatters_from_others(double value, const std::vector<double>& others, double usual) {
+  std::vector<double> distances;
+  const double centre = median(others);
+  for (const double other : others) distances.push_back(std::abs(other - centre));
+  constexpr double kMadOfNormal = 1.4826;
+  return std::abs(value - centre) / std::max(kMadOfNormal * median(distances), usual);
+}
+
+/// Holds the valid members of one group against each other.
+class Jury {
+ public:
+  Jury(Members members, const ConsistencySettings& settings) : members_(std::move(members)), settings_(settings) {
+    for (const SpecimenRecord* member : members_) forward_.push_back(forward_part(member->curve));
+  }
+
+  std::vector<OutlierReason> reasons_against(std::size_t suspect) const {
+    std::vector<OutlierReason> reasons;
+    const SpecimenRecord& one = *members_[suspect];
+    const bool is_modulus = one.test == tester::TestKind::modulus;
+    compare(suspect, is_modulus ? "modulus" : "toughness", value_of,
+            is_modulus ? settings_.usual_modulus_scatter : settings_.usual_toughness_scatter, reasons);
+    compare(suspect, "peak", peak_of, settings_.usual_peak_scatter, reasons);
+    compare_curve(suspect, reasons);
+    compare_path(suspect, reasons);
+    std::stable_sort(reasons.begin(), reasons.end(),
+                     [](const auto& a, const auto& b) { return a.distance > b.distance; });
+    return reasons;
+  }
+
+ private:
+  /// A positive figure on the scale of its logarithm.
+  void compare(std::size_t suspect, const char* kind, double (*figure)(const SpecimenRecord&), double usual,
+               std::vector<OutlierReason>& reasons) const {
+    const double own = figure(*members_[suspect]);
+    std::vector<double> others;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      const double value = figure(*members_[i]);
+      if (i != suspect && value > 0.0) others.push_back(std::log(value));
+    }
+    if (own <= 0.0 || others.size() < 2) return;
+    const double distance = scatters_from_others(std::log(own), others, usual);
+    if (distance <= settings_.far) return;
+    const double ratio = own / std::exp(median(others));
+    reasons.push_back({kind, distance,
+                       fmt::format("its {} is {:.0f} % {} the others'", kind, 100.0 * std::abs(ratio - 1.0),
+                                   ratio < 1.0 ? "below" : "above")});
+  }
+
+  double curve_distance(std::size_t i, std::size_t k) const {
+    const double area = 0.5 * (tester::area_under(forward_[i]) + tester::area_under(forward_[k]));
+    return area > 0.0 ? tester::area_between(forward_[i], forward_[k]) / area : 0.0;
+  }
+
+  void compare_curve(std::size_t suspect, std::vector<OutlierReason>& reasons) const {
+    if (forward_[suspect].empty()) return;
+    std::vector<double> own, among_others;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (i == suspect || forward_[i].empty()) continue;
+      own.push_back(curve_distance(suspect, i));
+      for (std::size_t k = i + 1; k < members_.size(); ++k) {
+        if (k != suspect && !forward_[k].empty()) among_others.push_back(curve_distance(i, k));
+      }
+    }
+    if (own.size() < 2) return;
+    const double distance = median(own) / std::max(median(among_others), settings_.usual_curve_distance);
+    if (distance <= settings_.far) return;
+    reasons.push_back(
+        {"curve", distance,
+         fmt::format("its curve is {:.0f} % of the area under them away from the others, they are {:.0f} % apart",
+                     100.0 * median(own), 100.0 * median(among_others))});
+  }
+
+  static std::string path_of(const SpecimenRecord& specimen) {
+    const auto noted = specimen.other_columns.find("path");
+    return noted == specimen.other_columns.end() ? "" : noted->second;
+  }
+
+  void compare_path(std::size_t suspect, std::vector<OutlierReason>& reasons) const {
+    std::map<std::string, int> counts;
+    for (const SpecimenRecord* member : members_) {
+      if (!path_of(*member).empty()) ++counts[path_of(*member)];
+    }
+    const std::string own = path_of(*members_[suspect]);
+    if (own.empty() || counts.size() < 2) return;
+    const auto common = std::max_element(counts.begin(), counts.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (common->first == own || common->second < 2 || common->second == counts[own]) return;
+    reasons.push_back(
+        {"path", 0.0, fmt::format("its crack ran `{}`, that of {} others `{}`", own, common->second, common->first)});
+  }
+
+  Members members_;
+  ConsistencySettings settings_;
+  std::vector<tester::Curve> forward_;
+};
+
+/// The worst first: a noted path counts as much as the limit.
+double severity(const ProposedOutlier& outlier, double far) {
+  double largest = 0.0;
+  for (const OutlierReason& reason : outlier.reasons)
+    largest = std::max(largest, reason.kind == "path" ? far : reason.distance);
+  return largest;
+}
+
+std::vector<ProposedOutlier> outliers_among(const Members& valid, const ConsistencySettings& settings) {
+  std::vector<ProposedOutlier> outliers;
+  if (valid.size() < 3) return outliers;  // of two nobody can say which
+  const Jury jury(valid, settings);
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    auto reasons = jury.reasons_against(i);
+    if (!reasons.empty()) outliers.push_back({valid[i]->specimen, std::move(reasons)});
+  }
+  std::stable_sort(outliers.begin(), outliers.end(),
+                   [&](const auto& a, const auto& b) { return severity(a, settings.far) > severity(b, settings.far); });
+  return outliers;
+}
+
+void sum_up(const Members& members, double& mean_pa, double& scatter) {
+  std::vector<double> values;
+  for (const SpecimenRecord* member : members) {
+    if (value_of(*member) > 0.0) values.push_back(value_of(*member));
+  }
+  mean_pa = values.empty() ? 0.0 : mean(values);
+  scatter = mean_pa > 0.0 ? standard_deviation(values) / mean_pa : 0.0;
+}
+
+std::string representative_of(const Members& members, double mean_pa) {
+  const SpecimenRecord* nearest = nullptr;
+  for (const SpecimenRecord* member : members) {
+    if (member->curve.empty()) continue;
+    if (nearest == nullptr || std::abs(value_of(*member) - mean_pa) < std::abs(value_of(*nearest) - mean_pa))
+      nearest = member;
+  }
+  return nearest == nullptr ? "" : nearest->specimen;
+}
+
+ReplicateGroup review_group(const Members& members, const ConsistencySettings& settings) {
+  ReplicateGroup group{
+      .design = members.front()->design, .test = members.front()->test, .conditions = members.front()->conditions};
+  Members valid;
+  for (const SpecimenRecord* member : members) {
+    group.tested.push_back(member->specimen);
+    if (!member->valid) continue;
+    group.valid.push_back(member->specimen);
+    valid.push_back(member);
+  }
+  group.proposed = outliers_among(valid, settings);
+  const int may_go = std::max(0, static_cast<int>(valid.size()) - settings.fewest_consistent);
+  const bool too_many = static_cast<int>(group.proposed.size()) > may_go;
+  if (too_many) group.proposed.resize(static_cast<std::size_t>(may_go));
+  Members kept;
+  std::copy_if(valid.begin(), valid.end(), std::back_inserter(kept), [&](const SpecimenRecord* member) {
+    return std::none_of(group.proposed.begin(), group.proposed.end(),
+                        [&](const auto& each) { return each.specimen == member->specimen; });
+  });
+  sum_up(valid, group.mean_pa, group.scatter);
+  sum_up(kept, group.mean_without_pa, group.scatter_without);
+  group.representative = representative_of(kept, group.mean_without_pa);
+  group.wanted = std::max({0, settings.fewest_tested - static_cast<int>(members.size()),
+                           settings.fewest_consistent - static_cast<int>(kept.size())});
+  if (too_many) group.wanted = std::max(group.wanted, 1);
+  group.state = too_many ? GroupState::inconsistent : group.wanted > 0 ? GroupState::more_needed : GroupState::complete;
+  return group;
+}
+
+}  // namespace
+
+std::string_view to_string(GroupState state) {
+  return state == GroupState::complete ? "complete" : state == GroupState::more_needed ? "more needed" : "inconsistent";
+}
+
+std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>& specimens,
+                                              const ConsistencySettings& settings) {
+  std::vector<SpecimenRecord> nominal = at_nominal_conditions(specimens);
+  std::sort(nominal.begin(), nominal.end(), [](const auto& a, const auto& b) { return a.specimen < b.specimen; });
+  nominal.erase(std::unique(nominal.begin(), nominal.end(),
+                            [](const auto& a, const auto& b) { return a.specimen == b.specimen; }),
+                nominal.end());
+  std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members> groups;
+  for (const SpecimenRecord& specimen : nominal) {
+    const tester::TestConditions& c = specimen.conditions;
+    groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm}].push_back(
+        &specimen);
+  }
+  std::vector<ReplicateGroup> reviewed;
+  for (const auto& entry : groups) reviewed.push_back(review_group(entry.second, settings));
+  return reviewed;
+}
+
+}  // namespace nacre::measurement

@@ -1,0 +1,81 @@
+#pragma once
+// Which replicates agree (thesis 2.2.2: at least four are tested, at least three with the most common and consistent
+// behaviour count). Outliers are proposed with their reason; a person decides.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measurement/measurement.hpp"
+
+namespace nacre::measurement {
+
+/// When a replicate is out of line. The scatters are what replicates of printed parts differ by as a matter of course
+/// (standard deviations of the logarithm): less than that is never held against a specimen.
+struct ConsistencySettings {
+  int fewest_tested = 4;
+  int fewest_consistent = 3;
+  double usual_modulus_scatter = 0.03;
+  double usual_toughness_scatter = 0.12;
+  double usual_peak_scatter = 0.06;
+  double usual_curve_distance = 0.15;  ///< area between two curves over their mean area
+  double far = 4.0;                    ///< so many scatters from the others is out of line
+};
+
+/// Why a specimen is proposed as an outlier.
+struct OutlierReason {
+  std::string kind;       ///< `modulus`, `toughness`, `peak`, `curve`, `path`
+  double distance = 0.0;  ///< in scatters; 0 for a path
+  std::string text;       ///< a sentence with the figures
+};
+
+struct ProposedOutlier {
+  std::string specimen;
+  std::vector<OutlierReason> reasons;  ///< strongest first
+};
+
+enum class GroupState {
+  complete,      ///< enough are tested, enough agree
+  more_needed,   ///< too few tested, or too few valid
+  inconsistent,  ///< more are out of line than may be left out
+};
+std::string_view to_string(GroupState state);
+
+/// One design in one test under (nominally) the same conditions.
+struct ReplicateGroup {
+  pattern::Design design;
+  tester::TestKind test = tester::TestKind::modulus;
+  tester::TestConditions conditions = {};
+  std::vector<std::string> tested = {};  ///< all specimens, sorted
+  std::vector<std::string> valid = {};   ///< of them those that count now
+  std::vector<ProposedOutlier> proposed = {};
+  GroupState state = GroupState::more_needed;
+  int wanted = 0;                                       ///< specimens still to be tested
+  double mean_pa = 0.0, scatter = 0.0;                  ///< of the valid ones: mean and relative standard deviation
+  double mean_without_pa = 0.0, scatter_without = 0.0;  ///< the same without the proposed outliers
+  std::string representative = {};  ///< valid, not proposed, nearest to the mean and with a curve; may be empty
+};
+
+/// Every group, sorted by design, test and conditions. Each valid specimen is held against the others of its group: its
+/// modulus or toughness, the peak of its curve, the area between its curve and theirs, and the course of the crack that
+/// a person noted (column `path`) against the most common one. At most as many are proposed as leave
+/// `fewest_consistent`, the worst first; where more are out of line the group is inconsistent.
+std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>& specimens,
+                                              const ConsistencySettings& settings = {});
+
+/// By how much specimens of one batch, operator, machine or date differ from others of the same designs.
+struct HistoryEffect {
+  std::string factor;  ///< `batch`, `operator`, `machine`, `date`; `print_order` for the trend
+  std::string level;   ///< which one; "per 10 specimens" for the trend
+  tester::TestKind test = tester::TestKind::modulus;
+  double relative = 0.0;        ///< exp(mean difference of log) - 1
+  double standard_error = 0.0;  ///< of it
+  int specimens = 0;
+  bool notable() const { return relative > 3.0 * standard_error || relative < -3.0 * standard_error; }
+};
+
+/// Effects of the specimens' history on modulus and toughness, each against the mean of its own design, so that it does
+/// not matter which designs were in a batch. Levels that share no design with others say nothing and are left out.
+std::vector<HistoryEffect> history_effects(const std::vector<SpecimenRecord>& specimens);
+
+}  // namespace nacre::measurement

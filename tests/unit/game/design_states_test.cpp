@@ -1,0 +1,89 @@
+#include "game/design_states.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace nacre::game {
+namespace {
+
+const pattern::Design kDesign = *pattern::design_from_name("577fffe9fffdef");
+const pattern::Design kOther = *pattern::design_from_name("3ffc9b4ad4d2d9");
+
+Order order_of(const pattern::Design& design, tester::TestKind test = tester::TestKind::modulus) {
+  return {.id = order_id(1, design, test, {}),
+          .round = 1,
+          .design = design,
+          .test = test,
+          .conditions = {},
+          .replicates = 2,
+          .batch = "round-1",
+          .reason = OrderReason::proposal};
+}
+
+measurement::SpecimenRecord specimen_of(const std::string& name, const pattern::Design& design,
+                                        tester::TestKind test = tester::TestKind::modulus) {
+  measurement::SpecimenRecord record;
+  record.specimen = name;
+  record.design = design;
+  record.test = test;
+  record.modulus_pa = 1e9;
+  return record;
+}
+
+DesignStage stage_of(const LaboratoryFacts& facts, const pattern::Design& design) {
+  for (const DesignState& state : design_states(facts)) {
+    if (state.design == design) return state.stage;
+  }
+  ADD_FAILURE() << design.name() << " is unknown";
+  return DesignStage::pending;
+}
+
+TEST(DesignStates, ADesignGoesFromPendingToMeasured) {
+  LaboratoryFacts facts;
+  facts.proposed = {{0, kDesign}};
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::pending);
+  facts.decisions = {{0, kDesign, true, "lab", "go"}};
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::approved);
+  facts.orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::approved);
+  facts.printed = {{"A-1", kDesign, tester::TestKind::modulus, 0.0, ""}};
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::printed);
+  for (const char* name : {"A-1", "A-2"}) facts.book.enter(specimen_of(name, kDesign), "");
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::printed) << "toughness is still to be measured";
+  for (const char* name : {"T-1", "T-2"}) facts.book.enter(specimen_of(name, kDesign, tester::TestKind::toughness), "");
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::measured);
+  const DesignState state = design_states(facts).front();
+  EXPECT_EQ(state.ordered, 4);
+  EXPECT_EQ(state.arrived, 4);
+  EXPECT_EQ(state.decided_by, "lab");
+}
+
+TEST(DesignStates, TheFirstDecisionCounts) {
+  LaboratoryFacts facts;
+  facts.proposed = {{0, kDesign}};
+  facts.decisions = {{0, kDesign, false, "lab", "islands"}, {0, kDesign, true, "other", "go"}};
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::rejected);
+  EXPECT_EQ(design_states(facts).front().why, "islands");
+}
+
+TEST(DesignStates, WhatWasMeasuredWithoutAnOrderIsMeasured) {
+  LaboratoryFacts facts;
+  facts.book.enter(specimen_of("brought", kOther), "");
+  EXPECT_EQ(stage_of(facts, kOther), DesignStage::measured);
+  EXPECT_EQ(design_states(facts).front().round, -1);
+}
+
+TEST(DesignStates, PrintedSpecimensCountOnceForTheOrderTheyCarryOrFit) {
+  const std::vector<Order> orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};
+  const std::vector<PrintedSpecimen> printed = {
+      {"A-1", kDesign, tester::TestKind::modulus, 0.0, orders[0].id},
+      {"A-2", kDesign, tester::TestKind::modulus, 0.0, ""},
+      {"A-3", kDesign, tester::TestKind::modulus, 0.0, ""},     // one too many
+      {"A-4", kDesign, tester::TestKind::toughness, 90.0, ""},  // turned: another question
+      {"A-5", kOther, tester::TestKind::toughness, 0.0, ""}};
+  EXPECT_EQ(printed_for(orders, printed), (std::vector<int>{2, 0}));
+}
+
+}  // namespace
+}  // namespace nacre::game
