@@ -79,13 +79,16 @@ std::vector<std::pair<std::size_t, int>> random_blocks(const std::vector<Model>&
 /// Fills a tray in rows ("shelves") from the front; a specimen goes on the first shelf that has room for it.
 class Tray {
  public:
-  Tray(const Printer& printer, double gap_mm) : printer_(printer), gap_mm_(gap_mm) {}
+  /// A shelf takes only specimens that are at least `least_fill` of its depth.
+  Tray(const Printer& printer, double gap_mm, double least_fill)
+      : printer_(printer), gap_mm_(gap_mm), least_fill_(least_fill) {}
 
   /// Front left corner of the place found; nothing when the tray is full.
   std::optional<std::pair<double, double>> place(const Model& model) {
     for (Shelf& shelf : shelves_) {
-      if (model.size_y_mm > shelf.depth_mm || shelf.used_mm + gap_mm_ + model.size_x_mm + gap_mm_ > printer_.tray_x_mm)
-        continue;
+      const bool too_deep = model.size_y_mm > shelf.depth_mm,
+                 too_shallow = model.size_y_mm < least_fill_ * shelf.depth_mm;
+      if (too_deep || too_shallow || shelf.used_mm + model.size_x_mm + 2 * gap_mm_ > printer_.tray_x_mm) continue;
       return put(shelf, model);
     }
     const double begin_mm = shelves_.empty() ? gap_mm_ : shelves_.back().begin_mm + shelves_.back().depth_mm + gap_mm_;
@@ -108,8 +111,51 @@ class Tray {
   }
   Printer printer_;
   double gap_mm_;
+  double least_fill_;
   std::vector<Shelf> shelves_;
 };
+
+/// Puts the specimens on trays in their random order, each on the first tray that has room.
+void place_all(Job& job, double least_fill) {
+  job.specimens.clear();
+  const JobRequest& request = job.request;
+  std::vector<Tray> trays;
+  for (const auto& [index, replicate] : random_blocks(job.models, request.seed)) {
+    const Model& model = job.models[index];
+    std::optional<std::pair<double, double>> place;
+    std::size_t tray = 0;
+    for (; tray < trays.size() && !place; ++tray) place = trays[tray].place(model);
+    if (!place) {
+      trays.emplace_back(request.printer, request.gap_mm, least_fill);
+      place = trays.back().place(model);
+      tray = trays.size();
+    }
+    if (!place) {
+      throw InputError::format("{}: {} x {} mm with a gap of {} mm does not fit on a tray of {} x {} mm", model.name,
+                               model.size_x_mm, model.size_y_mm, request.gap_mm, request.printer.tray_x_mm,
+                               request.printer.tray_y_mm);
+    }
+    job.specimens.push_back({.label = {},
+                             .model = index,
+                             .replicate = replicate,
+                             .print_order = 0,
+                             .tray = static_cast<int>(tray),
+                             .x_mm = place->first,
+                             .y_mm = place->second});
+  }
+  job.trays = static_cast<int>(trays.size());
+}
+
+/// Print order and labels, tray by tray.
+void number(Job& job) {
+  std::stable_sort(job.specimens.begin(), job.specimens.end(),
+                   [](const Placed& a, const Placed& b) { return a.tray < b.tray; });
+  const int digits = job.specimens.size() < 100 ? 2 : 4;
+  for (std::size_t i = 0; i < job.specimens.size(); ++i) {
+    job.specimens[i].print_order = static_cast<int>(i) + 1;
+    job.specimens[i].label = fmt::format("{}-{:0{}}", job.request.name, i + 1, digits);
+  }
+}
 
 }  // namespace
 
@@ -142,32 +188,12 @@ Job plan_job(const JobRequest& request) {
       model.name = fmt::format("{}-{}", name, copy);
     job.models.push_back(std::move(model));
   }
-  const auto order = random_blocks(job.models, request.seed);
-  const int digits = order.size() < 100 ? 2 : 4;
-  Tray tray(request.printer, request.gap_mm);
-  job.trays = 1;
-  for (const auto& [index, replicate] : order) {
-    const Model& model = job.models[index];
-    auto place = tray.place(model);
-    if (!place) {
-      tray = Tray(request.printer, request.gap_mm);
-      ++job.trays;
-      place = tray.place(model);
-    }
-    if (!place) {
-      throw InputError::format("{}: {} x {} mm with a gap of {} mm does not fit on a tray of {} x {} mm", model.name,
-                               model.size_x_mm, model.size_y_mm, request.gap_mm, request.printer.tray_x_mm,
-                               request.printer.tray_y_mm);
-    }
-    const int number = static_cast<int>(job.specimens.size()) + 1;
-    job.specimens.push_back({.label = fmt::format("{}-{:0{}}", request.name, number, digits),
-                             .model = index,
-                             .replicate = replicate,
-                             .print_order = number,
-                             .tray = job.trays,
-                             .x_mm = place->first,
-                             .y_mm = place->second});
-  }
+  // Bars and notched specimens side by side, or on shelves of their own where that saves a tray.
+  Job apart = job;
+  place_all(job, 0.0);
+  place_all(apart, 0.75);
+  if (apart.trays < job.trays) job = std::move(apart);
+  number(job);
   return job;
 }
 

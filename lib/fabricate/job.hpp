@@ -16,7 +16,7 @@ struct Wanted {
   double orientation_deg = 0.0;
   double thickness_mm = 3.2;
   double strain_rate_per_s = thesis::kTestStrainRate;
-  int replicates = 4;    ///< at least four are tested, three consistent ones count (2.2.2)
+  int replicates = 4;         ///< at least four are tested, three consistent ones count (2.2.2)
   std::string order_id = {};  ///< of the game; empty when nobody ordered them
   std::string reason = {};
 };
@@ -59,10 +59,10 @@ struct Job {
   std::string batch(int tray) const;
 };
 
-/// Plans a job. The order is random in blocks, from the seed: every model is printed once before any is printed again,
-/// so that drift of the printer falls on all designs alike. Places are taken in that order, shelf by shelf; a full tray
-/// is followed by the next. Throws InputError for an empty job, a bad name, replicates outside 1 to 100, or a specimen
-/// larger than the tray.
+/// Plans a job. The order is random in blocks, from the seed: every model takes a place once before any takes one
+/// again, so that drift of the printer falls on all designs alike. Each specimen goes on the first tray, and there on
+/// the first shelf, with room for it; trays are printed one after another. Throws InputError for an empty job, a bad
+/// name, replicates outside 1 to 100, or a specimen larger than the tray.
 Job plan_job(const JobRequest& request);
 
 /// A name for people: `checkerboard:2`, `laminate:x:3:2`, otherwise the design's own.

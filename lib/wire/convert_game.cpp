@@ -388,7 +388,8 @@ Result<void> validate(const run_t& message) {
 Result<void> validate(const approval_t& message) {
   const Result<pattern::Design> design = pattern::design_from_name(message.design);
   if (!design) return in_type("approval_t", design.error());
-  return expect_round(message.round);
+  // Round -1: a person's own design, to which only a yes makes sense.
+  return expect_round(message.round, message.approved != 0 ? -1 : 0);
 }
 
 Result<void> validate(const review_t& message) {

@@ -51,6 +51,11 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
     }
   }
   add(game::proposal_orders(scenario_, round, approved));
+  std::erase_if(own_, [&](const pattern::Design& each) {
+    return std::find(designs.begin(), designs.end(), each) != designs.end();
+  });
+  for (const pattern::Design& each : own_) add(game::person_orders(scenario_, round, each));
+  own_.clear();
   std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
   if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
   return place(std::move(orders));
@@ -72,6 +77,19 @@ Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pat
   return place(game::proposal_orders(scenario_, round_, std::vector{design}));
 }
 
+Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& design, bool now) {
+  const bool ordered = std::any_of(orders_.begin(), orders_.end(), [&](const game::Order& order) {
+    return order.design == design && game::answers(order.conditions, {});
+  });
+  const bool queued = std::find(own_.begin(), own_.end(), design) != own_.end();
+  if (ordered || queued) return fail("{} is ordered already", design.name());
+  if (std::find(waiting_.begin(), waiting_.end(), design) != waiting_.end())
+    return fail("{} is proposed and waits for a plain yes", design.name());
+  if (now) return place(game::person_orders(scenario_, round_, design));
+  own_.push_back(design);
+  return std::vector<game::Order>{};
+}
+
 std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) const {
   const auto progress = book.progress(orders_, scenario_.validation.enough_valid);
   std::pair<int, int> count{0, 0};
@@ -90,6 +108,7 @@ std::set<pattern::Pattern> OrderDesk::settled_patterns() const {
     if (const auto pattern = pattern::Pattern::from_layout(*design.layout())) patterns.insert(*pattern);
   };
   for (const game::Order& order : orders_) add(order.design);
+  for (const pattern::Design& design : own_) add(design);
   for (const auto& [key, decision] : decisions_) {
     if (decision.approved) continue;
     if (const auto design = pattern::design_from_name(key.second)) add(*design);

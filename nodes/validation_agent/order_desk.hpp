@@ -37,6 +37,10 @@ class OrderDesk {
   /// counts: its order may be in print. Returns orders that go out because of it, or why the decision changes nothing.
   Result<std::vector<game::Order>> decide(int proposal_round, const pattern::Design& design, const Decision& decision);
 
+  /// A person wants a design of their own measured too: in the open round while it is being measured (`now`), else in
+  /// the next one. Returns orders that go out at once, or why there are none.
+  Result<std::vector<game::Order>> add_own(const pattern::Design& design, bool now);
+
   /// Proposed designs of the open round that still wait for a person.
   int undecided() const { return static_cast<int>(waiting_.size()); }
 
@@ -57,6 +61,7 @@ class OrderDesk {
   std::vector<pattern::Pattern> random_patterns_;
   int round_ = 0;
   std::vector<pattern::Design> waiting_;  // of the open round, undecided
+  std::vector<pattern::Design> own_;      // of persons, for the next round
   std::vector<game::Order> orders_;
   std::map<std::pair<int, std::string>, Decision> decisions_;  // by round of the proposal and design
 };

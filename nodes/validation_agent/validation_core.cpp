@@ -137,6 +137,7 @@ void ValidationCore::accept_approval(const std::string& payload) {
   if (!sound) return say(LogLevel::warning, "an APPROVAL is ignored: " + sound.error().message);
   const auto design = pattern::design_from_name(approval->design);
   if (!design) return say(LogLevel::warning, "an APPROVAL is ignored: " + design.error().message);
+  if (approval->round < 0) return add_own_design(*design, *approval);
   if (const auto proposal = proposals_.find(approval->round); proposal != proposals_.end()) {
     const auto& designs = proposal->second.designs;
     if (std::none_of(designs.begin(), designs.end(), [&](const auto& each) { return each.design == *design; })) {
@@ -150,6 +151,13 @@ void ValidationCore::accept_approval(const std::string& payload) {
                                   approval->design, approval->why));
   send_orders(*orders);
   if (phase_ == Phase::measuring) measure_on();
+}
+
+void ValidationCore::add_own_design(const pattern::Design& design, const approval_t& approval) {
+  const auto orders = desk_.add_own(design, phase_ == Phase::measuring);
+  if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
+  say(LogLevel::info, fmt::format("{} adds {}: {}", approval.by, approval.design, approval.why));
+  send_orders(*orders);
 }
 
 runtime::Status ValidationCore::status() const {

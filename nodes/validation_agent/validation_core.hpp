@@ -49,6 +49,7 @@ class ValidationCore : public runtime::NodeCore {
   void accept_measurement(const std::string& payload);
   void accept_review(const std::string& payload);
   void accept_approval(const std::string& payload);
+  void add_own_design(const pattern::Design& design, const approval_t& approval);
 
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);

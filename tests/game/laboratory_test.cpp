@@ -10,6 +10,7 @@
 
 #include "game/rounds.hpp"
 #include "in_process_game.hpp"
+#include "pattern/coupons.hpp"
 #include "stand_ins.hpp"
 
 namespace nacre::game_test {
@@ -286,6 +287,48 @@ TEST_F(ApprovalGame, TheFirstDecisionCountsAndStrayOnesAreRefused) {
   decide(designs[2].design, true);
   ASSERT_EQ(rounds(), 2u);
   EXPECT_EQ(last_round().calibration_count, 7);
+}
+
+TEST_F(ApprovalGame, ADesignOfAPersonsOwnIsOrderedOnceAndMeasuredWithTheRest) {
+  begin();
+  const pattern::Design own = pattern::checkerboard(5);
+  decide(own, true, -1);
+  EXPECT_TRUE(ordered().contains(own.name()));
+  const std::size_t orders = game_.payloads("TEST_ORDER").size();
+  decide(own, true, -1);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("is ordered already")));
+  EXPECT_EQ(game_.payloads("TEST_ORDER").size(), orders);
+  for (const auto& each : game_.said<wire::Proposal>("PROPOSAL").front().designs) {
+    decide(each.design, true, -1);
+    EXPECT_THAT(game_.complaints_of("validation_agent").back(), HasSubstr("waits for a plain yes"));
+    decide(each.design, true);
+  }
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_EQ(last_round().calibration_count, 9) << "proposals, random patterns and the person's design";
+  EXPECT_EQ(last_round().held_out.modulus_count, 3) << "nobody predicted the person's design";
+}
+
+TEST_F(PersonGame, MeasurementsOfDesignsThatNobodyProposedAreCalibratedOn) {
+  begin();
+  auto all = all_measurements();
+  wire::Measurement own = all.front();
+  own.record.specimen = "brought-along-1";
+  own.record.design = pattern::laminate(pattern::LayerDirection::along_y, 2, 3);
+  own.record.test = tester::TestKind::modulus;
+  own.record.modulus_pa = 0.9e9;
+  own.order_id.clear();
+  own.round = -1;
+  report(own);
+  for (const auto& measured : all) report(measured);
+  ASSERT_EQ(rounds(), 2u);
+  const auto layouts = [&] {
+    std::set<std::string> names;
+    for (const auto& measured : all) {
+      if (measured.record.design.layout() != nullptr) names.insert(measured.record.design.name());
+    }
+    return names.size();
+  }();
+  EXPECT_EQ(last_round().calibration_count, static_cast<int>(layouts) + 1);
 }
 
 TEST(Approval, TheOrderOfDecisionsDoesNotMatter) {
