@@ -38,6 +38,8 @@ void add_echo(CLI::App& app, Action& action);
 void add_inject(CLI::App& app, Action& action);
 void add_approve(CLI::App& app, Action& action);
 void add_review(CLI::App& app, Action& action);
+void add_designs(CLI::App& app, Action& action);
+void add_printed(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);

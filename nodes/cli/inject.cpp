@@ -42,10 +42,23 @@ tester::Curve thinned(const tester::Curve& curve, std::size_t most) {
   return thin;
 }
 
+/// The specimen's history that a message has no field for, for its note: `[date: ...; operator: ...]`.
+std::string history_of(const measurement::SpecimenRecord& specimen) {
+  std::string history;
+  for (const char* name : {"date", "operator", "machine", "path"}) {
+    const auto cell = specimen.other_columns.find(name);
+    if (cell != specimen.other_columns.end())
+      history += fmt::format("{}{}: {}", history.empty() ? "[" : "; ", name, cell->second);
+  }
+  return history.empty() ? "" : history + "]";
+}
+
 runtime::Message message_of(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
   wire::Measurement measurement;
   measurement.fidelity = fidelity;
   measurement.record = specimen;
+  const std::string history = history_of(specimen);
+  if (!history.empty()) measurement.record.note += (specimen.note.empty() ? "" : " ") + history;
   if (specimen.curve.size() > wire::kMaximumCurvePoints) {
     // The area under the curve as recorded, not as thinned.
     if (specimen.test == tester::TestKind::toughness)

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "base/result.hpp"
 #include "output.hpp"
 #include "wire/header.hpp"
@@ -34,6 +36,11 @@ std::vector<std::string> journaled_by_validation_agent(const RunAccess& run, con
 }
 
 }  // namespace
+
+std::string user_name() {
+  const char* name = std::getenv("USER");
+  return name == nullptr || *name == '\0' ? "unknown" : name;
+}
 
 void add_run_option(CLI::App& command, std::string& run) {
   command.add_option("--run", run, "Folder of the run")->capture_default_str();

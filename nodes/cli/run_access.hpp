@@ -15,6 +15,9 @@
 
 namespace nacre::cli {
 
+/// Who is at the keyboard; `unknown` where nobody says.
+std::string user_name();
+
 /// A run as found on disk.
 struct RunAccess {
   std::filesystem::path folder;

@@ -1,0 +1,227 @@
+// nacre review: do the replicates agree, and a person's judgement on a specimen; in a run or in a measurement set.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "command.hpp"
+#include "laboratory_view.hpp"
+#include "measurement/consistency.hpp"
+#include "nacre/review_t.hpp"
+#include "output.hpp"
+#include "run_access.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::cli {
+namespace {
+
+using measurement::ReplicateGroup;
+using measurement::SpecimenRecord;
+
+struct Options {
+  std::string specimen;
+  std::string set;
+  std::string run = "logs/latest";
+  bool valid = false;
+  bool invalid = false;
+  bool accept = false;
+  std::string why;
+  std::string by = user_name();
+  int revision = 0;
+  double timeout_s = 60.0;
+  bool json = false;
+};
+
+/// A judgement that a person makes.
+struct Judgement {
+  std::string specimen;
+  bool valid = false;
+  std::string why;
+};
+
+/// One more than the highest revision so far, so that this judgement wins.
+int next_revision(const RunAccess& run, const std::string& specimen) {
+  int highest = 0;
+  for (const std::string& payload : received_by_validation_agent(run, "REVIEW")) {
+    const auto review = wire::decode_safe<review_t>(payload);
+    if (review && review->specimen == specimen) highest = std::max<int>(highest, review->revision);
+  }
+  return highest + 1;
+}
+
+int judge_in_run(const Options& options, const Judgement& judgement) {
+  const RunAccess run = open_run(options.run);
+  const auto specimens = view_laboratory(run).facts.book.specimens();
+  if (std::none_of(specimens.begin(), specimens.end(),
+                   [&](const auto& each) { return each.specimen == judgement.specimen; })) {
+    warn(fmt::format("{}: the validation agent has no specimen of this name yet", judgement.specimen));
+  }
+  review_t message{};
+  message.specimen = judgement.specimen;
+  message.revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
+  message.valid = judgement.valid;
+  message.by = options.by;
+  message.why = judgement.why;
+  const int status = deliver(run, "review", {"REVIEW", wire::encode(message)}, options.timeout_s);
+  if (status == 0) {
+    fmt::print("{}: {} (revision {})\n", judgement.specimen, judgement.valid ? "valid" : "not valid", message.revision);
+  }
+  return status;
+}
+
+measurement::MeasurementSet read_set(const std::string& folder) {
+  measurement::MeasurementSet set = measurement::read_measurement_set(folder);
+  for (const auto& row : set.rejected)
+    warn(fmt::format("{}: line {}, {}: {}", folder, row.line, row.column, row.reason));
+  return set;
+}
+
+/// Writes the judgements into the set itself.
+int judge_in_set(const Options& options, const std::vector<Judgement>& judgements) {
+  measurement::MeasurementSet set = read_set(options.set);
+  if (!set.rejected.empty()) {
+    throw InputError::format(
+        "{}: {} rows cannot be used and would be lost by writing the set: expected them mended or "
+        "removed first",
+        options.set, set.rejected.size());
+  }
+  for (const Judgement& judgement : judgements) {
+    const auto specimen = std::find_if(set.specimens.begin(), set.specimens.end(),
+                                       [&](const auto& each) { return each.specimen == judgement.specimen; });
+    if (specimen == set.specimens.end()) {
+      throw InputError::format("{}: not in {}: expected the name of one of its {} specimens", judgement.specimen,
+                               options.set, set.specimens.size());
+    }
+    specimen->valid = judgement.valid;
+    specimen->note = fmt::format("{} ({})", judgement.why, options.by);
+  }
+  measurement::write_measurement_set(options.set, set.specimens);
+  for (const Judgement& judgement : judgements)
+    fmt::print("{}: {}\n", judgement.specimen, judgement.valid ? "valid" : "not valid");
+  return 0;
+}
+
+int judge(const Options& options, const std::vector<Judgement>& judgements) {
+  if (!options.set.empty()) return judge_in_set(options, judgements);
+  int status = 0;
+  for (const Judgement& judgement : judgements) status = std::max(status, judge_in_run(options, judgement));
+  return status;
+}
+
+std::vector<SpecimenRecord> specimens_to_review(const Options& options) {
+  return options.set.empty() ? view_laboratory(open_run(options.run)).facts.book.specimens()
+                             : read_set(options.set).specimens;
+}
+
+nlohmann::ordered_json to_json(const ReplicateGroup& group) {
+  nlohmann::ordered_json proposed = nlohmann::ordered_json::array();
+  for (const auto& outlier : group.proposed) {
+    nlohmann::ordered_json reasons = nlohmann::ordered_json::array();
+    for (const auto& reason : outlier.reasons)
+      reasons.push_back({{"kind", reason.kind}, {"distance", reason.distance}, {"text", reason.text}});
+    proposed.push_back({{"specimen", outlier.specimen}, {"reasons", reasons}});
+  }
+  return {{"pattern", group.design.name()},
+          {"test", std::string(tester::to_string(group.test))},
+          {"orientation_deg", group.conditions.orientation_deg},
+          {"state", std::string(to_string(group.state))},
+          {"tested", group.tested},
+          {"valid", group.valid},
+          {"proposed_outliers", proposed},
+          {"wanted", group.wanted},
+          {"mean_pa", group.mean_pa},
+          {"scatter", group.scatter},
+          {"mean_without_pa", group.mean_without_pa},
+          {"scatter_without", group.scatter_without},
+          {"representative", group.representative}};
+}
+
+void print_group(const ReplicateGroup& group) {
+  const bool is_modulus = group.test == tester::TestKind::modulus;
+  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {:.4f} {} +- {:.1f} %{}\n", group.design.name(),
+             tester::to_string(group.test), group.conditions.orientation_deg == 90.0 ? " turned" : "",
+             to_string(group.state), group.tested.size(), group.valid.size(),
+             group.wanted > 0 ? fmt::format(", {} more wanted", group.wanted) : "", is_modulus ? "E" : "T",
+             group.mean_pa * (is_modulus ? 1e-9 : 1e-6), is_modulus ? "GPa" : "MPa", 100.0 * group.scatter,
+             group.representative.empty() ? "" : fmt::format("  represented by {}", group.representative));
+  for (const auto& outlier : group.proposed) {
+    for (const auto& reason : outlier.reasons)
+      fmt::print("    {} looks out of line: {}\n", outlier.specimen, reason.text);
+  }
+  if (!group.proposed.empty()) {
+    fmt::print("    without: {:.4f} {} +- {:.1f} %\n", group.mean_without_pa * (is_modulus ? 1e-9 : 1e-6),
+               is_modulus ? "GPa" : "MPa", 100.0 * group.scatter_without);
+  }
+}
+
+void print_review(const std::vector<ReplicateGroup>& groups, const std::vector<measurement::HistoryEffect>& history,
+                  bool json) {
+  if (json) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array(), effects = all;
+    for (const auto& group : groups) all.push_back(to_json(group));
+    for (const auto& effect : history) {
+      effects.push_back({{"factor", effect.factor},
+                         {"level", effect.level},
+                         {"test", std::string(tester::to_string(effect.test))},
+                         {"relative", effect.relative},
+                         {"standard_error", effect.standard_error},
+                         {"specimens", effect.specimens},
+                         {"notable", effect.notable()}});
+    }
+    return print_json({{"groups", all}, {"history", effects}});
+  }
+  for (const auto& group : groups) print_group(group);
+  for (const auto& effect : history) {
+    if (!effect.notable()) continue;
+    fmt::print("{} {} ({} test, {} specimens): {:+.1f} +- {:.1f} % against the mean of the same designs\n",
+               effect.factor, effect.level, tester::to_string(effect.test), effect.specimens, 100.0 * effect.relative,
+               100.0 * effect.standard_error);
+  }
+}
+
+int review(const Options& options) {
+  if (!options.specimen.empty()) {
+    if (options.valid == options.invalid) throw InputError("nacre review: expected either --valid or --invalid");
+    if (options.accept) throw InputError("nacre review: expected either a specimen or --accept");
+    if (options.why.empty()) throw InputError("nacre review: expected --why with a reason");
+    return judge(options, {{options.specimen, options.valid, options.why}});
+  }
+  if (options.valid || options.invalid) throw InputError("nacre review: expected a specimen to judge");
+  const std::vector<SpecimenRecord> specimens = specimens_to_review(options);
+  const std::vector<ReplicateGroup> groups = measurement::review_replicates(specimens);
+  if (!options.accept) {
+    print_review(groups, measurement::history_effects(specimens), options.json);
+    return 0;
+  }
+  std::vector<Judgement> judgements;
+  for (const ReplicateGroup& group : groups) {
+    for (const auto& outlier : group.proposed)
+      judgements.push_back({outlier.specimen, false, outlier.reasons.front().text});
+  }
+  if (judgements.empty()) remark("no specimen looks out of line");
+  return judgements.empty() ? 0 : judge(options, judgements);
+}
+
+}  // namespace
+
+void add_review(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(
+      app, action, "review", "Show which replicates agree, or judge a measured specimen valid or not", options, review);
+  command.add_option("SPECIMEN", options->specimen, "Specimen to judge; without: show all groups of replicates");
+  add_run_option(command, options->run);
+  command.add_option("--set", options->set, "A measurement set instead of a run");
+  command.add_flag("--valid", options->valid, "It counts");
+  command.add_flag("--invalid", options->invalid, "It does not count");
+  command.add_flag("--accept", options->accept, "Judge all proposed outliers not valid");
+  command.add_option("--why", options->why, "Reason, kept with the run or the set");
+  command.add_option("--by", options->by, "Who judges")->capture_default_str();
+  command.add_option("--revision", options->revision, "Number of the judgement; default: one more than the last")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

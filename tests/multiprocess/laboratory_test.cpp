@@ -1,0 +1,162 @@
+// What a person with a printer and a testing machine types: print files, imports, reviews, states of designs.
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "persons_game.hpp"
+#include "program.hpp"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const fs::path kExports = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/exports";
+const fs::path kExample = fs::path(NACRE_SOURCE_DIR) / "data/examples/tester";
+
+TEST(Fabricate, WritesTheSlicesOfOneModelAndItsBuildSheet) {
+  const fs::path folder = fresh_folder("fabricate");
+  const Outcome outcome = run_nacre({"fabricate", "577fffe9fffdef", "--out", folder.string(), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto sheet = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(sheet["models"][0]["slice_count"], 101);
+  EXPECT_EQ(sheet["models"][0]["columns"], 614);
+  EXPECT_EQ(sheet["models"][0]["rows"], 2457);
+  EXPECT_EQ(sheet["specimens"].size(), 4U);
+  for (const char* file : {"slices/0000.png", "slices/0100.png", "preview.png", "build_sheet.html", "specimens.csv"})
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
+  EXPECT_FALSE(fs::exists(folder / "slices/0101.png"));
+}
+
+TEST(Fabricate, RefusesWhatCannotBePrinted) {
+  const std::string folder = fresh_folder("refused").string();
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"fabricate", "--out", folder},
+                                                {"fabricate", "mix:1.5", "--out", folder},
+                                                {"fabricate", "rigid", "--dpi", "1,1,1", "--out", folder},
+                                                {"fabricate", "checkerboard:3", "--out", folder},
+                                                {"fabricate", "rigid", "--tray-mm", "50,50", "--out", folder}}) {
+    EXPECT_EQ(run_nacre(wrong).status, 2) << wrong[1];
+  }
+}
+
+TEST(ImportProgram, MakesASetOfWhatIsUsableAndNamesTheRest) {
+  const fs::path set = fresh_folder("imported") / "set";
+  const Outcome outcome = run_nacre(
+      {"import", "--specimens", (kExports / "damaged/specimens.csv").string(), "--out", set.string(), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["specimens"].size(), 2U);
+  EXPECT_EQ(report["rejected"].size(), 22U);
+  for (const auto& fault : report["rejected"]) EXPECT_THAT(fault["reason"].get<std::string>(), Not(IsEmpty()));
+  EXPECT_EQ(measurement::read_measurement_set(set).specimens.size(), 2U);
+}
+
+TEST(ImportProgram, EndsWithStatusTwoWhenNothingIsUsable) {
+  const fs::path folder = fresh_folder("unusable");
+  std::ofstream(folder / "sheet.csv")
+      << "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\nx.csv,A,rigid,52,3.2,54\n";
+  std::ofstream(folder / "x.csv") << "no numbers here\n";
+  const Outcome outcome = run_nacre({"import", (folder / "x.csv").string(), "--specimens",
+                                     (folder / "sheet.csv").string(), "--out", (folder / "set").string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("none of its specimens is usable"));
+  EXPECT_FALSE(fs::exists(folder / "set"));
+}
+
+TEST(ReviewProgram, ProposesTheOutlierOfTheExampleAndLeavesTheDecisionToAPerson) {
+  const std::string set = (fresh_folder("example") / "set").string();
+  const Outcome imported = run_nacre({"import", "--specimens", (kExample / "specimens.csv").string(), "--out", set});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  const auto shown = nlohmann::json::parse(run_nacre({"review", "--set", set, "--json"}).out);
+  EXPECT_EQ(shown["groups"].size(), 8U);
+  std::set<std::string> proposed;
+  for (const auto& group : shown["groups"]) {
+    for (const auto& outlier : group["proposed_outliers"]) proposed.insert(outlier["specimen"].get<std::string>());
+    EXPECT_EQ(group["state"], "complete") << group;
+  }
+  EXPECT_EQ(proposed, std::set<std::string>{"tutorial-25"});
+  for (const auto& specimen : measurement::read_measurement_set(set).specimens) EXPECT_TRUE(specimen.valid);
+
+  ASSERT_EQ(run_nacre({"review", "--set", set, "tutorial-25", "--invalid", "--why", "bubble", "--by", "me"}).status, 0);
+  for (const auto& specimen : measurement::read_measurement_set(set).specimens) {
+    EXPECT_EQ(specimen.valid, specimen.specimen != "tutorial-25");
+    if (!specimen.valid) EXPECT_EQ(specimen.note, "bubble (me)");
+  }
+  EXPECT_EQ(run_nacre({"review", "--set", set, "nobody", "--invalid", "--why", "?"}).status, 2);
+  EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-25", "--invalid"}).status, 2) << "a reason is wanted";
+}
+
+constexpr const char* kScenario = R"(rounds = 1
+fidelity = "tiny"
+[diagnosis]
+enabled = false
+[proposal]
+samples = 12
+seeds = 1
+population = 6
+designs = 1
+[validation]
+random_patterns = 0
+replicates = 2
+mixtures = []
+calibration_evaluations = 3
+modulus_evaluations = 12
+approval = true
+)";
+
+/// State of each design of a run.
+std::map<std::string, std::string> states(const fs::path& run) {
+  std::map<std::string, std::string> states;
+  for (const auto& design : nlohmann::json::parse(run_nacre({"designs", "--run", run.string(), "--json"}).out))
+    states[design["design"]] = design["state"];
+  return states;
+}
+
+TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryProcess) {
+  const fs::path folder = fresh_folder("laboratory");
+  PersonsGame person(folder, "states", kScenario);
+  const std::string run = person.run().string();
+  person.wait_for("orders of the base materials", [&] { return person.orders().size() == 6; });
+  const std::string proposed = person.proposals().at(0).designs.at(0).design.name();
+  const std::string own = (*pattern::design_from_name("3ffc9b4ad4d2d9")).name();
+  EXPECT_EQ(states(person.run()).at(proposed), "pending");
+  EXPECT_EQ(states(person.run()).at("soft"), "approved");
+  person.decide({"approve", proposed, "--reject", "--why", "islands"});
+  EXPECT_THAT(person.decide({"approve", "--add", own, "--why", "published"}), HasSubstr("added"));
+  person.wait_for("orders of the person's design", [&] { return person.orders().size() == 8; });
+  EXPECT_EQ(states(person.run()).at(proposed), "rejected");
+  EXPECT_EQ(states(person.run()).at(own), "approved");
+
+  const std::string job = (folder / "job").string();
+  const Outcome printed =
+      run_nacre({"fabricate", "--orders", "--run", run, "--out", job, "--dpi", "100,100,100", "--json"}, 120.0);
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"].size(), 16U);
+  EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 specimens printed"));
+  EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 known already"));
+  EXPECT_EQ(run_nacre({"fabricate", "--orders", "--run", run, "--out", job}).status, 1) << "nothing is left to print";
+
+  person.game().kill_everything();
+  EXPECT_EQ(states(person.run()).at(own), "printed");
+  EXPECT_EQ(states(person.run()).at(proposed), "rejected");
+  PlayedGame resumed(person.run());
+  const auto specimens = person.measured_in_laboratory();
+  ASSERT_EQ(specimens.size(), 16U);
+  inject(folder / "all", specimens, person.run());
+  EXPECT_TRUE(resumed.play_to_end(240.0)) << resumed.said();
+  EXPECT_EQ(states(person.run()).at(own), "measured");
+  EXPECT_EQ(states(person.run()).at("rigid"), "measured");
+  EXPECT_EQ(person.rounds().back().calibration_count, 1) << "the person's design";
+}
+
+}  // namespace
+}  // namespace nacre
