@@ -42,7 +42,8 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
       *position = i;
     } else {
       heading.others.emplace_back(i, name);
-      warnings.push_back(unknown_column(table, row.cells[i], name));
+      if (std::find(kHistoryColumns.begin(), kHistoryColumns.end(), name) == kHistoryColumns.end())
+        warnings.push_back(unknown_column(table, row.cells[i], name));
     }
   }
   return heading;
