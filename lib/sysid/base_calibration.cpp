@@ -188,7 +188,7 @@ struct BaseCalibration::State {
   /// which leaves the two other materials with thresholds that were fitted at another damping.
   std::size_t fairest_damping() const {
     std::size_t fairest = 0;
-    for (std::size_t k = 1; k < dampings_per_s.size(); ++k) {
+    for (std::size_t k = 1; k <= damping; ++k) {  // later ones were not tried
       if (worst_error(k) < worst_error(fairest)) fairest = k;
     }
     return fairest;
