@@ -270,7 +270,8 @@ TEST_F(ApprovalGame, NothingProposedIsOrderedWithoutAYes) {
   EXPECT_EQ(last_round().calibration_count, 6);
   EXPECT_EQ(last_round().held_out.modulus_count, 2);
   // A refused design is not proposed again.
-  for (const auto& each : game_.said<wire::Proposal>("PROPOSAL").back().designs) {
+  const auto next_designs = game_.said<wire::Proposal>("PROPOSAL").back().designs;
+  for (const auto& each : next_designs) {
     EXPECT_FALSE(each.design == designs[1].design);
   }
 }
@@ -298,7 +299,8 @@ TEST_F(ApprovalGame, ADesignOfAPersonsOwnIsOrderedOnceAndMeasuredWithTheRest) {
   decide(own, true, -1);
   EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("is ordered already")));
   EXPECT_EQ(game_.payloads("TEST_ORDER").size(), orders);
-  for (const auto& each : game_.said<wire::Proposal>("PROPOSAL").front().designs) {
+  const auto designs = game_.said<wire::Proposal>("PROPOSAL").front().designs;
+  for (const auto& each : designs) {
     decide(each.design, true, -1);
     EXPECT_THAT(game_.complaints_of("validation_agent").back(), HasSubstr("waits for a plain yes"));
     decide(each.design, true);

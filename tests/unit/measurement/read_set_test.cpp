@@ -92,11 +92,11 @@ TEST_F(SetOnDisk, OrderOfColumnsMarkAndLineEndingsDoNotMatter) {
 }
 
 TEST_F(SetOnDisk, UnknownColumnsAreWarnedAboutAndKept) {
-  const MeasurementSet set = read("specimen,pattern,test,modulus_pa,operator,Note\nS1,rigid,modulus,2e9,Ada,\n");
+  const MeasurementSet set = read("specimen,pattern,test,modulus_pa,colour,Note\nS1,rigid,modulus,2e9,Ada,\n");
   ASSERT_EQ(set.warnings.size(), 2u);
-  EXPECT_THAT(set.warnings[0], HasSubstr("operator"));
+  EXPECT_THAT(set.warnings[0], HasSubstr("colour"));
   EXPECT_THAT(set.warnings[1], HasSubstr("is `note` meant?"));
-  EXPECT_EQ(set.specimens[0].other_columns.at("operator"), "Ada");
+  EXPECT_EQ(set.specimens[0].other_columns.at("colour"), "Ada");
   write_measurement_set(folder_ / "copy", set.specimens);
   EXPECT_EQ(read_measurement_set(folder_ / "copy").specimens, set.specimens);
 }
