@@ -306,7 +306,7 @@ TEST_F(ApprovalGame, ADesignOfAPersonsOwnIsOrderedOnceAndMeasuredWithTheRest) {
     decide(each.design, true);
   }
   ASSERT_EQ(rounds(), 2u);
-  EXPECT_EQ(last_round().calibration_count, 9) << "proposals, random patterns and the person's design";
+  EXPECT_EQ(last_round().calibration_count, 8) << "proposals, random patterns and the person's design";
   EXPECT_EQ(last_round().held_out.modulus_count, 3) << "nobody predicted the person's design";
 }
 
