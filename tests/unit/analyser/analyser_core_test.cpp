@@ -147,7 +147,7 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
 TEST(Analyser, TinySpecimensAreNotFilmed) {
   game::Scenario scenario;
   scenario.fidelity = tester::Fidelity::tiny;
-  AnalyserCore core(scenario, 0.006);
+  AnalyserCore core(scenario, diagnosis::ModulusFloor{});
   (void)core.step(Message{"PARAMETERS", model_of(1)});
   EXPECT_THAT(core.step(Message{"PROPOSAL", proposal_of(1, {5, 6})}).messages, IsEmpty());
 }
