@@ -33,7 +33,7 @@ sysid::OfflineSettings offline_settings(const Study& study) {
   settings.calibration.start = material::default_parameters();
   settings.calibration.modulus_budget = study.modulus_budget;
   settings.calibration.toughness_budget = study.toughness_budget;
-  if (study.method == "nlopt") settings.calibration.toughness_search = sysid::ToughnessSearch::nlopt;
+  if (study.method == "nlopt") settings.calibration.toughness_search = sysid::ToughnessSearch::trust_region;
   settings.fidelity = tester::fidelity_from_string(study.fidelity).value();
   return settings;
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/random.hpp"
 #include "sysid/fit.hpp"
+#include "sysid/likelihood.hpp"
 #include "sysid/objective.hpp"
 #include "sysid/spread.hpp"
 
@@ -36,6 +38,24 @@ FitData data_of(const std::vector<measurement::Replicates>& measured, const std:
     data.weights.push_back(weights[item]);
   }
   return data;
+}
+
+/// The algorithm behind a search that sees the objective only.
+optimize::Algorithm algorithm_of(ToughnessSearch search) {
+  switch (search) {
+    case ToughnessSearch::bayesian:
+      return optimize::Algorithm::bayesian;
+    case ToughnessSearch::random:
+      return optimize::Algorithm::random;
+    case ToughnessSearch::direct_l:
+      return optimize::Algorithm::direct_l;
+    case ToughnessSearch::crs2:
+      return optimize::Algorithm::crs2;
+    case ToughnessSearch::cma_es:
+      return optimize::Algorithm::cma_es;
+    default:
+      return optimize::Algorithm::trust_region;
+  }
 }
 
 /// Parameters of theta that act in the static tester: all but gamma, which stands last.
@@ -95,21 +115,42 @@ struct Calibration::State {
                            {.start = to_point(to_vector(settings.start.modulus), modulus_ranges(), kModulusDimensions),
                             .budget = std::max(1, settings.modulus_budget),
                             .batch = settings.batch,
-                            .seed = settings.seed});
+                            .seed = settings.seed,
+                            .floor = settings.floor});
     }
     if (!toughness.items.empty()) begin_toughness();
     ask();
   }
 
   void begin_toughness() {
-    const FitSettings fit_settings = {
-        .start = to_point(to_vector(settings.start.toughness), toughness_ranges(), kToughnessDimensions),
-        .budget = std::max(1, settings.toughness_budget),
-        .batch = settings.batch,
-        .seed = settings.seed};
-    const auto make = settings.toughness_search == ToughnessSearch::emulator ? make_emulator_fit : make_nlopt_fit;
-    toughness.fit = make(data_of(measured, weights, toughness.items), fit_settings, toughness_ranges(),
-                         other_starts(fit_settings.start));
+    std::vector<std::unique_ptr<Fit>> fits;
+    for (int k = 0; k < std::max(1, settings.searches); ++k) {
+      const FitSettings fit_settings = {
+          .start = to_point(to_vector(settings.start.toughness), toughness_ranges(), kToughnessDimensions),
+          .budget = std::max(1, settings.toughness_budget),
+          .batch = settings.batch,
+          .seed = k == 0 ? settings.seed : RandomStream(settings.seed, fmt::format("search {}", k)).bits(),
+          .floor = settings.floor};
+      fits.push_back(make_toughness_fit(fit_settings));
+    }
+    toughness.fit = make_parallel_fit(std::move(fits));
+  }
+
+  std::unique_ptr<Fit> make_toughness_fit(const FitSettings& fit_settings) const {
+    FitData data = data_of(measured, weights, toughness.items);
+    std::vector<Point> others = other_starts(fit_settings.start);
+    switch (settings.toughness_search) {
+      case ToughnessSearch::posterior:
+        return make_posterior_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others));
+      case ToughnessSearch::emulator:
+        return make_emulator_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others));
+      case ToughnessSearch::gauss_newton:
+        return make_gauss_newton_fit(std::move(data), fit_settings, toughness_ranges());
+      default:
+        break;
+    }
+    return make_objective_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others),
+                              algorithm_of(settings.toughness_search));
   }
 
   /// The middle of the ranges, and the start with another interface: what the first batch holds beside
@@ -221,6 +262,33 @@ struct Calibration::State {
                   to_vector(result.parameters.toughness), toughness.fit.get());
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);
+    add_likelihood();
+    add_ensemble();
+  }
+
+  void add_likelihood() {
+    const auto determined = [&](std::string_view table) {
+      return static_cast<int>(std::count_if(
+          result.estimates.begin(), result.estimates.end(),
+          [&](const ParameterEstimate& each) { return each.determined && each.name.starts_with(table); }));
+    };
+    const Likelihood modulus_likelihood =
+        modulus_likelihood_of(measured, result.predictions, settings.floor, determined("modulus"));
+    const Likelihood toughness_likelihood =
+        toughness_likelihood_of(measured, result.predictions, settings.floor, determined("toughness"));
+    result.modulus_deviance = modulus_likelihood.deviance;
+    result.modulus_fit = modulus_likelihood.fit;
+    result.toughness_deviance = toughness_likelihood.deviance;
+    result.toughness_fit = toughness_likelihood.fit;
+    if (toughness.fit != nullptr && settings.searches > 1) result.search_objectives = toughness.fit->best_objectives();
+  }
+
+  void add_ensemble() {
+    if (toughness.fit == nullptr) return;
+    for (const Point& point : toughness.fit->plausible(settings.ensemble_size)) {
+      result.ensemble.push_back(result.parameters);
+      result.ensemble.back().toughness = toughness_at(point);
+    }
   }
 
   double progress() const {

@@ -3,6 +3,7 @@
 // the simulations may run on the farm or in this process.
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,17 +50,44 @@ double modulus_objective(const std::vector<measurement::Replicates>& measured, c
 double toughness_objective(const std::vector<measurement::Replicates>& measured, const std::vector<double>& weights,
                            const std::vector<Prediction>& predictions);
 
-/// How eta is searched: by an emulator of T and peak stress per design, or by NLopt's algorithms on the objective alone
-/// (docs/studies/calibration-first.md compares them).
-enum class ToughnessSearch { emulator, nlopt };
+/// How eta is searched (docs/studies/calibration compares them at equal simulations).
+enum class ToughnessSearch {
+  posterior,     ///< most probable parameters by an emulator of features that averages over the testers' jumps
+  emulator,      ///< smallest objective (2.8) by the same emulator, which trusts the best evaluation
+  gauss_newton,  ///< least squares of the features, slopes by finite differences
+  bayesian,      ///< batch Bayesian optimisation of the objective, as the thesis does
+  trust_region,  ///< NLopt's BOBYQA and Nelder-Mead on the objective
+  random,
+  direct_l,
+  crs2,
+  cma_es,
+};
+std::string_view to_string(ToughnessSearch search);
+Result<ToughnessSearch> toughness_search_from_string(std::string_view name);
+
+/// What remains between two numerics of one truth, so between any laboratory and the testers, beside scatter and
+/// physics: standard deviations of natural logarithms, per design (after parameters have taken over what they can) and
+/// common to all designs.
+struct NumericsFloor {
+  double log_modulus_sd = 0.006, log_toughness_sd = 0.22, log_peak_sd = 0.10;
+  double log_modulus_common_sd = 0.06, log_toughness_common_sd = 0.27, log_peak_common_sd = 0.10;
+  double log_modulus_trend_sd =
+      0.024;  ///< along the rigid fraction: thin soft joints are computed softer than thick ones
+};
+/// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
+/// InputError.
+NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity);
 
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
   material::ParameterSet start;  ///< where to begin; its extensions are kept as they are
   int modulus_budget = 120;      ///< evaluations of the modulus set; 0 keeps theta
-  int toughness_budget = 25;     ///< evaluations of the toughness set; 0 keeps eta
+  int toughness_budget = 25;     ///< evaluations of the toughness set, of each search; 0 keeps eta
   int batch = 3;                 ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
-  ToughnessSearch toughness_search = ToughnessSearch::emulator;
+  ToughnessSearch toughness_search = ToughnessSearch::posterior;
+  int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported
+  int ensemble_size = 0;  ///< further parameter sets drawn from what the data leave possible
+  NumericsFloor floor;
   std::uint64_t seed = 1;
 };
 
@@ -78,6 +106,27 @@ struct ParameterEstimate {
   double value = 0.0;
   double low90 = 0.0, high90 = 0.0;  ///< 90 % interval; the whole range when the parameter is not determined
   bool determined = false;           ///< the data narrow the parameter to less than half of what its range alone says
+  bool operator==(const ParameterEstimate&) const = default;
+};
+
+/// Whether residuals are of the size that replicates and the numerics floor explain.
+struct GoodnessOfFit {
+  int count = 0;             ///< designs; 0: nothing to judge
+  int freedom = 0;           ///< designs less the parameters that they determine
+  double chi_squared = 0.0;  ///< squared residuals of log E or log T over their variances, the floor included
+  double chi_squared_replicates = 0.0;  ///< the same against the scatter of replicates alone
+  double p_value = 1.0;                 ///< chance of so large a chi squared when the model is right
+  bool misfit() const { return count > 0 && p_value < 0.01; }
+  bool operator==(const GoodnessOfFit&) const = default;
+};
+
+/// Where parameters come from and how far they can be trusted: what goes out with them.
+struct Provenance {
+  std::string search;                                         ///< `base_materials`, or how eta was searched
+  double modulus_objective = 0.0, toughness_objective = 0.0;  ///< (2.8) of these parameters on their calibration set
+  GoodnessOfFit modulus_fit, toughness_fit;
+  std::vector<ParameterEstimate> estimates;
+  bool operator==(const Provenance&) const = default;
 };
 
 /// Result of a calibration.
@@ -92,8 +141,18 @@ struct Calibrated {
   std::vector<ParameterEstimate> estimates;
   /// Objective of every parameter set evaluated, in order: how the search converged. None from BaseCalibration.
   std::vector<double> modulus_objectives, toughness_objectives;
+  /// -2 log likelihood of E and T with replicate covariance and floor, constants left out: what (2.8) does not weigh.
+  double modulus_deviance = 0.0, toughness_deviance = 0.0;
+  GoodnessOfFit modulus_fit, toughness_fit;
+  /// Smallest toughness objective of each search, when there were several.
+  std::vector<double> search_objectives;
+  /// Sets drawn from what the data leave possible, `parameters` not among them: the spread of their predictions is the
+  /// uncertainty of a prediction, and their mean averages over the jumps of single fracture simulations.
+  std::vector<material::ParameterSet> ensemble;
   int simulations = 0;
 };
+
+Provenance provenance_of(const Calibrated& calibrated, std::string_view search);
 
 /// A calibration in progress. Deterministic in its settings and in what it was told.
 class Calibration {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlopt.hpp>
 #include <numeric>
 
 #include "sysid/spread.hpp"
@@ -16,22 +17,17 @@ constexpr std::size_t kMostInputs = 60;
 constexpr std::array<double, kEtaCount> kToughnessSlope = {0, 0, 0, 0, 0, 0, 0.2, 0.4, 0.4, 0};
 constexpr std::array<double, kEtaCount> kPeakSlope = {0.05, 0.25, 0.2, 0, 0, 0, 0.1, 0.2, 0.2, 0};
 constexpr double kOffsetDeviation = 2.0;   // of a feature's level
-constexpr double kSplitDeviation = 0.3;    // of how a sum of sensitivities splits over the materials
-constexpr double kSumDeviation = 0.1;      // of the sum itself: inertia, damping and large strains
 constexpr double kGammaDeviation = 0.15;   // of the sensitivity to log gamma
 constexpr double kPoissonDeviation = 0.2;  // over the whole range of a Poisson's ratio
-constexpr double kCurvedDeviation = 0.2;   // of what is not linear
-constexpr double kCurvedLength = 1.5;      // in natural logarithms
-constexpr double kNoiseDeviation = 0.05;   // elements fail one by one: T jumps by some percent
 
 double square(double x) { return x * x; }
 
 /// Covariance of the linear part over one group of three materials: sensitivities s = mean + split with sum zero +
 /// common.
-double group_covariance(const double* a, const double* b) {
+double group_covariance(const EmulatorPrior& prior, const double* a, const double* b) {
   const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const double sums = (a[0] + a[1] + a[2]) * (b[0] + b[1] + b[2]);
-  return square(kSplitDeviation) * (dot - sums / 3.0) + square(kSumDeviation) * sums / 9.0;
+  return square(prior.split_deviation) * (dot - sums / 3.0) + square(prior.sum_deviation) * sums / 9.0;
 }
 
 double matern52(double distance) {
@@ -43,14 +39,6 @@ double prior_mean(const std::array<double, kEtaCount>& slope, const Eigen::Vecto
   double sum = 0.0;
   for (int j = 0; j < kEtaCount; ++j) sum += slope[static_cast<std::size_t>(j)] * at[j];
   return sum;
-}
-
-std::optional<FeatureChange> features_of(const Prediction& prediction) {
-  if (!prediction.toughness_pa || *prediction.toughness_pa <= 0.0) return std::nullopt;
-  const double log_toughness = std::log(*prediction.toughness_pa);
-  const auto& stress = prediction.curve.stress_pa;
-  const double peak = stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
-  return FeatureChange{log_toughness, peak > 0.0 ? std::log(peak) : 0.5 * log_toughness};
 }
 
 /// Indices of the trials nearest to trials[centre], itself first.
@@ -91,12 +79,12 @@ Eigen::VectorXd FeatureEmulator::coordinates(const Point& point) const {
 double FeatureEmulator::covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
   // Seen from the centre, so that the linear part does not depend on where the ranges begin.
   const Eigen::VectorXd from_a = a - centre_, from_b = b - centre_;
-  const double linear = group_covariance(from_a.data() + kE0, from_b.data() + kE0) +
-                        group_covariance(from_a.data() + kW0, from_b.data() + kW0) +
+  const double linear = group_covariance(prior_, from_a.data() + kE0, from_b.data() + kE0) +
+                        group_covariance(prior_, from_a.data() + kW0, from_b.data() + kW0) +
                         square(kPoissonDeviation) * from_a.segment<3>(kNu0).dot(from_b.segment<3>(kNu0)) +
                         square(kGammaDeviation) * from_a[kGamma] * from_b[kGamma];
-  const double distance = (a - b).norm() / kCurvedLength;
-  return square(kOffsetDeviation) + linear + square(kCurvedDeviation) * matern52(distance);
+  const double distance = (a - b).norm() / prior_.curved_length;
+  return square(kOffsetDeviation) + linear + square(prior_.curved_deviation) * matern52(distance);
 }
 
 Eigen::VectorXd FeatureEmulator::covariances(const Eigen::VectorXd& at) const {
@@ -113,44 +101,118 @@ void FeatureEmulator::factorise() {
       matrix(i, j) = matrix(j, i) =
           covariance(inputs_[static_cast<std::size_t>(i)], inputs_[static_cast<std::size_t>(j)]);
     }
-    matrix(i, i) += square(kNoiseDeviation);
+    matrix(i, i) += square(prior_.noise_deviation);
   }
   factor_.compute(matrix);
 }
 
 void FeatureEmulator::learn(const std::vector<Trial>& trials, std::size_t centre) {
-  const std::vector<std::size_t> used = nearest_trials(trials, centre);
+  prior_ = {};
+  take_targets(trials, centre);
+  solve();
+}
+
+void FeatureEmulator::take_targets(const std::vector<Trial>& trials, std::size_t centre) {
+  used_ = nearest_trials(trials, centre);
   centre_ = coordinates(trials[centre].point);
   inputs_.clear();
-  for (const std::size_t k : used) inputs_.push_back(coordinates(trials[k].point));
-  factorise();
-  const Eigen::Index rows = static_cast<Eigen::Index>(used.size());
-  Eigen::MatrixXd targets = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(2 * design_count_));
+  for (const std::size_t k : used_) inputs_.push_back(coordinates(trials[k].point));
+  const Eigen::Index rows = static_cast<Eigen::Index>(used_.size());
+  targets_ = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(2 * design_count_));
   for (std::size_t i = 0; i < design_count_; ++i) {
     const Eigen::Index column = static_cast<Eigen::Index>(2 * i);
-    const std::optional<FeatureChange> base = features_of(trials[centre].predictions[i]);
+    const std::optional<CurveFeatures> base = features_of(trials[centre].predictions[i]);
     for (Eigen::Index row = 0; base && row < rows; ++row) {
-      const std::optional<FeatureChange> here = features_of(trials[used[static_cast<std::size_t>(row)]].predictions[i]);
+      const auto here = features_of(trials[used_[static_cast<std::size_t>(row)]].predictions[i]);
       if (!here) continue;  // zero: what the prior expects
       const Eigen::VectorXd moved = inputs_[static_cast<std::size_t>(row)] - centre_;
-      targets(row, column) = here->log_toughness - base->log_toughness - prior_mean(kToughnessSlope, moved);
-      targets(row, column + 1) = here->log_peak - base->log_peak - prior_mean(kPeakSlope, moved);
+      targets_(row, column) = here->log_toughness - base->log_toughness - prior_mean(kToughnessSlope, moved);
+      targets_(row, column + 1) = here->log_peak - base->log_peak - prior_mean(kPeakSlope, moved);
     }
   }
-  coefficients_ = factor_.solve(targets);
+}
+
+void FeatureEmulator::solve() {
+  factorise();
+  coefficients_ = factor_.solve(targets_);
   at_centre_ = covariances(centre_).transpose() * coefficients_;
 }
 
-void FeatureEmulator::predict(const Point& point, std::vector<FeatureChange>& changes) const {
+/// Log density of all targets under the prior, which all designs and both features share.
+double FeatureEmulator::log_evidence() const {
+  const Eigen::MatrixXd lower = factor_.matrixL();
+  return -0.5 * targets_.cwiseProduct(coefficients_).sum() -
+         static_cast<double>(targets_.cols()) * lower.diagonal().array().log().sum();
+}
+
+void FeatureEmulator::learn_with_prior(const std::vector<Trial>& trials, std::size_t centre) {
+  constexpr double kReach = 2.0;
+  constexpr double kSpread = 0.7;   // of the logarithms of the prior's figures around their defaults
+  constexpr int kEvaluations = 60;  // it goes on from the last fit
+  constexpr std::size_t kFewestTrials = 5;
+  take_targets(trials, centre);
+  if (used_.size() < kFewestTrials) return solve();
+  const auto prior_at = [](const std::vector<double>& log_factors) {
+    EmulatorPrior prior;
+    prior.split_deviation *= std::exp(log_factors[0]);
+    prior.sum_deviation *= std::exp(log_factors[1]);
+    prior.curved_deviation *= std::exp(log_factors[2]);
+    prior.curved_length *= std::exp(log_factors[3]);
+    prior.noise_deviation *= std::exp(log_factors[4]);
+    return prior;
+  };
+  struct Question {
+    FeatureEmulator& emulator;
+    decltype(prior_at)& prior;
+  } question{*this, prior_at};
+  const auto cost = [](const std::vector<double>& at, std::vector<double>&, void* data) {
+    const Question& asked = *static_cast<Question*>(data);
+    asked.emulator.prior_ = asked.prior(at);
+    asked.emulator.solve();
+    double sum = 0.0;
+    for (const double value : at) sum += 0.5 * square(value / kSpread);
+    return sum - asked.emulator.log_evidence();
+  };
+  const EmulatorPrior first;
+  std::vector<double> at = {
+      std::log(prior_.split_deviation / first.split_deviation), std::log(prior_.sum_deviation / first.sum_deviation),
+      std::log(prior_.curved_deviation / first.curved_deviation), std::log(prior_.curved_length / first.curved_length),
+      std::log(prior_.noise_deviation / first.noise_deviation)};
+  for (double& value : at) value = std::clamp(value, -kReach, kReach);
+  nlopt::opt search(nlopt::LN_SBPLX, 5);
+  search.set_lower_bounds(-kReach);
+  search.set_upper_bounds(kReach);
+  search.set_initial_step(0.3);
+  search.set_maxeval(kEvaluations);
+  search.set_min_objective(cost, &question);
+  try {
+    double smallest = 0.0;
+    search.optimize(at, smallest);
+  } catch (const nlopt::roundoff_limited&) {  // the point reached is the best that doubles can tell
+  }
+  prior_ = prior_at(at);
+  solve();
+}
+
+void FeatureEmulator::change(const Point& point, const Eigen::RowVectorXd& offset,
+                             std::vector<FeatureChange>& changes) const {
   const Eigen::VectorXd at = coordinates(point);
   const Eigen::VectorXd weights = covariances(at).head(coefficients_.rows());
-  const Eigen::RowVectorXd learnt = weights.transpose() * coefficients_ - at_centre_;
+  const Eigen::RowVectorXd learnt = weights.transpose() * coefficients_ - offset;
   const double toughness = prior_mean(kToughnessSlope, at - centre_), peak = prior_mean(kPeakSlope, at - centre_);
   changes.resize(design_count_);
   for (std::size_t i = 0; i < design_count_; ++i) {
     const Eigen::Index column = static_cast<Eigen::Index>(2 * i);
     changes[i] = {toughness + learnt[column], peak + learnt[column + 1]};
   }
+}
+
+void FeatureEmulator::predict(const Point& point, std::vector<FeatureChange>& changes) const {
+  change(point, at_centre_, changes);
+}
+
+void FeatureEmulator::predict_smooth(const Point& point, std::vector<FeatureChange>& changes) const {
+  change(point, Eigen::RowVectorXd::Zero(at_centre_.size()), changes);
 }
 
 double FeatureEmulator::deviation(const Point& point) const {
@@ -160,42 +222,56 @@ double FeatureEmulator::deviation(const Point& point) const {
   return std::sqrt(std::max(0.0, prior - difference.dot(factor_.solve(difference))));
 }
 
+Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at, std::size_t design_count,
+                               bool poisson_searched) {
+  constexpr double kStep = 0.05;
+  const Eigen::Index designs = static_cast<Eigen::Index>(design_count);
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * designs, kEtaCount);
+  std::vector<FeatureChange> up, down;
+  for (int j = 0; j < kEtaCount; ++j) {
+    const bool is_poisson = j >= kNu0 && j < kW0;
+    if (is_poisson && !poisson_searched) continue;
+    Point moved = at;
+    moved[static_cast<std::size_t>(j)] += kStep;
+    emulator.predict(moved, up);
+    moved[static_cast<std::size_t>(j)] -= 2 * kStep;
+    emulator.predict(moved, down);
+    for (Eigen::Index i = 0; i < designs; ++i) {
+      const std::size_t index = static_cast<std::size_t>(i);
+      slopes(i, j) = (up[index].log_toughness - down[index].log_toughness) / (2 * kStep);
+      slopes(designs + i, j) = (up[index].log_peak - down[index].log_peak) / (2 * kStep);
+    }
+  }
+  return slopes;
+}
+
 std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
-                                         const std::vector<double>& spans, bool poisson_searched) {
-  constexpr double kStep = 0.05, kSmallestNoise = 0.03;
+                                         const std::vector<double>& spans, bool poisson_searched,
+                                         const NumericsFloor& floor) {
+  constexpr double kSmallestNoise = 0.03;
   std::vector<double> unknown(kEtaCount, kUnknownDeviation);
   if (trials.size() < 2) return unknown;
   FeatureEmulator emulator(spans, data.measured.size());
   emulator.learn(trials, best);
+  const Eigen::MatrixXd jacobian = feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched);
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2 * designs, kEtaCount);
   Eigen::VectorXd residuals = Eigen::VectorXd::Zero(2 * designs), weights = residuals;
-  std::vector<FeatureChange> changes;
-  for (int j = 0; j < kEtaCount; ++j) {
-    const bool is_poisson = j >= kNu0 && j < kW0;
-    if (is_poisson && !poisson_searched) continue;
-    Point moved = trials[best].point;
-    moved[static_cast<std::size_t>(j)] += kStep;
-    emulator.predict(moved, changes);
-    for (Eigen::Index i = 0; i < designs; ++i) {
-      jacobian(i, j) = changes[static_cast<std::size_t>(i)].log_toughness / kStep;
-      jacobian(designs + i, j) = changes[static_cast<std::size_t>(i)].log_peak / kStep;
-    }
-  }
   for (Eigen::Index i = 0; i < designs; ++i) {
     const measurement::Replicates& measured = data.measured[static_cast<std::size_t>(i)];
-    const std::optional<FeatureChange> simulated = features_of(trials[best].predictions[static_cast<std::size_t>(i)]);
+    const auto simulated = features_of(trials[best].predictions[static_cast<std::size_t>(i)]);
     if (!simulated) continue;  // weight 0
     residuals[i] = simulated->log_toughness - std::log(measured.toughness_pa);
     weights[i] = data.weights[static_cast<std::size_t>(i)];
-    const auto& stress = measured.representative_curve.stress_pa;
-    const double peak = stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
-    if (peak <= 0.0) continue;
-    residuals[designs + i] = simulated->log_peak - std::log(peak);
+    const std::optional<double> peak = peak_of(measured);
+    if (!peak) continue;
+    residuals[designs + i] = simulated->log_peak - std::log(*peak);
     weights[designs + i] = weights[i];
   }
   if (weights.sum() <= 0.0) return unknown;
-  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise);
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(2 * designs, 2);
+  shared.col(0).head(designs).setConstant(floor.log_toughness_common_sd);
+  shared.col(1).tail(designs).setConstant(floor.log_peak_common_sd);
+  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise, shared);
 }
 
 void FeatureEmulator::add_pending(const Point& point) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "sysid/features.hpp"
 #include "sysid/fit.hpp"
 
 namespace nacre::sysid {
@@ -23,9 +24,15 @@ enum EtaIndex { kE0 = 0, kNu0 = 3, kW0 = 6, kGamma = 9, kEtaCount = 10 };
 std::vector<double> spans_of(std::span<const material::ParameterRange> ranges);
 
 /// Predicted change of the features of one design.
-struct FeatureChange {
-  double log_toughness = 0.0;
-  double log_peak = 0.0;
+using FeatureChange = CurveFeatures;
+
+/// What the prior of the emulator expects, all of natural logarithms.
+struct EmulatorPrior {
+  double split_deviation = 0.3;   ///< of how a sum of sensitivities splits over the materials
+  double sum_deviation = 0.1;     ///< of the sum itself: inertia, damping and large strains
+  double curved_deviation = 0.2;  ///< of what is not linear
+  double curved_length = 1.5;     ///< distance in log parameters over which it changes
+  double noise_deviation = 0.05;  ///< elements fail one by one: T jumps by some percent
 };
 
 class FeatureEmulator {
@@ -34,8 +41,15 @@ class FeatureEmulator {
   /// Learns from the trials, each with a prediction per design, seen from trials[centre]: only the nearest 60 are used.
   /// A failed prediction says nothing of its design.
   void learn(const std::vector<Trial>& trials, std::size_t centre);
+  /// The same with the prior that the trials themselves make most probable: how jumpy and how curved this set of
+  /// designs is.
+  void learn_with_prior(const std::vector<Trial>& trials, std::size_t centre);
+  const EmulatorPrior& prior() const { return prior_; }
   /// Change of the features of all designs between the centre and `point` (in unit coordinates).
   void predict(const Point& point, std::vector<FeatureChange>& changes) const;
+  /// The same, but from the centre as it was simulated to `point` as it would be without jumps: at the centre itself
+  /// what the neighbours say of the centre's own jump.
+  void predict_smooth(const Point& point, std::vector<FeatureChange>& changes) const;
   /// Standard deviation of that change; it does not depend on the design.
   double deviation(const Point& point) const;
   /// A point whose result is not known yet: deviations become small around it.
@@ -46,9 +60,16 @@ class FeatureEmulator {
   double covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   Eigen::VectorXd covariances(const Eigen::VectorXd& at) const;
   void factorise();
+  void take_targets(const std::vector<Trial>& trials, std::size_t centre);
+  void solve();
+  void change(const Point& point, const Eigen::RowVectorXd& offset, std::vector<FeatureChange>& changes) const;
+  double log_evidence() const;
 
   std::vector<double> spans_;
   std::size_t design_count_;
+  EmulatorPrior prior_;
+  std::vector<std::size_t> used_;        ///< trials learnt from
+  Eigen::MatrixXd targets_;              ///< their features less the centre's and the prior's: trials x (2 designs)
   std::vector<Eigen::VectorXd> inputs_;  ///< learnt points, then pending ones
   Eigen::VectorXd centre_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
@@ -56,9 +77,15 @@ class FeatureEmulator {
   Eigen::RowVectorXd at_centre_;
 };
 
-/// Deviations of eta at trials[best] by the emulator's slopes of log T and log peak stress and the residuals of both;
-/// those of Poisson's ratios are unknown when they were not searched.
+/// Slopes of log T (rows 0..N-1) and log peak stress (N..2N-1) of all designs with respect to the unit coordinates of
+/// eta; those of Poisson's ratios are 0 unless they were searched.
+Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at, std::size_t design_count,
+                               bool poisson_searched);
+
+/// Deviations of eta at trials[best] by the emulator's slopes, the residuals of both features, and the floor that all
+/// designs share.
 std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
-                                         const std::vector<double>& spans, bool poisson_searched);
+                                         const std::vector<double>& spans, bool poisson_searched,
+                                         const NumericsFloor& floor);
 
 }  // namespace nacre::sysid

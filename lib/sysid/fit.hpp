@@ -42,13 +42,18 @@ class Fit {
   /// Standard deviation of every coordinate of best().point as far as the data tell it (spread.hpp); kUnknownDeviation
   /// where they do not, or were not asked.
   virtual std::vector<double> deviations() const = 0;
+  /// Points drawn from what the data leave possible around best().point; empty from fits that cannot tell.
+  virtual std::vector<Point> plausible(int /*count*/) const { return {}; }
+  /// Objective of the best trial of each search, when there are several side by side.
+  virtual std::vector<double> best_objectives() const { return {best().objective}; }
 };
 
 struct FitSettings {
-  Point start;
+  Point start;  ///< also the centre of a weak prior, or of a pull
   int budget = 1;
   int batch = 3;
   std::uint64_t seed = 1;
+  NumericsFloor floor;
 };
 
 /// Gauss-Newton steps with Levenberg-Marquardt damping on the residuals log E_simulated - log E_measured in the six
@@ -63,10 +68,27 @@ std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings)
 std::unique_ptr<Fit> make_emulator_fit(FitData data, const FitSettings& settings,
                                        std::span<const material::ParameterRange> ranges, std::vector<Point> others);
 
-/// Search for eta by optimize::make_nlopt_optimizer in all ten dimensions, begun at the start, `others` and the best of
-/// them rescaled by the emulator's prior.
-std::unique_ptr<Fit> make_nlopt_fit(FitData data, const FitSettings& settings,
-                                    std::span<const material::ParameterRange> ranges, std::vector<Point> others);
+/// The most probable eta. Residuals of log T and log peak stress are normal, of a variance that is learnt with the
+/// floor and the scatter of replicates as its prior, and the start is the centre of a weak prior. Features come from
+/// the emulator with jumps averaged out, so that neither search nor answer follow the luck of single fracture
+/// simulations: the answer is the trial that is most probable by its neighbours' testimony too. Every batch holds the
+/// most probable point of a trust region and draws from what is possible around it.
+std::unique_ptr<Fit> make_posterior_fit(FitData data, const FitSettings& settings,
+                                        std::span<const material::ParameterRange> ranges, std::vector<Point> others);
+
+/// Gauss-Newton steps with Levenberg-Marquardt damping on log T and log peak stress, slopes by differences that are
+/// wide enough to step over the jumps; one batch of seven evaluations each.
+std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings,
+                                           std::span<const material::ParameterRange> ranges);
+
+/// Search for eta by an algorithm that sees objective (2.8) only, in all ten dimensions, begun at the start and
+/// `others`; the trust region also at the best of them rescaled by the emulator's prior.
+std::unique_ptr<Fit> make_objective_fit(FitData data, const FitSettings& settings,
+                                        std::span<const material::ParameterRange> ranges, std::vector<Point> others,
+                                        optimize::Algorithm algorithm);
+
+/// Several fits side by side, each asked for its own batch; the best trial of all counts.
+std::unique_ptr<Fit> make_parallel_fit(std::vector<std::unique_ptr<Fit>> fits);
 
 /// mean((point - start)^2) times `strength`: keeps parameters that the data do not determine where they were.
 double pull_to_start(std::span<const double> point, std::span<const double> start, double strength);

@@ -3,11 +3,10 @@
 
 #include "base/parallel.hpp"
 #include "sysid/offline.hpp"
+#include "sysid/prediction_store.hpp"
 
 namespace nacre::sysid {
 namespace {
-
-constexpr int kCurvePoints = 300;  // enough for the area between curves, small enough to keep them all
 
 /// One simulation and the places its answer goes to.
 struct Task {
@@ -22,7 +21,7 @@ Prediction run(const Task& task) {
     if (const auto result = tester::test_modulus(task.simulation)) prediction.modulus_pa = result->modulus_pa;
   } else if (auto result = tester::test_toughness(task.simulation)) {
     prediction.toughness_pa = result->toughness_pa;
-    prediction.curve = tester::resampled(result->curve, kCurvePoints);
+    prediction.curve = std::move(result->curve);
   }
   return prediction;
 }
@@ -32,7 +31,7 @@ Prediction run(const Task& task) {
 struct LocalSimulator::State {
   tester::Fidelity fidelity;
   int threads;
-  std::map<std::string, Prediction> known;
+  PredictionStore known;
   int simulations = 0;
 
   Task task_of(const measurement::Replicates& measured, const material::ParameterSet& parameters,
@@ -43,8 +42,9 @@ struct LocalSimulator::State {
   }
 };
 
-LocalSimulator::LocalSimulator(tester::Fidelity fidelity, int threads)
-    : state_(std::make_unique<State>(State{fidelity, threads, {}, 0})) {}
+LocalSimulator::LocalSimulator(tester::Fidelity fidelity, int threads, const std::filesystem::path& store)
+    : state_(std::make_unique<State>(
+          State{fidelity, threads, store.empty() ? PredictionStore() : PredictionStore(store), 0})) {}
 LocalSimulator::~LocalSimulator() = default;
 
 int LocalSimulator::simulations() const { return state_->simulations; }
@@ -63,23 +63,22 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
   for (const WantedEvaluation& evaluation : evaluations) {
     for (const std::size_t item : evaluation.items) {
       for_each_test(evaluation, item, [&](Task task) {
-        if (!state_->known.contains(task.key) && listed.try_emplace(task.key, true).second)
+        if (state_->known.find(task.key) == nullptr && listed.try_emplace(task.key, true).second)
           tasks.push_back(std::move(task));
       });
     }
   }
-  std::vector<Prediction> answers(tasks.size());
   std::mutex one_at_a_time;
   parallel_for(
       static_cast<int>(tasks.size()),
       [&](int index) {
         const std::size_t k = static_cast<std::size_t>(index);
-        answers[k] = run(tasks[k]);
+        const Prediction answer = run(tasks[k]);
         const std::lock_guard lock(one_at_a_time);
+        state_->known.put(tasks[k].key, answer);
         if (done) done();
       },
       state_->threads);
-  for (std::size_t k = 0; k < tasks.size(); ++k) state_->known[tasks[k].key] = std::move(answers[k]);
   state_->simulations += static_cast<int>(tasks.size());
   std::vector<std::vector<Prediction>> predictions;
   for (const WantedEvaluation& evaluation : evaluations) {
@@ -87,7 +86,7 @@ std::vector<std::vector<Prediction>> LocalSimulator::simulate(const std::vector<
     for (const std::size_t item : evaluation.items) {
       Prediction& prediction = of_items.emplace_back();
       for_each_test(evaluation, item, [&](const Task& task) {
-        const Prediction& known = state_->known.at(task.key);
+        const Prediction& known = *state_->known.find(task.key);
         if (known.modulus_pa) prediction.modulus_pa = known.modulus_pa;
         if (!known.toughness_pa) return;
         prediction.toughness_pa = known.toughness_pa;

@@ -1,6 +1,7 @@
 #include "sysid/offline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/random.hpp"
@@ -57,7 +58,6 @@ Split split_set(const measurement::MeasurementSet& set, const OfflineSettings& s
   return split;
 }
 
-/// Runs a calibration of either kind to its end.
 template <class AnyCalibration>
 Calibrated finish(AnyCalibration calibration, const std::vector<Replicates>& measured, LocalSimulator& simulator,
                   const ProgressCallback& progress) {
@@ -73,44 +73,94 @@ Calibrated finish(AnyCalibration calibration, const std::vector<Replicates>& mea
   return calibration.result();
 }
 
-PredictionErrors errors_with(const material::ParameterSet& parameters, const std::vector<Replicates>& measured,
-                             LocalSimulator& simulator) {
-  WantedEvaluation modulus{"held-out", parameters, true, false, {}}, toughness{"held-out", parameters, false, true, {}};
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    if (measured[i].modulus_count > 0) modulus.items.push_back(i);
-    if (measured[i].toughness_count > 0) toughness.items.push_back(i);
+/// Sum of logarithms and count of one quantity over the members.
+struct LogMean {
+  double sum = 0.0;
+  int count = 0;
+  void add(const std::optional<double>& value) {
+    if (!value || *value <= 0.0) return;
+    sum += std::log(*value);
+    ++count;
   }
-  const auto answers = simulator.simulate(measured, {modulus, toughness});
-  std::vector<Prediction> predictions(measured.size());
-  for (std::size_t k = 0; k < modulus.items.size(); ++k) {
-    predictions[modulus.items[k]].modulus_pa = observed(answers[0][k], parameters.extensions).modulus_pa;
-  }
-  for (std::size_t k = 0; k < toughness.items.size(); ++k) {
-    predictions[toughness.items[k]].toughness_pa = observed(answers[1][k], parameters.extensions).toughness_pa;
-  }
-  return prediction_errors(measured, predictions);
-}
+  std::optional<double> mean() const { return count > 0 ? std::optional(std::exp(sum / count)) : std::nullopt; }
+};
 
 }  // namespace
+
+Calibrated run_calibration(const std::vector<Replicates>& measured, const CalibrationSettings& settings,
+                           LocalSimulator& simulator, const ProgressCallback& progress) {
+  if (settings.target == material::FitTarget::base)
+    return finish(BaseCalibration(measured, settings), measured, simulator, progress);
+  return finish(Calibration(measured, settings), measured, simulator, progress);
+}
+
+std::vector<std::vector<Prediction>> predict(const std::vector<material::ParameterSet>& parameters,
+                                             const std::vector<Replicates>& measured, LocalSimulator& simulator,
+                                             const std::function<void()>& done) {
+  std::vector<WantedEvaluation> wanted;
+  for (const material::ParameterSet& set : parameters) {
+    WantedEvaluation modulus{"predicted", set, true, false, {}}, toughness{"predicted", set, false, true, {}};
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      if (measured[i].modulus_count > 0) modulus.items.push_back(i);
+      if (measured[i].toughness_count > 0) toughness.items.push_back(i);
+    }
+    wanted.push_back(std::move(modulus));
+    wanted.push_back(std::move(toughness));
+  }
+  const auto answers = simulator.simulate(measured, wanted, done);
+  std::vector<std::vector<Prediction>> result;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    auto& predictions = result.emplace_back(measured.size());
+    const auto& extensions = parameters[k].extensions;
+    for (std::size_t i = 0; i < wanted[2 * k].items.size(); ++i) {
+      predictions[wanted[2 * k].items[i]].modulus_pa = observed(answers[2 * k][i], extensions).modulus_pa;
+    }
+    for (std::size_t i = 0; i < wanted[2 * k + 1].items.size(); ++i) {
+      Prediction shown = observed(answers[2 * k + 1][i], extensions);
+      Prediction& prediction = predictions[wanted[2 * k + 1].items[i]];
+      prediction.toughness_pa = shown.toughness_pa;
+      prediction.curve = std::move(shown.curve);
+    }
+  }
+  return result;
+}
+
+std::vector<Prediction> mean_prediction(const std::vector<std::vector<Prediction>>& members) {
+  if (members.empty()) return {};
+  std::vector<Prediction> result = members.front();
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    LogMean modulus, toughness;
+    for (const auto& member : members) {
+      modulus.add(member[i].modulus_pa);
+      toughness.add(member[i].toughness_pa);
+    }
+    result[i].modulus_pa = modulus.mean();
+    result[i].toughness_pa = toughness.mean();
+  }
+  return result;
+}
 
 OfflineCalibration calibrate_offline(const measurement::MeasurementSet& set, const OfflineSettings& settings,
                                      const ProgressCallback& progress) {
   const Split split = split_set(set, settings);
-  LocalSimulator simulator(settings.fidelity, settings.threads);
+  LocalSimulator simulator(settings.fidelity, settings.threads, settings.store);
   CalibrationSettings calibration = settings.calibration;
   OfflineCalibration result;
   result.base_materials = split.base_materials;
-  if (split.base_materials) {
-    calibration.target = material::FitTarget::base;
-    result.calibrated = finish(BaseCalibration(split.fitted, calibration), split.fitted, simulator, progress);
-  } else {
-    result.calibrated = finish(Calibration(split.fitted, calibration), split.fitted, simulator, progress);
-  }
+  if (split.base_materials) calibration.target = material::FitTarget::base;
+  result.calibrated = run_calibration(split.fitted, calibration, simulator, progress);
   result.before_fitted = result.calibrated.before;
   result.after_fitted = result.calibrated.after;
   if (progress) progress(1.0, "predicting what was held out");
-  result.before_held_out = errors_with(calibration.start, split.held_out, simulator);
-  result.after_held_out = errors_with(result.calibrated.parameters, split.held_out, simulator);
+  std::vector<material::ParameterSet> sets = {calibration.start, result.calibrated.parameters};
+  sets.insert(sets.end(), result.calibrated.ensemble.begin(), result.calibrated.ensemble.end());
+  auto predictions = predict(sets, split.held_out, simulator);
+  result.before_held_out = prediction_errors(split.held_out, predictions[0]);
+  result.after_held_out = prediction_errors(split.held_out, predictions[1]);
+  predictions.erase(predictions.begin());
+  if (predictions.size() > 1)
+    result.ensemble_held_out = prediction_errors(split.held_out, mean_prediction(predictions));
+  result.measured = split.fitted;
   result.fitted = names_of(split.fitted);
   result.held_out = names_of(split.held_out);
   result.simulations = simulator.simulations();

@@ -2,6 +2,7 @@
 // Calibration in this process, on all cores: what `nacre calibrate` does.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@ struct OfflineSettings {
   tester::Fidelity fidelity = tester::Fidelity::full;
   int hold_out = 0;  ///< whole patterns kept out of the fit
   int threads = 0;   ///< 0 all allowed cores
+  std::filesystem::path
+      store;  ///< file that keeps simulations, so that the same calibration goes on from them; empty: none
 };
 
 struct OfflineCalibration {
@@ -23,8 +26,10 @@ struct OfflineCalibration {
   bool base_materials = false;  ///< the set holds no patterns: round 0, each material by itself
   PredictionErrors before_fitted, before_held_out;
   PredictionErrors after_fitted, after_held_out;
-  std::vector<std::string> fitted, held_out;  ///< names of designs
-  int simulations = 0;                        ///< really done, held-out ones included
+  PredictionErrors ensemble_held_out;             ///< of the mean over `parameters` and the ensemble, when there is one
+  std::vector<std::string> fitted, held_out;      ///< names of designs
+  std::vector<measurement::Replicates> measured;  ///< what was fitted, as Calibrated::predictions orders it
+  int simulations = 0;                            ///< really done, held-out ones included
 };
 
 /// Called after every simulation with the share done (0..1) and what is being done.
@@ -34,7 +39,9 @@ using ProgressCallback = std::function<void(double, std::string_view)>;
 /// simulations give predictions without value.
 class LocalSimulator {
  public:
-  LocalSimulator(tester::Fidelity fidelity, int threads);
+  /// `store`: a file of answers that are not simulated again (PredictionStore); empty: remembered while this object
+  /// lives.
+  LocalSimulator(tester::Fidelity fidelity, int threads, const std::filesystem::path& store = {});
   ~LocalSimulator();
   /// One prediction per item of each evaluation. `done` is called after each simulation (from any thread, one at a
   /// time).
@@ -47,6 +54,21 @@ class LocalSimulator {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Runs a calibration of designs (FitTarget::microstructures) or of base materials one by one (FitTarget::base) to its
+/// end.
+Calibrated run_calibration(const std::vector<measurement::Replicates>& measured, const CalibrationSettings& settings,
+                           LocalSimulator& simulator, const ProgressCallback& progress = {});
+
+/// What the testers say of every measured design (the tests that were measured), one vector per parameter set,
+/// measurement-side extensions applied.
+std::vector<std::vector<Prediction>> predict(const std::vector<material::ParameterSet>& parameters,
+                                             const std::vector<measurement::Replicates>& measured,
+                                             LocalSimulator& simulator, const std::function<void()>& done = {});
+
+/// Geometric mean over the members, design by design; curves are those of the first member. A member that failed is
+/// left out.
+std::vector<Prediction> mean_prediction(const std::vector<std::vector<Prediction>>& members);
 
 /// Fits the patterns of a measurement set, as the thesis does (homogeneous specimens are left out), or, when it holds
 /// no patterns, the base materials of it one by one over the ranges of Table A.1. Throws InputError when there is

@@ -6,14 +6,19 @@
 namespace nacre::sysid {
 
 std::vector<double> parameter_deviations(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
-                                         const Eigen::VectorXd& weights, double smallest_residual) {
+                                         const Eigen::VectorXd& weights, double smallest_residual,
+                                         const Eigen::MatrixXd& systematic) {
   const double count = static_cast<double>(residuals.size()), freedom = std::max(1.0, count - jacobian.cols());
   const double variance = residuals.cwiseProduct(weights).dot(residuals) / weights.sum() * count / freedom;
   const double noise = std::max(variance, smallest_residual * smallest_residual);
   Eigen::MatrixXd information = jacobian.transpose() * weights.asDiagonal() * jacobian / noise;
   information.diagonal().array() += 1.0 / (kUnknownDeviation * kUnknownDeviation);
-  const Eigen::MatrixXd covariance =
-      information.llt().solve(Eigen::MatrixXd::Identity(jacobian.cols(), jacobian.cols()));
+  Eigen::MatrixXd covariance = information.llt().solve(Eigen::MatrixXd::Identity(jacobian.cols(), jacobian.cols()));
+  const Eigen::MatrixXd gains = covariance * jacobian.transpose() * weights.asDiagonal();
+  for (Eigen::Index k = 0; k < systematic.cols(); ++k) {
+    const Eigen::VectorXd gain = gains * systematic.col(k) / noise;
+    covariance += gain * gain.transpose();
+  }
   std::vector<double> deviations;
   for (Eigen::Index j = 0; j < covariance.cols(); ++j) deviations.push_back(std::sqrt(covariance(j, j)));
   return deviations;

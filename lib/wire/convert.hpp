@@ -34,6 +34,7 @@ struct AdoptedModel {
   material::ParameterSet parameters;
   sysid::PredictionErrors before, after;
   int simulations = 0;
+  sysid::Provenance provenance;
   std::vector<optimize::Performance> benchmark;  ///< measured homogeneous line l1, by rigid fraction
   std::vector<pattern::Pattern> measured;        ///< patterns not worth proposing again, by increasing bits
   bool operator==(const AdoptedModel&) const = default;

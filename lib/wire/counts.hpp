@@ -58,6 +58,7 @@ inline void set_counts(measurement_t& m) { m.n_points = common_length("measureme
 inline void set_counts(node_status_t&) {}
 inline void set_counts(parameters_t& m) {
   set_counts(m.parameters);
+  m.n_estimates = common_length("parameters_t estimates", m.estimates);
   m.n_benchmark = common_length("parameters_t benchmark", m.benchmark_modulus_pa, m.benchmark_toughness_pa);
   m.n_measured = common_length("parameters_t measured", m.measured_pattern);
 }

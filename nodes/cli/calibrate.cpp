@@ -1,5 +1,6 @@
 // nacre calibrate: parameters that make the testers agree with a measurement set.
 
+#include <cmath>
 #include <string>
 
 #include "base/files.hpp"
@@ -8,6 +9,7 @@
 #include "measurement/measurement.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "shipped_files.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::cli {
@@ -21,6 +23,11 @@ struct Options {
   int budget = 60;
   int modulus_budget = 120;
   int hold_out = 0;
+  std::string search = "posterior";
+  int searches = 1;
+  int ensemble = 0;
+  std::string numerics_floor;
+  std::string store;
   std::uint64_t seed = 1;
   bool json = false;
 };
@@ -41,19 +48,68 @@ nlohmann::ordered_json to_json(const sysid::PredictionErrors& errors) {
   return document;
 }
 
+nlohmann::ordered_json to_json(const sysid::GoodnessOfFit& fit) {
+  if (fit.count == 0) return nullptr;
+  return {{"designs", fit.count},           {"freedom", fit.freedom},
+          {"chi_squared", fit.chi_squared}, {"chi_squared_replicates", fit.chi_squared_replicates},
+          {"p_value", fit.p_value},         {"misfit", fit.misfit()}};
+}
+
+/// log simulated - log measured of every fitted design.
+nlohmann::ordered_json residuals_of(const sysid::OfflineCalibration& result) {
+  const auto log_ratio = [](int count, const std::optional<double>& simulated,
+                            double measured) -> nlohmann::ordered_json {
+    return count > 0 && simulated ? nlohmann::ordered_json(std::log(*simulated / measured))
+                                  : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json residuals = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < result.measured.size(); ++i) {
+    const measurement::Replicates& measured = result.measured[i];
+    const sysid::Prediction& predicted = result.calibrated.predictions[i];
+    residuals.push_back(
+        {{"design", measured.design.name()},
+         {"specimens", measured.specimens},
+         {"log_modulus", log_ratio(measured.modulus_count, predicted.modulus_pa, measured.modulus_pa)},
+         {"log_toughness", log_ratio(measured.toughness_count, predicted.toughness_pa, measured.toughness_pa)}});
+  }
+  return residuals;
+}
+
 nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
+  const sysid::Calibrated& calibrated = result.calibrated;
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  for (const sysid::ParameterEstimate& estimate : result.calibrated.estimates) {
+  for (const sysid::ParameterEstimate& estimate : calibrated.estimates) {
     parameters[estimate.name] = {{"value", estimate.value},
                                  {"interval90", {estimate.low90, estimate.high90}},
                                  {"determined", estimate.determined}};
   }
+  nlohmann::ordered_json after = {{"fitted", to_json(result.after_fitted)},
+                                  {"held_out", to_json(result.after_held_out)}};
+  if (result.ensemble_held_out.toughness_count > 0) after["held_out_ensemble"] = to_json(result.ensemble_held_out);
   return {{"before", {{"fitted", to_json(result.before_fitted)}, {"held_out", to_json(result.before_held_out)}}},
-          {"after", {{"fitted", to_json(result.after_fitted)}, {"held_out", to_json(result.after_held_out)}}},
+          {"after", after},
           {"parameters", parameters},
           {"simulations", result.simulations},
           {"fitted", result.fitted},
-          {"held_out", result.held_out}};
+          {"held_out", result.held_out},
+          {"objective",
+           {{"modulus", {calibrated.modulus_objective_before, calibrated.modulus_objective_after}},
+            {"toughness", {calibrated.toughness_objective_before, calibrated.toughness_objective_after}}}},
+          {"deviance", {{"modulus", calibrated.modulus_deviance}, {"toughness", calibrated.toughness_deviance}}},
+          {"goodness_of_fit",
+           {{"modulus", to_json(calibrated.modulus_fit)}, {"toughness", to_json(calibrated.toughness_fit)}}},
+          {"convergence", {{"modulus", calibrated.modulus_objectives}, {"toughness", calibrated.toughness_objectives}}},
+          {"searches", calibrated.search_objectives},
+          {"residuals", residuals_of(result)}};
+}
+
+/// Plainly, whether what is left can be scatter.
+void print_fit(std::string_view what, const sysid::GoodnessOfFit& fit) {
+  if (fit.count == 0) return;
+  fmt::print("{}: {} (chi squared {:.1f} at {} degrees of freedom, p {:.3g}; against replicates alone {:.1f})\n", what,
+             fit.misfit() ? "MISFIT: the model cannot explain these data within scatter and numerics"
+                          : "residuals are scatter and numerics",
+             fit.chi_squared, fit.freedom, fit.p_value, fit.chi_squared_replicates);
 }
 
 void print_errors(const std::string& name, const sysid::PredictionErrors& before,
@@ -72,6 +128,11 @@ void print_table(const sysid::OfflineCalibration& result) {
     fmt::print("{:<28} {:>12.5g}  90 %: {:.5g} to {:.5g}{}\n", estimate.name, estimate.value, estimate.low90,
                estimate.high90, estimate.determined ? "" : "  (not determined)");
   }
+  if (result.ensemble_held_out.toughness_count > 0) {
+    fmt::print("held out, mean of the ensemble: T {:.1f} %\n", 100.0 * result.ensemble_held_out.toughness_mean);
+  }
+  print_fit("E", result.calibrated.modulus_fit);
+  print_fit("T", result.calibrated.toughness_fit);
   fmt::print("{} simulations\n", result.simulations);
 }
 
@@ -84,8 +145,16 @@ int calibrate(const Options& options) {
   settings.calibration.toughness_budget = options.budget;
   settings.calibration.modulus_budget = options.modulus_budget;
   settings.calibration.seed = options.seed;
+  const auto search = sysid::toughness_search_from_string(options.search);
+  if (!search) throw InputError("--search: " + search.error().message);
+  settings.calibration.toughness_search = *search;
+  settings.calibration.searches = options.searches;
+  settings.calibration.ensemble_size = options.ensemble;
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.hold_out = options.hold_out;
+  settings.store = options.store;
+  settings.calibration.floor =
+      sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
   Progress progress("calibrate");
   const sysid::OfflineCalibration result = sysid::calibrate_offline(
       set, settings, [&](double share, std::string_view doing) { progress.set_share(share, std::string(doing)); });
@@ -114,6 +183,24 @@ void add_calibrate(CLI::App& app, Action& action) {
   command.add_option("--hold-out", options->hold_out, "Whole patterns kept out of the fit, chosen by --seed")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
+  command
+      .add_option(
+          "--search", options->search,
+          "How the toughness parameters are searched: posterior, emulator, gauss_newton, bayesian, trust_region, "
+          "random, direct_l, crs2, cma_es")
+      ->capture_default_str();
+  command.add_option("--searches", options->searches, "Searches side by side, each with a seed of its own")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command
+      .add_option("--ensemble", options->ensemble,
+                  "Plausible parameter sets whose mean predicts what was held out, too")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command.add_option("--numerics-floor", options->numerics_floor,
+                     "What numerics alone leave; default: data/numerics_floor.toml");
+  command.add_option("--store", options->store,
+                     "File that keeps simulations: an interrupted calibration goes on from it");
   command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
       ->capture_default_str();
   command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();

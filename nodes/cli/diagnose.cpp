@@ -8,6 +8,7 @@
 #include "diagnosis/table_trends.hpp"
 #include "measurement/measurement.hpp"
 #include "output.hpp"
+#include "shipped_files.hpp"
 #include "progress.hpp"
 
 namespace nacre::cli {
@@ -23,18 +24,6 @@ struct Options {
   int bootstraps = 2000;
   bool json = false;
 };
-
-/// data/numerics_floor.toml in the working folder or above the program.
-std::filesystem::path shipped_numerics_floor() {
-  const std::filesystem::path name = "data/numerics_floor.toml";
-  std::error_code unreadable;
-  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  while (folder.has_parent_path() && folder != folder.root_path()) {
-    folder = folder.parent_path();
-    if (std::filesystem::exists(folder / name, unreadable)) return folder / name;
-  }
-  return name;
-}
 
 void print_candidates(const diagnosis::Diagnosis& d) {
   for (const diagnosis::Candidate& c : d.candidates) {
@@ -71,8 +60,7 @@ int diagnose(const Options& options) {
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
-  const std::filesystem::path floor = options.numerics_floor.empty() ? shipped_numerics_floor() : std::filesystem::path(options.numerics_floor);
-  settings.floor = diagnosis::read_modulus_floor(floor, settings.fidelity);
+  settings.floor = diagnosis::read_modulus_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
   const diagnosis::Diagnosis d = diagnosis::diagnose_modulus(set.specimens, settings);

@@ -25,6 +25,7 @@ namespace nacre::validation_agent {
 struct StartingTables {
   std::vector<measurement::Replicates> base_materials;
   std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
+  sysid::NumericsFloor floor;                    ///< at the scenario's fidelity
 };
 
 /// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).
@@ -92,6 +93,7 @@ class ValidationCore : public runtime::NodeCore {
   std::optional<Fitting> fitting_;
   std::vector<measurement::Replicates> held_out_set_;
   sysid::PredictionErrors before_, after_, held_out_;
+  sysid::Provenance provenance_;  ///< of model_
   int simulations_ = 0;
   bool extended_ = false;  // calibrated again because of an extension adopted in this round
 

@@ -113,6 +113,7 @@ void ValidationCore::begin_calibration() {
   settings.modulus_budget = scenario_.validation.modulus_evaluations;
   settings.toughness_budget = scenario_.validation.calibration_evaluations;
   settings.batch = scenario_.validation.calibration_batch;
+  settings.floor = tables_.floor;
   settings.seed = RandomStream(scenario_.seed, fmt::format("calibration of round {}", round_)).bits();
   fitting_.emplace(calibration_set_, settings);
   phase_ = Phase::calibrating;
@@ -138,6 +139,13 @@ void ValidationCore::finish_calibration() {
   after_ = result.after;
   simulations_ += result.simulations;
   model_ = result.parameters;
+  provenance_ = sysid::provenance_of(
+      result, round_ == 0 ? "base_materials" : sysid::to_string(sysid::CalibrationSettings{}.toughness_search));
+  for (const auto& [what, fit] : {std::pair{"E", provenance_.modulus_fit}, std::pair{"T", provenance_.toughness_fit}}) {
+    if (fit.misfit())
+      say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom", round_, what,
+                                         fit.chi_squared, fit.freedom));
+  }
   fitting_.reset();
   for (const measurement::Replicates& measured : calibration_set_) calibrated_designs_.insert(measured.design.name());
   say(LogLevel::info, fmt::format("round {}: calibrated with {} simulations, mean errors E {:.1f} %, T {:.1f} %",
@@ -190,6 +198,7 @@ void ValidationCore::publish_model() {
   adopted.before = before_;
   adopted.after = after_;
   adopted.simulations = simulations_;
+  adopted.provenance = provenance_;
   adopted.benchmark = game::benchmark_line(specimens_);
   if (adopted.benchmark.empty()) adopted.benchmark = tables_.benchmark;
   std::set<pattern::Pattern> settled = desk_.settled_patterns();

@@ -3,10 +3,12 @@
 
 #include "sysid/calibration.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/random.hpp"
 #include "pattern/random_pattern.hpp"
@@ -225,6 +227,144 @@ TEST(Calibration, ParametersWithoutEffectAreNotDetermined) {
   EXPECT_TRUE(estimate("toughness.w_if_j_per_m3").determined);
   EXPECT_LE(estimate("toughness.w_if_j_per_m3").low90, truth().toughness.w_if_j_per_m3);
   EXPECT_GE(estimate("toughness.w_if_j_per_m3").high90, truth().toughness.w_if_j_per_m3);
+}
+
+/// The stand-in as a tester whose fractures jump: T and peak scatter by 12 % from one parameter set to the next.
+Prediction jumpy_fracture(const pattern::Design& design, const material::ToughnessParameters& eta) {
+  std::string name = design.name();
+  for (const double value : to_vector(eta)) name += fmt::format("/{:.17g}", value);
+  RandomStream jump(1, name);
+  const double toughness = std::exp(0.12 * jump.normal()), peak = std::exp(0.06 * jump.normal());
+  Prediction prediction = stand_in_fracture(design, eta);
+  *prediction.toughness_pa *= toughness;
+  for (double& stress : prediction.curve.stress_pa) stress *= peak;
+  for (double& strain : prediction.curve.strain) strain *= toughness / peak;
+  return prediction;
+}
+
+Calibrated finish_jumpy(const std::vector<Replicates>& measured, const CalibrationSettings& with) {
+  Calibration calibration(measured, with);
+  while (!calibration.finished()) {
+    const std::vector<WantedEvaluation> wanted = calibration.wanted();
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      std::vector<Prediction> predictions;
+      for (const std::size_t item : wanted[k].items) {
+        const bool modulus = wanted[k].modulus;
+        predictions.push_back(modulus ? answer(measured[item], wanted[k].parameters, true)
+                                      : jumpy_fracture(measured[item].design, wanted[k].parameters.toughness));
+      }
+      calibration.tell(k, predictions);
+    }
+  }
+  return calibration.result();
+}
+
+/// Mean error in T of the smooth stand-in at these parameters, over designs that were not fitted.
+double smooth_error(const material::ToughnessParameters& eta) {
+  double sum = 0.0;
+  const auto designs = random_designs(60);
+  for (std::size_t i = 30; i < designs.size(); ++i) {
+    const double right = *stand_in_fracture(designs[i], truth().toughness).toughness_pa;
+    sum += std::abs(*stand_in_fracture(designs[i], eta).toughness_pa / right - 1.0) / 30.0;
+  }
+  return sum;
+}
+
+TEST(PosteriorSearch, AveragesOverTheJumpsOfSingleFractures) {
+  const std::vector<Replicates> measured = measured_designs(18);
+  double posterior = 0.0, emulator = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    CalibrationSettings with = settings();
+    with.seed = seed;
+    with.start.toughness.w_if_j_per_m3 *= 1.0 + 0.2 * static_cast<double>(seed);  // other points, other jumps
+    posterior += smooth_error(finish_jumpy(measured, with).parameters.toughness) / 4.0;
+    with.toughness_search = ToughnessSearch::emulator;
+    emulator += smooth_error(finish_jumpy(measured, with).parameters.toughness) / 4.0;
+  }
+  EXPECT_LT(posterior, 0.05);
+  EXPECT_LT(posterior, emulator);
+}
+
+TEST(PosteriorSearch, DrawsAnEnsembleThatSpreadsWhereTheDataSayLittle) {
+  const std::vector<Replicates> measured = measured_designs(12);
+  CalibrationSettings with = settings();
+  with.ensemble_size = 20;
+  const Calibrated result = finish_jumpy(measured, with);
+  ASSERT_EQ(result.ensemble.size(), 20u);
+  const auto spread = [&](auto value) {
+    double sum = 0.0;
+    for (const ParameterSet& member : result.ensemble)
+      sum += std::pow(std::log(value(member) / value(result.parameters)), 2);
+    return std::sqrt(sum / 20.0);
+  };
+  const auto ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  for (const ParameterSet& member : result.ensemble) {
+    const auto eta = to_vector(member.toughness);
+    for (std::size_t j = 0; j < eta.size(); ++j) {
+      EXPECT_GE(eta[j], ranges[j].minimum);
+      EXPECT_LE(eta[j], ranges[j].maximum);
+    }
+    EXPECT_EQ(member.modulus, result.parameters.modulus);
+  }
+  const double interface = spread([](const ParameterSet& set) { return set.toughness.w_if_j_per_m3; });
+  const double damping = spread([](const ParameterSet& set) { return set.toughness.gamma_per_s; });
+  EXPECT_GT(interface, 0.0);
+  EXPECT_LT(interface, damping);  // nothing depends on the damping
+}
+
+class EverySearch : public testing::TestWithParam<ToughnessSearch> {};
+
+TEST_P(EverySearch, LowersTheObjectiveWithinItsBudget) {
+  const std::vector<Replicates> measured = measured_designs(8);
+  CalibrationSettings with = settings();
+  with.toughness_search = GetParam();
+  with.toughness_budget = 40;
+  Calibration calibration(measured, with);
+  const Calibrated result = finish(calibration, measured);
+  EXPECT_LT(result.toughness_objective_after, 0.9 * result.toughness_objective_before);
+  EXPECT_LE(result.toughness_objectives.size(), 40u);
+  EXPECT_EQ(toughness_search_from_string(to_string(GetParam())).value(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Calibration, EverySearch,
+                         testing::Values(ToughnessSearch::posterior, ToughnessSearch::emulator,
+                                         ToughnessSearch::gauss_newton, ToughnessSearch::bayesian,
+                                         ToughnessSearch::trust_region, ToughnessSearch::random,
+                                         ToughnessSearch::direct_l, ToughnessSearch::crs2, ToughnessSearch::cma_es),
+                         [](const auto& test) { return std::string(to_string(test.param)); });
+
+TEST(Calibration, SeveralSearchesReportTheirSpreadAndTheBestIsKept) {
+  const std::vector<Replicates> measured = measured_designs(6);
+  CalibrationSettings with = settings();
+  with.toughness_search = ToughnessSearch::random;
+  with.toughness_budget = 10;
+  with.searches = 5;
+  Calibration calibration(measured, with);
+  const Calibrated result = finish(calibration, measured);
+  ASSERT_EQ(result.search_objectives.size(), 5u);
+  EXPECT_EQ(result.toughness_objective_after,
+            *std::min_element(result.search_objectives.begin(), result.search_objectives.end()));
+  EXPECT_GT(*std::max_element(result.search_objectives.begin(), result.search_objectives.end()),
+            result.toughness_objective_after);
+  EXPECT_EQ(result.toughness_objectives.size(), 50u);
+}
+
+TEST(Calibration, SaysThatTheModelMisfitsWhenItLacksAnEffect) {
+  std::vector<Replicates> measured = measured_designs(18);
+  RandomStream random(2, "scatter");
+  for (Replicates& design : measured) {
+    design.modulus_count = 4;
+    design.modulus_sd_pa = 0.01 * design.modulus_pa;
+    design.modulus_pa *= std::exp(0.005 * random.normal());
+  }
+  Calibration honest(measured, settings());
+  EXPECT_FALSE(finish(honest, measured).modulus_fit.misfit());
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    measured[i].modulus_pa *= i % 3 == 0 ? 1.12 : 1.0;  // of designs, not of materials
+  Calibration lacking(measured, settings());
+  const Calibrated result = finish(lacking, measured);
+  EXPECT_TRUE(result.modulus_fit.misfit());
+  EXPECT_GT(result.modulus_fit.chi_squared_replicates, result.modulus_fit.chi_squared);
 }
 
 /// The three base materials with their measured values (Table 3.4).

@@ -11,23 +11,25 @@ namespace {
 constexpr double kPull = 0.01;       // cost of moving every parameter across its whole range
 constexpr double kScaleReach = 2.3;  // natural logarithm of ten
 constexpr int kScaleSteps = 25;
+constexpr double kRepeatability = 0.1;  // of one design's share of the objective: toughness and curve jump together
 
-class NloptFit final : public RecordedFit {
+class ObjectiveFit final : public RecordedFit {
  public:
-  NloptFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others)
-      : RecordedFit(std::move(data), settings, kPull), spans_(std::move(spans)), others_(std::move(others)) {}
+  ObjectiveFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others,
+               optimize::Algorithm algorithm)
+      : RecordedFit(std::move(data), settings, algorithm == optimize::Algorithm::trust_region ? kPull : 0.0),
+        spans_(std::move(spans)),
+        others_(std::move(others)),
+        algorithm_(algorithm) {}
 
   std::vector<Point> ask() override {
     if (!asked_.empty() || finished_) return asked_;
-    if (trials_.empty()) {
-      asked_ = {settings_.start};
-      const int more = std::min(settings_.batch, settings_.budget) - 1;
-      for (const Point& other : others_) {
-        if (static_cast<int>(asked_.size()) <= more) asked_.push_back(other);
-      }
+    const bool rescales = algorithm_ == optimize::Algorithm::trust_region;
+    if (trials_.empty() && rescales) {
+      asked_ = first_points();
       return asked_;
     }
-    if (!optimizer_) begin_search();
+    if (!optimizer_) begin_search(rescales ? std::vector<Point>{rescaled(), trials_[best_].point} : first_points());
     asked_ = optimizer_->ask();
     finished_ = asked_.empty();
     return asked_;
@@ -45,18 +47,28 @@ class NloptFit final : public RecordedFit {
   }
 
   std::vector<double> deviations() const override {
-    return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/true);
+    return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/true, settings_.floor);
   }
 
  private:
-  void begin_search() {
+  std::vector<Point> first_points() const {
+    std::vector<Point> points = {settings_.start};
+    const int more = std::min(settings_.batch, settings_.budget) - 1;
+    for (const Point& other : others_) {
+      if (static_cast<int>(points.size()) <= more) points.push_back(other);
+    }
+    return points;
+  }
+
+  void begin_search(std::vector<Point> starts) {
     optimize::BatchOptimizerSettings settings;
     settings.dimension = kEtaCount;
     settings.budget = settings_.budget - static_cast<int>(trials_.size());
     settings.batch = settings_.batch;
     settings.seed = settings_.seed;
-    settings.starts = {rescaled(), trials_[best_].point};
-    optimizer_ = optimize::make_nlopt_optimizer(settings);
+    settings.starts = std::move(starts);
+    settings.value_deviation = kRepeatability / std::sqrt(static_cast<double>(data_.measured.size()));
+    optimizer_ = optimize::make_optimizer(algorithm_, settings);
   }
 
   /// The best trial with all moduli and all failure energies multiplied by the two factors that the scaling laws
@@ -89,14 +101,16 @@ class NloptFit final : public RecordedFit {
 
   std::vector<double> spans_;
   std::vector<Point> others_;
+  optimize::Algorithm algorithm_;
   std::unique_ptr<optimize::BatchOptimizer> optimizer_;
 };
 
 }  // namespace
 
-std::unique_ptr<Fit> make_nlopt_fit(FitData data, const FitSettings& settings,
-                                    std::span<const material::ParameterRange> ranges, std::vector<Point> others) {
-  return std::make_unique<NloptFit>(std::move(data), settings, spans_of(ranges), std::move(others));
+std::unique_ptr<Fit> make_objective_fit(FitData data, const FitSettings& settings,
+                                        std::span<const material::ParameterRange> ranges, std::vector<Point> others,
+                                        optimize::Algorithm algorithm) {
+  return std::make_unique<ObjectiveFit>(std::move(data), settings, spans_of(ranges), std::move(others), algorithm);
 }
 
 }  // namespace nacre::sysid

@@ -1,0 +1,80 @@
+#include "baselines.hpp"
+
+#include <cmath>
+
+#include "base/statistics.hpp"
+
+namespace nacre::calibration_study {
+namespace {
+
+using measurement::Replicates;
+
+double median(const std::vector<double>& values) { return values.empty() ? 0.0 : quantile(values, 0.5); }
+
+struct Line {
+  double slope = 0.0, offset = 0.0;
+  double at(double x) const { return offset + slope * x; }
+};
+
+Line least_squares(const std::vector<double>& x, const std::vector<double>& y) {
+  const double n = static_cast<double>(x.size());
+  double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) mean_x += x[i] / n, mean_y += y[i] / n;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    xx += (x[i] - mean_x) * (x[i] - mean_x), xy += (x[i] - mean_x) * (y[i] - mean_y);
+  const double slope = xx > 0.0 ? xy / xx : 0.0;
+  return {slope, mean_y - slope * mean_x};
+}
+
+double mean_error(const std::vector<double>& predicted, const std::vector<double>& measured) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < measured.size(); ++i) sum += std::abs(predicted[i] / measured[i] - 1.0);
+  return measured.empty() ? 0.0 : sum / static_cast<double>(measured.size());
+}
+
+}  // namespace
+
+Baselines baselines_of(const Case& study_case) {
+  std::vector<double> fraction, modulus, toughness, log_toughness;
+  for (const Replicates& design : study_case.fitted) {
+    fraction.push_back(design.design.rigid_fraction());
+    modulus.push_back(design.modulus_pa);
+    toughness.push_back(design.toughness_pa);
+    log_toughness.push_back(std::log(design.toughness_pa));
+  }
+  const Line modulus_line = least_squares(fraction, modulus), toughness_line = least_squares(fraction, log_toughness);
+  std::vector<double> modulus_said, line_said, modulus_true, toughness_true;
+  for (const Replicates& design : study_case.held_out) {
+    modulus_said.push_back(modulus_line.at(design.design.rigid_fraction()));
+    line_said.push_back(std::exp(toughness_line.at(design.design.rigid_fraction())));
+    modulus_true.push_back(design.modulus_pa);
+    toughness_true.push_back(design.toughness_pa);
+  }
+  return {
+      .modulus_line = mean_error(modulus_said, modulus_true),
+      .toughness_constant = mean_error(std::vector<double>(toughness_true.size(), median(toughness)), toughness_true),
+      .toughness_line = mean_error(line_said, toughness_true),
+      .line_spearman = rank_correlation(line_said, toughness_true)};
+}
+
+Floor floor_of(const Case& study_case, sysid::LocalSimulator& simulator, const std::function<void()>& may_go_on) {
+  const material::ParameterSet truth{study_case.truth.modulus, study_case.truth.toughness, {}};
+  const auto predictions = sysid::predict({truth}, study_case.held_out, simulator, may_go_on).front();
+  std::vector<double> modulus, toughness, modulus_true, toughness_true, modulus_ratio, toughness_ratio;
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    if (!predictions[i].modulus_pa || !predictions[i].toughness_pa) continue;
+    modulus.push_back(*predictions[i].modulus_pa);
+    toughness.push_back(*predictions[i].toughness_pa);
+    modulus_true.push_back(study_case.held_out[i].modulus_pa);
+    toughness_true.push_back(study_case.held_out[i].toughness_pa);
+    modulus_ratio.push_back(modulus_true.back() / modulus.back());
+    toughness_ratio.push_back(toughness_true.back() / toughness.back());
+  }
+  const double modulus_scale = median(modulus_ratio), toughness_scale = median(toughness_ratio);
+  for (double& value : modulus) value *= modulus_scale;
+  for (double& value : toughness) value *= toughness_scale;
+  return {mean_error(modulus, modulus_true), mean_error(toughness, toughness_true),
+          rank_correlation(toughness, toughness_true)};
+}
+
+}  // namespace nacre::calibration_study

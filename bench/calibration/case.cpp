@@ -1,0 +1,54 @@
+#include "case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "designs.hpp"
+#include "study_laboratory.hpp"
+
+namespace nacre::calibration_study {
+namespace {
+
+constexpr int kHeldOut = 40;
+
+void add_effect(virtual_laboratory::Truth& truth, const std::string& effect) {
+  const std::size_t equals = effect.find('=');
+  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+    if (kind.name != effect.substr(0, equals)) continue;
+    truth.effects.*kind.value = equals == std::string::npos ? virtual_laboratory::draw_effect_value(truth.seed, kind)
+                                                            : std::stod(effect.substr(equals + 1));
+    return;
+  }
+  throw InputError::format("--effect {}: expected NAME or NAME=VALUE with a name that the laboratory knows", effect);
+}
+
+}  // namespace
+
+std::function<void()> deadline(double minutes) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(60.0 * minutes);
+  return [end] {
+    if (std::chrono::steady_clock::now() > end) throw TimeIsUp();
+  };
+}
+
+Case measured_case(std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on) {
+  const auto fidelity = tester::fidelity_from_string(options.fidelity);
+  if (!fidelity) throw InputError(fidelity.error().message);
+  Case result{study_truth(seed, *fidelity), {}, {}};
+  for (const std::string& effect : options.effects) add_effect(result.truth, effect);
+  const StudyDesigns designs = draw_designs(seed, options.fitted, kHeldOut);
+  const std::string store = fmt::format("{}/laboratory-{}.bin", options.work, options.fidelity);
+  result.fitted = measurement::summarise(measure(result.truth, designs.fitted, store, may_go_on));
+  result.held_out = measurement::summarise(measure(result.truth, designs.held_out, store, may_go_on));
+  return result;
+}
+
+sysid::LocalSimulator kept_simulator(const Options& options) {
+  const auto fidelity = tester::fidelity_from_string(options.fidelity);
+  if (!fidelity) throw InputError(fidelity.error().message);
+  return {*fidelity, 0, fmt::format("{}/simulations-{}.bin", options.work, options.fidelity)};
+}
+
+}  // namespace nacre::calibration_study

@@ -1,0 +1,27 @@
+#pragma once
+// One laboratory with what it measured, split into what is fitted and what is predicted.
+
+#include <chrono>
+#include <functional>
+
+#include "commands.hpp"
+#include "measurement/measurement.hpp"
+#include "sysid/offline.hpp"
+#include "virtual_lab/truth.hpp"
+
+namespace nacre::calibration_study {
+
+struct Case {
+  virtual_laboratory::Truth truth;
+  std::vector<measurement::Replicates> fitted, held_out;
+};
+
+/// A function that throws TimeIsUp when `minutes` have passed since this call.
+std::function<void()> deadline(double minutes);
+
+/// Measures what is not measured yet.
+Case measured_case(std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on);
+
+sysid::LocalSimulator kept_simulator(const Options& options);
+
+}  // namespace nacre::calibration_study

@@ -1,0 +1,201 @@
+// Calibrate on some designs of a laboratory, predict others.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "baselines.hpp"
+#include "case.hpp"
+#include "table.hpp"
+
+namespace nacre::calibration_study {
+namespace {
+
+using sysid::Calibrated;
+using sysid::PredictionErrors;
+
+const std::vector<std::string> kColumns = {"fidelity",
+                                           "effect",
+                                           "seed",
+                                           "search",
+                                           "fitted",
+                                           "budget",
+                                           "simulations",
+                                           "E_objective",
+                                           "T_objective",
+                                           "T_deviance",
+                                           "E_fitted",
+                                           "T_fitted",
+                                           "E_before",
+                                           "E_held_out",
+                                           "T_before",
+                                           "T_held_out",
+                                           "spearman_before",
+                                           "spearman",
+                                           "T_ensemble",
+                                           "spearman_ensemble",
+                                           "inside90",
+                                           "E_line",
+                                           "T_constant",
+                                           "T_line",
+                                           "spearman_line",
+                                           "E_floor",
+                                           "T_floor",
+                                           "spearman_floor",
+                                           "covered",
+                                           "determined",
+                                           "E_p_value",
+                                           "T_p_value",
+                                           "E_chi2_replicates",
+                                           "T_chi2_replicates"};
+constexpr std::size_t kKeyColumns = 6;
+
+std::string number(double value, int digits = 4) { return fmt::format("{:.{}f}", value, digits); }
+
+struct Coverage {
+  int covered = 0, determined = 0;
+};
+
+/// How many of the parameters called determined have their true value in the 90 % interval.
+Coverage coverage_of(const Calibrated& calibrated, const virtual_laboratory::Truth& truth) {
+  const material::ModulusVector theta = to_vector(truth.modulus);
+  const material::ToughnessVector eta = to_vector(truth.toughness);
+  Coverage coverage;
+  for (std::size_t j = 0; j < calibrated.estimates.size(); ++j) {
+    const sysid::ParameterEstimate& estimate = calibrated.estimates[j];
+    if (!estimate.determined) continue;
+    const double value = j < theta.size() ? theta[j] : eta[j - theta.size()];
+    ++coverage.determined;
+    coverage.covered += estimate.low90 <= value && value <= estimate.high90;
+  }
+  return coverage;
+}
+
+/// Share of held-out designs whose measured T lies within the 90 % interval that the members' spread and the floor
+/// give.
+double inside_90(const std::vector<std::vector<sysid::Prediction>>& members, const Case& study_case,
+                 const Calibrated& calibrated, const sysid::NumericsFloor& floor) {
+  const std::vector<sysid::Prediction> mean = sysid::mean_prediction(members);
+  const sysid::GoodnessOfFit& fit = calibrated.toughness_fit;
+  const double factor = fit.count > 0 ? (6.0 + fit.chi_squared) / (6.0 + fit.freedom) : 1.0;
+  int inside = 0, count = 0;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    if (!mean[i].toughness_pa) continue;
+    double spread = 0.0;
+    int used = 0;
+    for (const auto& member : members) {
+      if (!member[i].toughness_pa) continue;
+      spread += std::pow(std::log(*member[i].toughness_pa / *mean[i].toughness_pa), 2);
+      ++used;
+    }
+    const double variance = spread / std::max(1, used - 1) + factor * floor.log_toughness_sd * floor.log_toughness_sd;
+    ++count;
+    inside +=
+        std::abs(std::log(*mean[i].toughness_pa / study_case.held_out[i].toughness_pa)) < 1.645 * std::sqrt(variance);
+  }
+  return count > 0 ? static_cast<double>(inside) / count : 0.0;
+}
+
+void append(std::vector<std::string>& cells, std::initializer_list<double> values) {
+  for (const double value : values) cells.push_back(number(value));
+}
+
+void study_one(const Options& options, std::uint64_t seed, const std::string& search, Table& table, Table& curves,
+               const std::function<void()>& may_go_on) {
+  std::string effect = options.effects.empty() ? "none" : "";
+  for (const std::string& each : options.effects) effect += (effect.empty() ? "" : "+") + each;
+  std::vector<std::string> cells = {options.fidelity,
+                                    effect,
+                                    std::to_string(seed),
+                                    search,
+                                    std::to_string(options.fitted),
+                                    std::to_string(options.budget)};
+  if (table.has(cells)) return;
+  const Case study_case = measured_case(seed, options, may_go_on);
+  sysid::LocalSimulator simulator = kept_simulator(options);
+  sysid::CalibrationSettings settings;
+  settings.start = material::default_parameters();
+  settings.toughness_budget = options.budget;
+  const auto named = sysid::toughness_search_from_string(search);
+  if (!named) throw InputError(named.error().message);
+  settings.toughness_search = *named;
+  settings.ensemble_size = options.ensemble;
+  settings.seed = seed;
+  const Calibrated calibrated =
+      sysid::run_calibration(study_case.fitted, settings, simulator, [&](double, std::string_view) { may_go_on(); });
+  std::vector<material::ParameterSet> sets = {settings.start, calibrated.parameters};
+  sets.insert(sets.end(), calibrated.ensemble.begin(), calibrated.ensemble.end());
+  auto predictions = sysid::predict(sets, study_case.held_out, simulator, may_go_on);
+  const PredictionErrors before = sysid::prediction_errors(study_case.held_out, predictions[0]);
+  const PredictionErrors after = sysid::prediction_errors(study_case.held_out, predictions[1]);
+  predictions.erase(predictions.begin());
+  const PredictionErrors mean = sysid::prediction_errors(study_case.held_out, sysid::mean_prediction(predictions));
+  const Baselines baselines = baselines_of(study_case);
+  const Floor floor = floor_of(study_case, simulator, may_go_on);
+  const Coverage coverage = coverage_of(calibrated, study_case.truth);
+  cells.push_back(std::to_string(calibrated.simulations));
+  append(cells, {calibrated.modulus_objective_after,
+                 calibrated.toughness_objective_after,
+                 calibrated.toughness_deviance,
+                 calibrated.after.modulus_mean,
+                 calibrated.after.toughness_mean,
+                 before.modulus_mean,
+                 after.modulus_mean,
+                 before.toughness_mean,
+                 after.toughness_mean,
+                 before.toughness_spearman,
+                 after.toughness_spearman,
+                 mean.toughness_mean,
+                 mean.toughness_spearman,
+                 inside_90(predictions, study_case, calibrated, settings.floor),
+                 baselines.modulus_line,
+                 baselines.toughness_constant,
+                 baselines.toughness_line,
+                 baselines.line_spearman,
+                 floor.modulus,
+                 floor.toughness,
+                 floor.toughness_spearman});
+  cells.push_back(std::to_string(coverage.covered));
+  cells.push_back(std::to_string(coverage.determined));
+  append(cells, {calibrated.modulus_fit.p_value, calibrated.toughness_fit.p_value,
+                 calibrated.modulus_fit.chi_squared_replicates, calibrated.toughness_fit.chi_squared_replicates});
+  table.add(cells);
+  fmt::print(
+      "{} {} seed {} {:12} n {} budget {}: T objective {:.3f}  E held out {:.4f}  T held out {:.3f} (mean of ensemble "
+      "{:.3f}; line {:.3f}, floor {:.3f})  "
+      "spearman {:.2f} ({:.2f}; floor {:.2f})  covered {}/{}\n",
+      options.fidelity, effect, seed, search, options.fitted, options.budget, calibrated.toughness_objective_after,
+      after.modulus_mean, after.toughness_mean, mean.toughness_mean, baselines.toughness_line, floor.toughness,
+      after.toughness_spearman, mean.toughness_spearman, floor.toughness_spearman, coverage.covered,
+      coverage.determined);
+  std::fflush(stdout);
+  for (std::size_t k = 0; k < calibrated.toughness_objectives.size(); ++k) {
+    curves.add({options.fidelity, effect, std::to_string(seed), search, std::to_string(options.fitted),
+                std::to_string(options.budget), std::to_string(k + 1), number(calibrated.toughness_objectives[k])});
+  }
+}
+
+}  // namespace
+
+void measure_laboratories(const Options& options) {
+  const auto may_go_on = deadline(options.minutes);
+  for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
+    const Case study_case = measured_case(static_cast<std::uint64_t>(seed), options, may_go_on);
+    fmt::print("seed {}: {} designs to fit, {} to predict\n", seed, study_case.fitted.size(),
+               study_case.held_out.size());
+  }
+}
+
+void study_held_out(const Options& options) {
+  const auto may_go_on = deadline(options.minutes);
+  Table table(options.out + "/held_out.csv", kColumns, kKeyColumns);
+  Table curves(options.out + "/convergence.csv",
+               {"fidelity", "effect", "seed", "search", "fitted", "budget", "evaluation", "T_objective"}, 7);
+  for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
+    for (const std::string& search : options.searches) {
+      study_one(options, static_cast<std::uint64_t>(seed), search, table, curves, may_go_on);
+    }
+  }
+}
+
+}  // namespace nacre::calibration_study

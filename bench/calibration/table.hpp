@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nacre::calibration_study {
+
+/// A CSV file of results whose first columns name a case. Rows are added one by one; a case that is there is not
+/// computed again.
+class Table {
+ public:
+  Table(std::filesystem::path file, std::vector<std::string> columns, std::size_t key_columns);
+  bool has(const std::vector<std::string>& key) const;
+  void add(const std::vector<std::string>& cells);
+
+ private:
+  std::filesystem::path file_;
+  std::size_t key_columns_;
+  std::vector<std::string> keys_;
+};
+
+}  // namespace nacre::calibration_study

@@ -1,0 +1,87 @@
+// Bayesian optimisation as the thesis runs it: five random points, then 200 batches of three.
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "case.hpp"
+#include "optimize/batch_optimizer.hpp"
+#include "table.hpp"
+
+namespace nacre::calibration_study {
+namespace {
+
+constexpr int kFirstPoints = 5, kBatches = 200, kBatch = 3;
+
+material::ParameterSet parameters_at(const optimize::Point& point) {
+  material::ParameterSet set = material::default_parameters();
+  material::ToughnessVector eta{};
+  const auto ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  for (std::size_t j = 0; j < eta.size(); ++j) eta[j] = from_unit(ranges[j], point[j]);
+  set.toughness = material::toughness_from_vector(eta);
+  return set;
+}
+
+/// What was evaluated before an interruption, one line an evaluation: the value, then the point.
+std::vector<optimize::Evaluation> read_log(const std::string& file) {
+  std::vector<optimize::Evaluation> told;
+  std::ifstream lines(file);
+  double value = 0.0;
+  while (lines >> value) {
+    optimize::Point point(material::kToughnessParameterCount);
+    for (double& coordinate : point) lines >> coordinate;
+    if (lines) told.push_back({point, value});
+  }
+  return told;
+}
+
+void run_schedule(const Options& options, std::uint64_t seed, const std::function<void()>& may_go_on) {
+  const Case study_case = measured_case(seed, options, may_go_on);
+  const std::vector<double> weights = sysid::sample_weights(study_case.fitted);
+  const std::string log = fmt::format("{}/thesis-{}-{}-{}.txt", options.work, options.fidelity, options.fitted, seed);
+  std::vector<optimize::Evaluation> told = read_log(log);
+  const int spare = static_cast<int>(told.size()) % kBatch;  // of a batch that was not finished
+  told.resize(told.size() - static_cast<std::size_t>(spare));
+  optimize::BatchOptimizerSettings settings;
+  settings.dimension = material::kToughnessParameterCount;
+  settings.budget = 6 + kBatches * kBatch;  // five points do not fill two batches of three: six
+  settings.batch = kBatch;
+  settings.seed = seed;
+  settings.first_points = kFirstPoints;
+  const auto optimizer = optimize::make_optimizer(optimize::Algorithm::bayesian, settings);
+  optimizer->resume(told);
+  const auto fidelity = tester::fidelity_from_string(options.fidelity).value();
+  for (std::vector<optimize::Point> points = optimizer->ask(); !points.empty(); points = optimizer->ask()) {
+    std::vector<sysid::WantedEvaluation> wanted;
+    for (const optimize::Point& point : points) {
+      sysid::WantedEvaluation evaluation{"", parameters_at(point), false, true, {}};
+      for (std::size_t i = 0; i < study_case.fitted.size(); ++i) evaluation.items.push_back(i);
+      wanted.push_back(std::move(evaluation));
+    }
+    sysid::LocalSimulator simulator(fidelity, 0);
+    const auto predictions = simulator.simulate(study_case.fitted, wanted, may_go_on);
+    std::vector<std::optional<double>> values;
+    std::string lines;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double value = sysid::toughness_objective(study_case.fitted, weights, predictions[k]);
+      values.push_back(value);
+      lines += fmt::format("{}", value);
+      for (const double coordinate : points[k]) lines += fmt::format(" {}", coordinate);
+      lines += '\n';
+    }
+    std::ofstream(log, std::ios::app) << lines;
+    optimizer->tell(values);
+  }
+  fmt::print("seed {}: smallest loss {:.4f}\n", seed, *optimizer->best()->value);
+}
+
+}  // namespace
+
+void run_thesis_schedule(const Options& options) {
+  const auto may_go_on = deadline(options.minutes);
+  for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
+    run_schedule(options, static_cast<std::uint64_t>(seed), may_go_on);
+  }
+}
+
+}  // namespace nacre::calibration_study

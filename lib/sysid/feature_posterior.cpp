@@ -1,0 +1,116 @@
+#include "sysid/feature_posterior.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "sysid/spread.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPriorFreedom = 6.0;  // as many designs' worth of belief in scatter and floor
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor)
+    : start_(std::move(start)) {
+  const ReplicateScatter scatter = pooled_scatter(data.measured);
+  for (const measurement::Replicates& design : data.measured) {
+    const std::optional<double> peak = peak_of(design);
+    toughness_.measured.push_back(std::log(design.toughness_pa));
+    toughness_.variances.push_back(toughness_variance(design, scatter, floor));
+    peak_.measured.push_back(peak ? std::log(*peak) : kNone);
+    peak_.variances.push_back(peak_variance(scatter, floor));
+  }
+  toughness_.common_variance = square(floor.log_toughness_common_sd);
+  peak_.common_variance = square(floor.log_peak_common_sd);
+  toughness_.base.assign(data.measured.size(), kNone);
+  peak_.base = toughness_.base;
+}
+
+void FeaturePosterior::set_base(const Trial& trial) {
+  for (std::size_t i = 0; i < toughness_.base.size(); ++i) {
+    const auto features = features_of(trial.predictions[i]);
+    toughness_.base[i] = features ? features->log_toughness : kNone;
+    peak_.base[i] = features ? features->log_peak : kNone;
+  }
+}
+
+/// Of residuals over their prior deviations.
+double FeaturePosterior::Feature::sum_of_squares(std::span<const double> changes, int& count) const {
+  double sum = 0.0;
+  count = 0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const double residual = base[i] + (changes.empty() ? 0.0 : changes[i]) - measured[i];
+    if (std::isnan(residual)) continue;
+    sum += square(residual) / variances[i];
+    ++count;
+  }
+  return sum;
+}
+
+double FeaturePosterior::operator()(const Point& point, std::span<const FeatureChange> changes) const {
+  std::vector<double> toughness, peak;
+  for (const FeatureChange& change : changes) {
+    toughness.push_back(change.log_toughness);
+    peak.push_back(change.log_peak);
+  }
+  double cost = 0.0;
+  const auto add = [&cost](const Feature& feature, std::span<const double> change) {
+    int count = 0;
+    const double sum = feature.sum_of_squares(change, count);
+    cost += 0.5 * (count + kPriorFreedom) * std::log(kPriorFreedom + sum);
+  };
+  add(toughness_, toughness);
+  add(peak_, peak);
+  for (std::size_t j = 0; j < point.size(); ++j) cost += 0.5 * square((point[j] - start_[j]) / kUnknownDeviation);
+  return cost;
+}
+
+Eigen::VectorXd FeaturePosterior::learnt_variances() const {
+  const Eigen::Index designs = static_cast<Eigen::Index>(toughness_.measured.size());
+  Eigen::VectorXd variances = Eigen::VectorXd::Constant(2 * designs, std::numeric_limits<double>::infinity());
+  const auto fill = [&](const Feature& feature, Eigen::Index first) {
+    int count = 0;
+    const double sum = feature.sum_of_squares({}, count);
+    const double factor = (kPriorFreedom + sum) / (kPriorFreedom + count);
+    for (Eigen::Index i = 0; i < designs; ++i) {
+      const std::size_t index = static_cast<std::size_t>(i);
+      if (!std::isnan(feature.base[index] - feature.measured[index]))
+        variances[first + i] = factor * feature.variances[index];
+    }
+  };
+  fill(toughness_, 0);
+  fill(peak_, designs);
+  return variances;
+}
+
+Eigen::MatrixXd FeaturePosterior::information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& variances) const {
+  Eigen::MatrixXd result = slopes.transpose() * variances.cwiseInverse().asDiagonal() * slopes;
+  result.diagonal().array() += 1.0 / square(kUnknownDeviation);
+  return result;
+}
+
+Eigen::MatrixXd FeaturePosterior::posterior_covariance(const Eigen::MatrixXd& slopes) const {
+  const Eigen::MatrixXd precision = information(slopes, learnt_variances());
+  return precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
+}
+
+Eigen::MatrixXd FeaturePosterior::estimate_covariance(const Eigen::MatrixXd& slopes) const {
+  const Eigen::VectorXd variances = learnt_variances();
+  const Eigen::MatrixXd covariance = posterior_covariance(slopes);
+  const Eigen::Index designs = variances.size() / 2;
+  Eigen::MatrixXd result = covariance;
+  for (const auto& [feature, first] : {std::pair{&toughness_, Eigen::Index{0}}, std::pair{&peak_, designs}}) {
+    // A shift of all residuals of this feature by one moves the estimate by `gain`.
+    const Eigen::VectorXd gain =
+        covariance * (slopes.middleRows(first, designs).transpose() * variances.segment(first, designs).cwiseInverse());
+    result += feature->common_variance * gain * gain.transpose();
+  }
+  return result;
+}
+
+}  // namespace nacre::sysid

@@ -1,0 +1,44 @@
+#pragma once
+// How probable parameters are, given the features that they predict.
+
+#include <span>
+
+#include "sysid/emulator.hpp"
+
+namespace nacre::sysid {
+
+/// Residuals of log T and log peak stress are normal and independent, each feature with a variance of its own that is
+/// not known: the prior of the variances (scaled inverse chi squared) stands at scatter of replicates plus floor and is
+/// integrated out, which leaves Student's t. The start is the centre of a normal prior as wide as the cube.
+class FeaturePosterior {
+ public:
+  FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor);
+  /// The trial whose features the changes refer to; designs that failed there say nothing.
+  void set_base(const Trial& trial);
+  /// -log posterior density, constants left out, where the features of design i change by changes[i].
+  double operator()(const Point& point, std::span<const FeatureChange> changes) const;
+  /// What the data leave possible around the base, in unit coordinates: residuals independent. `slopes` as
+  /// feature_slopes() gives them.
+  Eigen::MatrixXd posterior_covariance(const Eigen::MatrixXd& slopes) const;
+  /// How far the estimate may lie from the truth: beside scatter, what the floor has in common over all designs, which
+  /// parameters take over where they can.
+  Eigen::MatrixXd estimate_covariance(const Eigen::MatrixXd& slopes) const;
+
+ private:
+  struct Feature {
+    std::vector<double> measured;   ///< log; not a number where there is none
+    std::vector<double> variances;  ///< prior
+    std::vector<double> base;       ///< log, of the base trial; not a number where it failed
+    double common_variance = 0.0;
+    double sum_of_squares(std::span<const double> changes, int& count) const;
+  };
+  /// Variances of all residuals, log T then log peak, with the factor that the residuals at the base suggest; infinite
+  /// where there is none.
+  Eigen::VectorXd learnt_variances() const;
+  Eigen::MatrixXd information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& variances) const;
+
+  Point start_;
+  Feature toughness_, peak_;
+};
+
+}  // namespace nacre::sysid

@@ -1,0 +1,41 @@
+#pragma once
+// What a toughness test says in two numbers that vary smoothly with the parameters, and how well each is known.
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "sysid/calibration.hpp"
+
+namespace nacre::sysid {
+
+/// Natural logarithms of toughness and of the largest stress of a curve (both in Pa).
+struct CurveFeatures {
+  double log_toughness = 0.0;
+  double log_peak = 0.0;
+};
+
+/// Nothing when the test failed. Without a curve the peak is taken to go with the square root of the toughness.
+std::optional<CurveFeatures> features_of(const Prediction& prediction);
+
+/// Largest stress of the curve that stands for the replicates, in Pa; nothing when none was recorded.
+std::optional<double> peak_of(const measurement::Replicates& measured);
+
+/// Standard deviations of natural logarithms between replicates of one design, pooled over all designs that have
+/// several.
+struct ReplicateScatter {
+  double log_modulus = 0.0, log_toughness = 0.0;
+};
+/// `otherwise` where no design was measured twice.
+ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& measured,
+                                const ReplicateScatter& otherwise = {0.01, 0.05});
+
+/// Variance of the mean log E and log T of one design: scatter over its replicates, and what numerics leave.
+double modulus_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
+                        const NumericsFloor& floor);
+double toughness_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
+                          const NumericsFloor& floor);
+/// The peak is that of one specimen.
+double peak_variance(const ReplicateScatter& scatter, const NumericsFloor& floor);
+
+}  // namespace nacre::sysid

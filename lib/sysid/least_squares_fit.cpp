@@ -1,0 +1,281 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "sysid/emulator.hpp"
+#include "sysid/objective.hpp"
+#include "sysid/recorded_fit.hpp"
+#include "sysid/spread.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeastGain = 1e-3;  // relative gain in cost below which the fit has converged
+
+/// What the fit of one tester's parameters is made of.
+struct Problem {
+  std::function<double(const std::vector<Prediction>&)> objective;
+  /// Natural logarithms of simulated over measured values; not a number where a simulation failed or nothing was
+  /// measured.
+  std::function<Eigen::VectorXd(const std::vector<Prediction>&)> residuals;
+  Eigen::VectorXd weights;            ///< of the residuals
+  Eigen::MatrixXd shared;             ///< errors that all residuals share (spread.hpp)
+  std::vector<std::size_t> searched;  ///< coordinates of the point that move
+  double difference = 0.0;            ///< of a coordinate, for slopes
+  double pull = 0.0;                  ///< cost of moving every parameter across its whole range
+  double small_residual = 0.01;       ///< below it a residual counts quadratically, above by its magnitude
+  double smallest_noise = 0.002;      ///< when deviations are told: no data are better
+};
+
+class LeastSquaresFit final : public RecordedFit {
+ public:
+  LeastSquaresFit(FitData data, const FitSettings& settings, Problem problem)
+      : RecordedFit(std::move(data), settings, problem.pull), problem_(std::move(problem)) {}
+
+  std::vector<Point> ask() override {
+    if (asked_.empty() && !finished_) asked_ = propose();
+    return asked_;
+  }
+
+  void tell(std::vector<std::vector<Prediction>> predictions) override {
+    const std::size_t first_new = trials_.size();
+    for (std::size_t k = 0; k < asked_.size(); ++k) add_trial(asked_[k], std::move(predictions[k]));
+    asked_.clear();
+    if (first_new == 0) return;
+    if (differencing_) {
+      take_jacobian(first_new);
+    } else {
+      judge_steps();
+    }
+  }
+
+  std::vector<double> deviations() const override {
+    std::vector<double> result(settings_.start.size(), kUnknownDeviation);
+    if (jacobian_.size() == 0) return result;
+    const std::vector<double> searched = parameter_deviations(jacobian_, residuals(trials_[best_]), problem_.weights,
+                                                              problem_.smallest_noise, problem_.shared);
+    for (std::size_t j = 0; j < searched.size(); ++j) result[problem_.searched[j]] = searched[j];
+    return result;
+  }
+
+ private:
+  int dimension() const { return static_cast<int>(problem_.searched.size()); }
+  std::size_t coordinate(int j) const { return problem_.searched[static_cast<std::size_t>(j)]; }
+  int budget_left() const { return settings_.budget - static_cast<int>(trials_.size()); }
+  void add_trial(const Point& point, std::vector<Prediction> predictions) {
+    const double objective = problem_.objective(predictions);
+    record(point, std::move(predictions), objective);
+  }
+
+  std::vector<Point> propose() {
+    if (trials_.empty()) return {settings_.start};
+    // A Jacobian without a step after it would be wasted.
+    if (differencing_ && budget_left() <= dimension()) finished_ = true;
+    if (budget_left() <= 0) finished_ = true;
+    if (finished_) return {};
+    return differencing_ ? difference_points() : step_points();
+  }
+
+  std::vector<Point> difference_points() {
+    centre_ = best_;
+    std::vector<Point> points;
+    for (int j = 0; j < dimension(); ++j) {
+      Point point = trials_[centre_].point;
+      const std::size_t index = coordinate(j);
+      point[index] += point[index] > 0.5 ? -problem_.difference : problem_.difference;
+      points.push_back(std::move(point));
+    }
+    return points;
+  }
+
+  /// 0 where there is none: it pulls nowhere.
+  Eigen::VectorXd residuals(const Trial& trial) const {
+    return problem_.residuals(trial.predictions).unaryExpr([](double value) {
+      return std::isnan(value) ? 0.0 : value;
+    });
+  }
+
+  void take_jacobian(std::size_t first_new) {
+    const Trial& centre = trials_[centre_];
+    residual_ = residuals(centre);
+    jacobian_.resize(residual_.size(), dimension());
+    for (int j = 0; j < dimension(); ++j) {
+      const std::size_t index = coordinate(j);
+      const Trial& moved = trials_[first_new + static_cast<std::size_t>(j)];
+      const Eigen::VectorXd change = problem_.residuals(moved.predictions) - problem_.residuals(centre.predictions);
+      jacobian_.col(j) = change.unaryExpr([](double value) { return std::isnan(value) ? 0.0 : value; }) /
+                         (moved.point[index] - centre.point[index]);
+    }
+    differencing_ = false;
+    damping_ = kFirstDamping;
+    start_cost_ = cost(centre);
+  }
+
+  /// Steps of several dampings, from bold to cautious, so that one batch holds a good one.
+  std::vector<Point> step_points() {
+    std::vector<Point> points;
+    const int count = std::min(std::max(1, settings_.batch), budget_left());
+    for (int k = 0; k < count; ++k, damping_ *= 10.0) points.push_back(damped_step(damping_));
+    return points;
+  }
+
+  Point damped_step(double damping) const {
+    const Trial& centre = trials_[centre_];
+    Eigen::VectorXd weight(residual_.size());
+    double weight_sum = 0.0;
+    for (Eigen::Index i = 0; i < weight.size(); ++i) {
+      weight_sum += problem_.weights[i];
+      weight[i] = problem_.weights[i] / std::max(std::abs(residual_[i]), problem_.small_residual);
+    }
+    Eigen::MatrixXd normal = jacobian_.transpose() * weight.asDiagonal() * jacobian_ / weight_sum;
+    Eigen::VectorXd gradient = jacobian_.transpose() * weight.asDiagonal() * residual_ / weight_sum;
+    const double pull = 2.0 * problem_.pull / dimension();
+    for (int j = 0; j < dimension(); ++j) {
+      gradient[j] += pull * (centre.point[coordinate(j)] - settings_.start[coordinate(j)]);
+      normal(j, j) += pull;
+      normal(j, j) *= 1.0 + damping;
+    }
+    return bounded_step(normal, gradient, centre.point);
+  }
+
+  /// Minimises the quadratic model within the cube: parameters that the free step pushes through a face are fixed on it
+  /// and the rest solved again (at most once per dimension).
+  Point bounded_step(const Eigen::MatrixXd& normal, const Eigen::VectorXd& gradient, const Point& from) const {
+    const int n = dimension();
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+    std::vector<bool> fixed(static_cast<std::size_t>(n), false);
+    for (int round = 0; round <= n; ++round) {
+      Eigen::MatrixXd system = normal;
+      Eigen::VectorXd right = -gradient;
+      for (int j = 0; j < n; ++j) {
+        if (!fixed[static_cast<std::size_t>(j)]) continue;
+        right -= normal.col(j) * step[j];
+      }
+      for (int j = 0; j < n; ++j) {
+        if (!fixed[static_cast<std::size_t>(j)]) continue;
+        system.row(j).setZero();
+        system.col(j).setZero();
+        system(j, j) = 1.0;
+        right[j] = step[j];
+      }
+      step = system.ldlt().solve(right);
+      bool all_inside = true;
+      for (int j = 0; j < n; ++j) {
+        const double target = from[coordinate(j)] + step[j];
+        if (fixed[static_cast<std::size_t>(j)] || (target >= 0.0 && target <= 1.0)) continue;
+        fixed[static_cast<std::size_t>(j)] = true;
+        step[j] = std::clamp(target, 0.0, 1.0) - from[coordinate(j)];
+        all_inside = false;
+      }
+      if (all_inside) break;
+    }
+    Point point = from;
+    for (int j = 0; j < n; ++j) {
+      point[coordinate(j)] = std::clamp(from[coordinate(j)] + step[j], 0.0, 1.0);
+    }
+    return point;
+  }
+
+  void judge_steps() {
+    const double gain = start_cost_ - cost(trials_[best_]);
+    if (best_ != centre_ && gain > kLeastGain * start_cost_) {
+      differencing_ = true;
+    } else if (best_ != centre_ || damping_ > kLastDamping) {
+      finished_ = true;
+    }
+  }
+
+  static constexpr double kFirstDamping = 1e-3, kLastDamping = 1e2;
+
+  Problem problem_;
+  std::size_t centre_ = 0;
+  Eigen::MatrixXd jacobian_;
+  Eigen::VectorXd residual_;
+  double damping_ = kFirstDamping;
+  double start_cost_ = 0.0;
+  bool differencing_ = true;
+};
+
+}  // namespace
+
+double pull_to_start(std::span<const double> point, std::span<const double> start, double strength) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < point.size(); ++j) sum += (point[j] - start[j]) * (point[j] - start[j]);
+  return point.empty() ? 0.0 : strength * sum / static_cast<double>(point.size());
+}
+
+namespace {
+
+/// What numerics shift in all moduli, the more the lower the rigid fraction: where thin soft joints carry the load.
+Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>& measured, const NumericsFloor& floor) {
+  const Eigen::Index designs = static_cast<Eigen::Index>(measured.size());
+  Eigen::VectorXd fraction(designs);
+  for (Eigen::Index i = 0; i < designs; ++i)
+    fraction[i] = measured[static_cast<std::size_t>(i)].design.rigid_fraction();
+  fraction.array() -= designs > 0 ? fraction.mean() : 0.0;
+  const double spread = designs > 0 ? std::sqrt(fraction.squaredNorm() / static_cast<double>(designs)) : 0.0;
+  if (spread > 0.0) fraction *= floor.log_modulus_trend_sd / spread;
+  return Eigen::VectorXd::Constant(designs, floor.log_modulus_common_sd) - fraction;
+}
+
+}  // namespace
+
+std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings) {
+  Problem problem;
+  problem.weights =
+      Eigen::Map<const Eigen::VectorXd>(data.weights.data(), static_cast<Eigen::Index>(data.weights.size()));
+  problem.objective = [data](const std::vector<Prediction>& predictions) {
+    return modulus_objective(data.measured, data.weights, predictions);
+  };
+  problem.residuals = [data](const std::vector<Prediction>& predictions) {
+    Eigen::VectorXd result(static_cast<Eigen::Index>(data.measured.size()));
+    for (std::size_t i = 0; i < data.measured.size(); ++i) {
+      const std::optional<double>& modulus = predictions[i].modulus_pa;
+      const bool usable = modulus && *modulus > 0.0;
+      result[static_cast<Eigen::Index>(i)] = usable ? std::log(*modulus / data.measured[i].modulus_pa) : kMissing;
+    }
+    return result;
+  };
+  problem.shared = shared_modulus_errors(data.measured, settings.floor);
+  for (std::size_t j = 0; j < settings.start.size(); ++j) problem.searched.push_back(j);
+  problem.difference = 0.02;  // the static tester is smooth
+  problem.pull = 0.002;       // far below what any data with noise say
+  return std::make_unique<LeastSquaresFit>(std::move(data), settings, std::move(problem));
+}
+
+std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings,
+                                           std::span<const material::ParameterRange> /*ranges*/) {
+  const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
+  Problem problem;
+  problem.weights.resize(2 * designs);
+  for (Eigen::Index i = 0; i < designs; ++i)
+    problem.weights[i] = problem.weights[designs + i] = data.weights[static_cast<std::size_t>(i)];
+  problem.objective = [data](const std::vector<Prediction>& predictions) {
+    return toughness_objective(data.measured, data.weights, predictions);
+  };
+  problem.residuals = [data, designs](const std::vector<Prediction>& predictions) {
+    Eigen::VectorXd result = Eigen::VectorXd::Constant(2 * designs, kMissing);
+    for (Eigen::Index i = 0; i < designs; ++i) {
+      const measurement::Replicates& measured = data.measured[static_cast<std::size_t>(i)];
+      const auto simulated = features_of(predictions[static_cast<std::size_t>(i)]);
+      if (!simulated) continue;
+      result[i] = simulated->log_toughness - std::log(measured.toughness_pa);
+      if (const auto peak = peak_of(measured)) result[designs + i] = simulated->log_peak - std::log(*peak);
+    }
+    return result;
+  };
+  problem.shared = Eigen::MatrixXd::Zero(2 * designs, 2);
+  problem.shared.col(0).head(designs).setConstant(settings.floor.log_toughness_common_sd);
+  problem.shared.col(1).tail(designs).setConstant(settings.floor.log_peak_common_sd);
+  problem.searched = {kE0, kE0 + 1, kE0 + 2, kW0, kW0 + 1, kW0 + 2, kGamma};  // Poisson's ratios hardly act
+  problem.difference = 0.08;  // wide enough to step over the jumps of single fractures
+  problem.pull = 0.01;
+  problem.small_residual = 0.05;
+  problem.smallest_noise = 0.03;
+  return std::make_unique<LeastSquaresFit>(std::move(data), settings, std::move(problem));
+}
+
+}  // namespace nacre::sysid

@@ -1,0 +1,42 @@
+#include <toml++/toml.h>
+
+#include <cmath>
+
+#include "base/files.hpp"
+#include "sysid/calibration.hpp"
+
+namespace nacre::sysid {
+
+NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity) {
+  const std::string text = read_file(file);
+  const toml::parse_result document = [&] {
+    try {
+      return toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    }
+  }();
+  const toml::table* table = document[tester::to_string(fidelity)].as_table();
+  NumericsFloor floor;
+  if (table == nullptr) return floor;
+  const auto read = [&](std::string_view key, double& value) {
+    const toml::node* node = table->get(key);
+    if (node == nullptr) return;
+    const std::optional<double> number = node->value<double>();
+    if (!number || !(std::abs(*number) <= 2.0)) {
+      throw InputError::format("{}:{}: {} expected to be a number between -2 and 2", file.string(),
+                               node->source().begin.line, key);
+    }
+    value = std::abs(*number);
+  };
+  read("log_modulus_sd", floor.log_modulus_sd);
+  read("log_toughness_sd", floor.log_toughness_sd);
+  read("log_peak_sd", floor.log_peak_sd);
+  read("log_modulus_sd_rescaled", floor.log_modulus_trend_sd);
+  read("log_modulus_mean", floor.log_modulus_common_sd);
+  read("log_toughness_mean", floor.log_toughness_common_sd);
+  read("log_peak_mean", floor.log_peak_common_sd);
+  return floor;
+}
+
+}  // namespace nacre::sysid

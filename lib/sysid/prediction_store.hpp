@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "sysid/calibration.hpp"
+
+namespace nacre::sysid {
+
+/// Answers of testers by key, in memory and, when a file is given, on disk: what was simulated is not simulated again,
+/// not even after an interruption. The file is only ever appended to; a record that was cut off by a crash is dropped
+/// when the file is read. Curves are kept as 128 points in single precision, and an answer is the same whether it comes
+/// from the file or was just put in.
+class PredictionStore {
+ public:
+  PredictionStore() = default;
+  /// Throws InputError when the file cannot be read or written, or is no store.
+  explicit PredictionStore(const std::filesystem::path& file);
+  /// Nothing when the key is unknown; a prediction without values when the simulation failed.
+  const Prediction* find(const std::string& key) const;
+  const Prediction& put(const std::string& key, const Prediction& prediction);
+  std::size_t size() const { return known_.size(); }
+
+ private:
+  void read(const std::filesystem::path& file);
+
+  std::map<std::string, Prediction> known_;
+  std::optional<std::ofstream> file_;
+};
+
+}  // namespace nacre::sysid

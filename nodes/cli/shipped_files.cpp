@@ -1,0 +1,19 @@
+#include "shipped_files.hpp"
+
+#include <system_error>
+
+namespace nacre::cli {
+
+std::filesystem::path numerics_floor_file(const std::string& given) {
+  if (!given.empty()) return given;
+  const std::filesystem::path name = "data/numerics_floor.toml";
+  std::error_code unreadable;
+  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", unreadable);
+  while (folder.has_parent_path() && folder != folder.root_path()) {
+    folder = folder.parent_path();
+    if (std::filesystem::exists(folder / name, unreadable)) return folder / name;
+  }
+  return name;
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,147 @@
+#include "sysid/likelihood.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/files.hpp"
+#include "base/random.hpp"
+#include "sysid/feature_posterior.hpp"
+#include "sysid/features.hpp"
+
+namespace nacre::sysid {
+namespace {
+
+using measurement::Replicates;
+
+Replicates measured_modulus(double mean_pa, double sd_pa, int count) {
+  Replicates design;
+  design.modulus_count = count;
+  design.modulus_pa = mean_pa;
+  design.modulus_sd_pa = sd_pa;
+  return design;
+}
+
+Prediction modulus(double value_pa) {
+  Prediction prediction;
+  prediction.modulus_pa = value_pa;
+  return prediction;
+}
+
+TEST(ReplicateScatter, IsPooledByDegreesOfFreedom) {
+  const std::vector<Replicates> measured = {measured_modulus(1e9, 2e7, 3), measured_modulus(2e9, 2e7, 5),
+                                            measured_modulus(1e9, 0.0, 1)};
+  EXPECT_NEAR(pooled_scatter(measured).log_modulus, std::sqrt((2 * 4e-4 + 4 * 1e-4) / 6), 1e-12);
+}
+
+TEST(ReplicateScatter, IsTheDeclaredOneWithoutReplicates) {
+  EXPECT_EQ(pooled_scatter({measured_modulus(1e9, 0.0, 1)}, {0.03, 0.2}).log_modulus, 0.03);
+}
+
+TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
+  const std::vector<Replicates> measured = {measured_modulus(1e9, 2e7, 4), measured_modulus(1e9, 2e7, 4)};
+  const NumericsFloor floor{.log_modulus_sd = 0.03};
+  const double e = std::exp(0.05) * 1e9, variance = 1e-4 + 9e-4;
+  const Likelihood likelihood = modulus_likelihood_of(measured, {modulus(e), modulus(1e9)}, floor, 1);
+  EXPECT_EQ(likelihood.fit.count, 2);
+  EXPECT_EQ(likelihood.fit.freedom, 1);
+  EXPECT_NEAR(likelihood.fit.chi_squared, 25e-4 / variance, 1e-9);
+  EXPECT_NEAR(likelihood.fit.chi_squared_replicates, 25.0, 1e-9);
+  EXPECT_NEAR(likelihood.deviance, 25e-4 / variance + 2 * std::log(variance), 1e-9);
+}
+
+TEST(Likelihood, HasTheTailOfChiSquared) {
+  // Quantiles of the tables: 5 % and 1 % points.
+  EXPECT_NEAR(chi_squared_tail(3.841, 1), 0.05, 0.005);
+  EXPECT_NEAR(chi_squared_tail(18.307, 10), 0.05, 0.001);
+  EXPECT_NEAR(chi_squared_tail(23.209, 10), 0.01, 0.001);
+}
+
+TEST(GoodnessOfFit, CallsResidualsOfTheSizeOfScatterNoMisfitAndLargerOnesOne) {
+  RandomStream random(1, "fit");
+  std::vector<Replicates> measured;
+  std::vector<Prediction> right, wrong;
+  for (int i = 0; i < 18; ++i) {
+    measured.push_back(measured_modulus(1e9, 1e7, 4));
+    right.push_back(modulus(1e9 * std::exp(0.005 * random.normal())));
+    wrong.push_back(modulus(1e9 * std::exp(0.03 * random.normal())));
+  }
+  EXPECT_FALSE(modulus_likelihood_of(measured, right, {}, 4).fit.misfit());
+  EXPECT_TRUE(modulus_likelihood_of(measured, wrong, {}, 4).fit.misfit());
+}
+
+TEST(NumericsFloor, IsReadFromTheTableOfItsFidelity) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "floor.toml";
+  write_file_atomically(file, "[tiny]\nlog_modulus_mean = -0.05\nlog_toughness_sd = 0.3\n");
+  const NumericsFloor floor = read_numerics_floor(file, tester::Fidelity::tiny);
+  EXPECT_EQ(floor.log_modulus_common_sd, 0.05);
+  EXPECT_EQ(floor.log_toughness_sd, 0.3);
+  EXPECT_EQ(floor.log_modulus_sd, NumericsFloor{}.log_modulus_sd);
+  EXPECT_EQ(read_numerics_floor(file, tester::Fidelity::full).log_toughness_sd, NumericsFloor{}.log_toughness_sd);
+  write_file_atomically(file, "[tiny]\nlog_toughness_sd = \"much\"\n");
+  EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
+}
+
+/// One parameter acts (the failure energy of the interface), equally on all designs; the others do nothing.
+struct OneSlope {
+  FitData data;
+  Point start = Point(kEtaCount, 0.5);
+  Trial trial;
+  Eigen::MatrixXd slopes;
+  explicit OneSlope(int designs) {
+    for (int i = 0; i < designs; ++i) {
+      Replicates design;
+      design.toughness_count = 1;
+      design.toughness_pa = 2e5;
+      data.measured.push_back(design);
+      Prediction prediction;
+      prediction.toughness_pa = 2e5;
+      trial.predictions.push_back(prediction);
+    }
+    data.weights.assign(data.measured.size(), 1.0);
+    trial.point = start;
+    slopes = Eigen::MatrixXd::Zero(2 * designs, kEtaCount);
+    slopes.col(kW0 + 2).head(designs).setConstant(3.0);
+  }
+};
+
+TEST(FeaturePosterior, NarrowsAParameterAsTheRootOfTheDesigns) {
+  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
+  const auto deviation = [&](int designs) {
+    OneSlope problem(designs);
+    FeaturePosterior posterior(problem.data, problem.start, floor);
+    posterior.set_base(problem.trial);
+    const Eigen::MatrixXd covariance = posterior.posterior_covariance(problem.slopes);
+    EXPECT_NEAR(covariance(kNu0, kNu0), 1.0 / 12.0, 1e-9);  // what the range alone says
+    EXPECT_NEAR((posterior.estimate_covariance(problem.slopes) - covariance).norm(), 0.0, 1e-12);
+    return std::sqrt(covariance(kW0 + 2, kW0 + 2));
+  };
+  // Residuals of zero shrink the learnt variance by freedom / (freedom + designs) too.
+  EXPECT_NEAR(deviation(40) / deviation(10), std::sqrt(10.0 / 40.0 * (6.0 + 10.0) / (6.0 + 40.0)), 0.02);
+}
+
+TEST(FeaturePosterior, AnErrorCommonToAllDesignsIsNotAveragedAway) {
+  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3};
+  OneSlope problem(400);
+  FeaturePosterior posterior(problem.data, problem.start, floor);
+  posterior.set_base(problem.trial);
+  const Eigen::MatrixXd covariance = posterior.estimate_covariance(problem.slopes);
+  EXPECT_NEAR(std::sqrt(covariance(kW0 + 2, kW0 + 2)), 0.3 / 3.0, 0.005);
+}
+
+TEST(FeaturePosterior, IsSmallestWhereTheResidualsVanish) {
+  OneSlope problem(10);
+  FeaturePosterior posterior(problem.data, problem.start, {});
+  posterior.set_base(problem.trial);
+  const auto cost = [&](double change) {
+    const std::vector<FeatureChange> changes(10, FeatureChange{change, 0.0});
+    return posterior(problem.start, changes);
+  };
+  EXPECT_LT(cost(0.0), cost(0.05));
+  EXPECT_LT(cost(0.0), cost(-0.05));
+  EXPECT_NEAR(cost(0.3), cost(-0.3), 1e-12);
+}
+
+}  // namespace
+}  // namespace nacre::sysid
