@@ -40,6 +40,11 @@ inline Result<void> expect_count(std::string_view member, std::size_t count, std
   return fail("{}: {} elements, at most {}", member, count, maximum);
 }
 
+/// The error with the name of its message type in front.
+inline tl::unexpected<Error> in_type(std::string_view type, const Error& error) {
+  return fail("{}: {}", type, error.message);
+}
+
 /// A 55-bit pattern.
 inline Result<pattern::Pattern> pattern_from_bits(std::int64_t bits) {
   if (bits < 0 || (bits >> pattern::kFreePixels) != 0) return fail("pattern: {:x} has more than 55 bits", bits);

@@ -8,8 +8,6 @@
 namespace nacre::wire {
 namespace {
 
-tl::unexpected<Error> in_type(std::string_view type, const Error& error) { return fail("{}: {}", type, error.message); }
-
 /// Curves travel as float: half the bytes, and far more digits than a tester resolves.
 std::vector<float> to_floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 std::vector<double> to_doubles(const std::vector<float>& values) { return {values.begin(), values.end()}; }
