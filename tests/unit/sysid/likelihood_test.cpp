@@ -51,6 +51,14 @@ TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
   EXPECT_NEAR(likelihood.deviance, 25e-4 / variance + 2 * std::log(variance), 1e-9);
 }
 
+TEST(Likelihood, StaysFiniteWhereReplicatesAgreeExactly) {
+  const Likelihood likelihood = modulus_likelihood_of({measured_modulus(1e9, 0.0, 4)}, {modulus(2e9)},
+                                                      NumericsFloor{.log_modulus_sd = 0.0}, 0);
+  EXPECT_TRUE(std::isfinite(likelihood.fit.chi_squared));
+  EXPECT_TRUE(std::isfinite(likelihood.fit.chi_squared_replicates));
+  EXPECT_TRUE(likelihood.fit.misfit());
+}
+
 TEST(Likelihood, HasTheTailOfChiSquared) {
   // Quantiles of the tables: 5 % and 1 % points.
   EXPECT_NEAR(chi_squared_tail(3.841, 1), 0.05, 0.005);
