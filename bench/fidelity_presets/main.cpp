@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/parallel.hpp"
+#include "base/processor_time.hpp"
 #include "base/random.hpp"
 #include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
@@ -52,15 +52,8 @@ struct Outcome {
   double toughness_pa = 0.0, cpu_s = 0.0;
 };
 
-/// Time of this thread on a processor, so that other work on the machine does not count.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 Result<Outcome> pull(const pattern::Pattern& pattern, const Variant& variant) {
-  const double start = cpu_seconds();
+  const double start = processor_time_s();
   const tester::Simulation simulation{
       .design = pattern,
       .parameters = material::default_parameters(),
@@ -74,7 +67,7 @@ Result<Outcome> pull(const pattern::Pattern& pattern, const Variant& variant) {
   tester::cut_notch(test.grid, 1);
   const Result<tester::ToughnessResult> result = tester::run_fracture_test<float>(test);
   if (!result) return tl::unexpected(result.error());
-  return Outcome{.toughness_pa = result->toughness_pa, .cpu_s = cpu_seconds() - start};
+  return Outcome{.toughness_pa = result->toughness_pa, .cpu_s = processor_time_s() - start};
 }
 
 /// 120 patterns over the strata of Table 3.2 and 80 of 76 to 85 % rigid, mixed so that every share of them is fair.

@@ -2,28 +2,21 @@
 // seconds per specimen for the fidelities. All elements of the grid are counted, empty ones too.
 
 #include <cstdio>
-#include <ctime>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/processor_time.hpp"
 #include "tester/fracture_test.hpp"
 
 namespace {
 
 using namespace nacre;
 
-/// Time of this thread on a processor, so that other work on the machine does not count.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double seconds_of(const std::function<void()>& work) {
-  const double start = cpu_seconds();
+  const double start = processor_time_s();
   work();
-  return cpu_seconds() - start;
+  return processor_time_s() - start;
 }
 
 /// Best of `repeats` runs of `steps` steps after the same number of warm-up steps.

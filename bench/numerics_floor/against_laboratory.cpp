@@ -17,6 +17,7 @@
 #include "base/statistics.hpp"
 #include "base_refit.hpp"
 #include "pattern/random_pattern.hpp"
+#include "study/study_command.hpp"
 #include "tester/tester.hpp"
 #include "virtual_lab/laboratory.hpp"
 
@@ -194,11 +195,5 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.output, "TOML file to write");
   app.add_option("--table", options.table, "CSV file with every design");
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return study::exit_status_of([&] { run(options); });
 }

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/files.hpp"
-#include "base/result.hpp"
+#include "study/study_command.hpp"
 #include "toughness_floor.hpp"
 
 namespace {
@@ -15,22 +15,21 @@ using namespace nacre;
 using namespace nacre::numerics_floor;
 
 struct Options {
-  int layouts = 48, sets = 5, threads = 0;
-  std::uint64_t seed = 1;
-  double seconds = 1e9;
-  std::string fidelity = "preview", gamut = "bench/numerics_floor/gamut.csv", table = "numerics_floor.csv", output;
+  int layouts = 48, sets = 5;
+  std::string fidelity = "preview", gamut = "bench/numerics_floor/gamut.csv", output;
+  study::TableOptions table{.table = "numerics_floor.csv"};
 };
 
 void run(const Options& options) {
   const Plan plan{.fidelity = *tester::fidelity_from_string(options.fidelity),
-                  .seed = options.seed,
-                  .layouts = floor_layouts(options.layouts, options.gamut, options.seed),
-                  .sets = floor_parameter_sets(options.sets, options.seed)};
-  study::StudyTable table(options.table, kToughnessColumns);
-  const int missing = study::fill(table, wanted_fracture_tests(plan), options.seconds, options.threads);
+                  .seed = options.table.seed,
+                  .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
+                  .sets = floor_parameter_sets(options.sets, options.table.seed)};
+  study::StudyTable table(options.table.table, kToughnessColumns);
+  const int missing = study::fill(table, wanted_fracture_tests(plan), options.table.seconds, options.table.threads);
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
   if (missing > 0 && options.output.empty()) return;
-  const ModulusFloor moduli = modulus_floor(plan, options.threads);
+  const ModulusFloor moduli = modulus_floor(plan, options.table.threads);
   const std::string text = fmt::format("[{}]\n{}{}", options.fidelity, to_toml(moduli, plan),
                                        to_toml(toughness_floor(plan, table, moduli)));
   fmt::print("{}", text);
@@ -45,18 +44,9 @@ int main(int argc, char** argv) {
   app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")->check(CLI::Range(12, 1000));
   app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
   app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
-  app.add_option("--fidelity", options.fidelity)->check(CLI::IsMember({"tiny", "preview", "full"}));
-  app.add_option("--seed", options.seed, "Of layouts and parameter sets");
-  app.add_option("--table", options.table, "CSV of finished fracture tests, read and continued");
-  app.add_option("--seconds", options.seconds, "Begin no fracture test after this time");
-  app.add_option("--threads", options.threads, "0: all allowed cores")->check(CLI::Range(0, 1024));
+  study::add_fidelity_option(app, options.fidelity);
+  study::add_table_options(app, options.table, "layouts and parameter sets");
   app.add_option("--out", options.output, "TOML file to write, from what is finished");
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return study::exit_status_of([&] { run(options); });
 }

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <ctime>
+#include "base/processor_time.hpp"
 
 namespace nacre::bench {
 
-/// Time of this thread on a processor, s: other work on the machine does not count.
-inline double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
+/// Processor time that `work` takes, s.
 template <class Work>
 double seconds_of(const Work& work) {
-  const double start = cpu_seconds();
+  const double start = processor_time_s();
   work();
-  return cpu_seconds() - start;
+  return processor_time_s() - start;
 }
 
 /// Least time of `repeats` runs after one that is not counted.

@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 
 #include "base/random.hpp"
-#include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "fracture_row.hpp"
+#include "study/study_command.hpp"
 #include "study/study_table.hpp"
 
 namespace {
@@ -19,10 +19,9 @@ using namespace nacre::verification;
 constexpr double kPerturbations[] = {1e-6, 1e-5, 1e-4, 1e-3};
 
 struct Options {
-  int patterns = 12, draws = 3, threads = 0;
-  std::uint64_t seed = 1;
-  double seconds = 1e9;
-  std::string fidelity = "preview", table = "repeatability.csv";
+  int patterns = 12, draws = 3;
+  std::string fidelity = "preview";
+  study::TableOptions table{.table = "repeatability.csv"};
 };
 
 /// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5).
@@ -34,7 +33,7 @@ material::ToughnessParameters perturbed(const material::ToughnessParameters& eta
 }
 
 std::string key_of(const Options& options, const pattern::Pattern& pattern, double relative, int draw) {
-  return fmt::format("{} {} {} {:g} {}", options.fidelity, options.seed, pattern.key(), relative, draw);
+  return fmt::format("{} {} {} {:g} {}", options.fidelity, options.table.seed, pattern.key(), relative, draw);
 }
 
 std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector<pattern::Pattern>& patterns) {
@@ -87,9 +86,9 @@ void print_row(const Options& options, const std::vector<pattern::Pattern>& patt
 }
 
 void run(const Options& options) {
-  const std::vector<pattern::Pattern> patterns = study_patterns(options.patterns, options.seed);
-  study::StudyTable table(options.table, kFractureColumns);
-  const int missing = study::fill(table, wanted_rows(options, patterns), options.seconds, options.threads);
+  const std::vector<pattern::Pattern> patterns = study_patterns(options.patterns, options.table.seed);
+  study::StudyTable table(options.table.table, kFractureColumns);
+  const int missing = study::fill(table, wanted_rows(options, patterns), options.table.seconds, options.table.threads);
   fmt::print("{}: standard deviations between runs of one pattern whose parameters differ by this much\n\n",
              options.fidelity);
   fmt::print("| relative | patterns | log T (rms) | log T (median) | largest range of log T | log peak | log strain |\n");
@@ -105,17 +104,8 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("--patterns", options.patterns, "Patterns")->check(CLI::Range(2, 1000));
   app.add_option("--draws", options.draws, "Perturbed runs per pattern and size")->check(CLI::Range(1, 100));
-  app.add_option("--fidelity", options.fidelity)->check(CLI::IsMember({"tiny", "preview", "full"}));
-  app.add_option("--seed", options.seed, "Of patterns and perturbations");
-  app.add_option("--table", options.table, "CSV of finished simulations, read and continued");
-  app.add_option("--seconds", options.seconds, "Begin no simulation after this time");
-  app.add_option("--threads", options.threads, "0: all allowed cores")->check(CLI::Range(0, 1024));
+  study::add_fidelity_option(app, options.fidelity);
+  study::add_table_options(app, options.table, "patterns and perturbations");
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return study::exit_status_of([&] { run(options); });
 }

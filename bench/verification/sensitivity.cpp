@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "fracture_row.hpp"
+#include "study/study_command.hpp"
 #include "study/study_table.hpp"
 
 namespace {
@@ -15,10 +15,9 @@ using namespace nacre;
 using namespace nacre::verification;
 
 struct Options {
-  int patterns = 10, threads = 0;
-  std::uint64_t seed = 1;
-  double seconds = 1e9;
-  std::string fidelity = "preview", table = "sensitivity.csv";
+  int patterns = 10;
+  std::string fidelity = "preview";
+  study::TableOptions table{.table = "sensitivity.csv"};
 };
 
 /// One way to run a specimen that differs from the tester's in one respect.
@@ -41,7 +40,7 @@ std::vector<Variant> variants() {
 }
 
 std::string key_of(const Options& options, const pattern::Pattern& pattern, const Variant& variant) {
-  return fmt::format("{} {} {} {}", options.fidelity, options.seed, pattern.key(), variant.name);
+  return fmt::format("{} {} {} {}", options.fidelity, options.table.seed, pattern.key(), variant.name);
 }
 
 Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Variant& variant, tester::Fidelity fidelity) {
@@ -69,16 +68,16 @@ void print_row(const Options& options, const std::vector<pattern::Pattern>& patt
 }
 
 void run(const Options& options) {
-  const std::vector<pattern::Pattern> patterns = study_patterns(options.patterns, options.seed);
+  const std::vector<pattern::Pattern> patterns = study_patterns(options.patterns, options.table.seed);
   const tester::Fidelity fidelity = *tester::fidelity_from_string(options.fidelity);
-  study::StudyTable table(options.table, kFractureColumns);
+  study::StudyTable table(options.table.table, kFractureColumns);
   std::vector<study::Wanted> wanted;
   for (const pattern::Pattern& pattern : patterns)
     for (const Variant& variant : variants()) {
       const std::string key = key_of(options, pattern, variant);
       wanted.push_back({key, [=] { return fracture_row(key, pull(pattern, variant, fidelity)); }});
     }
-  const int missing = study::fill(table, wanted, options.seconds, options.threads);
+  const int missing = study::fill(table, wanted, options.table.seconds, options.table.threads);
   fmt::print("{}: T against that of the tester\n\n", options.fidelity);
   fmt::print("| variant | patterns | mean of log ratio | sd | median change | largest change | Spearman |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
@@ -92,17 +91,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Sensitivity of T to damping, strain rate, time step and precision"};
   Options options;
   app.add_option("--patterns", options.patterns, "Patterns")->check(CLI::Range(2, 1000));
-  app.add_option("--fidelity", options.fidelity)->check(CLI::IsMember({"tiny", "preview", "full"}));
-  app.add_option("--seed", options.seed, "Of the patterns");
-  app.add_option("--table", options.table, "CSV of finished simulations, read and continued");
-  app.add_option("--seconds", options.seconds, "Begin no simulation after this time");
-  app.add_option("--threads", options.threads, "0: all allowed cores")->check(CLI::Range(0, 1024));
+  study::add_fidelity_option(app, options.fidelity);
+  study::add_table_options(app, options.table, "the patterns");
   CLI11_PARSE(app, argc, argv);
-  try {
-    run(options);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return study::exit_status_of([&] { run(options); });
 }

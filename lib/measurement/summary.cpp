@@ -1,13 +1,12 @@
 // Replicates: what was measured of one design, whatever the order in which its specimens arrived.
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 #include <tuple>
 
+#include "base/statistics.hpp"
 #include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
@@ -21,17 +20,7 @@ GroupKey group_of(const SpecimenRecord& specimen) {
 }
 
 double mean_of(std::span<const double> values) {
-  if (values.empty()) return 0.0;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-/// Sample standard deviation; 0 below two values.
-double deviation_of(std::span<const double> values) {
-  if (values.size() < 2) return 0.0;
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+  return values.empty() ? 0.0 : mean(values);
 }
 
 /// The thesis' representative curve (2.2.2), chosen as that of the specimen nearest to the mean toughness.
@@ -65,10 +54,10 @@ Replicates summarise_group(std::span<const SpecimenRecord* const> specimens) {
   for (const std::string& batch : batches) group.batch_list += (group.batch_list.empty() ? "" : ",") + batch;
   group.modulus_count = static_cast<int>(moduli.size());
   group.modulus_pa = mean_of(moduli);
-  group.modulus_sd_pa = deviation_of(moduli);
+  group.modulus_sd_pa = standard_deviation(moduli);
   group.toughness_count = static_cast<int>(toughnesses.size());
   group.toughness_pa = mean_of(toughnesses);
-  group.toughness_sd_pa = deviation_of(toughnesses);
+  group.toughness_sd_pa = standard_deviation(toughnesses);
   group.representative_curve = representative(specimens, group.toughness_pa);
   return group;
 }

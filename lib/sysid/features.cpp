@@ -8,6 +8,14 @@ namespace {
 
 double square(double x) { return x * x; }
 
+/// Of a logarithm: no measurement is written with more digits, and replicates that agree exactly have no scatter at all.
+constexpr double kSmallestVariance = 1e-12;
+
+/// Of a mean of `count` replicates.
+double variance(double scatter, int count, double floor_sd) {
+  return std::max(square(scatter) / std::max(1, count) + square(floor_sd), kSmallestVariance);
+}
+
 /// Sum of squared relative deviations and degrees of freedom over designs with replicates.
 struct Pool {
   double sum = 0.0;
@@ -49,16 +57,16 @@ ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& meas
 
 double modulus_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
                         const NumericsFloor& floor) {
-  return square(scatter.log_modulus) / std::max(1, measured.modulus_count) + square(floor.log_modulus_sd);
+  return variance(scatter.log_modulus, measured.modulus_count, floor.log_modulus_sd);
 }
 
 double toughness_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
                           const NumericsFloor& floor) {
-  return square(scatter.log_toughness) / std::max(1, measured.toughness_count) + square(floor.log_toughness_sd);
+  return variance(scatter.log_toughness, measured.toughness_count, floor.log_toughness_sd);
 }
 
 double peak_variance(const ReplicateScatter& scatter, const NumericsFloor& floor) {
-  return square(scatter.log_toughness) + square(floor.log_peak_sd);
+  return variance(scatter.log_toughness, 1, floor.log_peak_sd);
 }
 
 }  // namespace nacre::sysid

@@ -9,15 +9,10 @@
 namespace nacre::sysid {
 namespace {
 
-/// Of a logarithm: no measurement is written with more digits. Replicates that agree exactly have no scatter at all.
-constexpr double kSmallestVariance = 1e-12;
-
 /// Sums over designs, one residual at a time.
 class Residuals {
  public:
   void add(double residual, double variance, double replicate_variance) {
-    variance = std::max(variance, kSmallestVariance);
-    replicate_variance = std::max(replicate_variance, kSmallestVariance);
     ++result_.fit.count;
     result_.fit.chi_squared += residual * residual / variance;
     result_.fit.chi_squared_replicates += residual * residual / replicate_variance;

@@ -1,7 +1,5 @@
 // nacre simulate: the two testers on patterns, without farm and cache.
 
-#include <time.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +7,7 @@
 
 #include "base/files.hpp"
 #include "base/parallel.hpp"
+#include "base/processor_time.hpp"
 #include "command.hpp"
 #include "crack/crack_record.hpp"
 #include "film/film_file.hpp"
@@ -55,13 +54,6 @@ struct Specimen {
   }
 };
 
-/// Processor time of the calling thread: what a kernel costs, whoever else uses the machine.
-double thread_time_s() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::vector<Specimen> read_specimens(const std::vector<std::string>& arguments) {
   std::vector<Specimen> specimens;
   for (const std::string& argument : arguments) {
@@ -105,9 +97,9 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
     if (task.test == tester::TestKind::modulus) {
       specimen.modulus = tester::test_modulus(simulation);
     } else {
-      const double begun_s = thread_time_s();
+      const double begun_s = processor_time_s();
       specimen.toughness = tester::test_toughness(simulation);
-      specimen.kernel_s = thread_time_s() - begun_s;
+      specimen.kernel_s = processor_time_s() - begun_s;
       if (*specimen.toughness) {
         specimen.crack = crack::record_of(simulation, (*specimen.toughness)->breaks);
         if (options.wants_films()) film_specimen(specimen, simulation, options);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "runtime/journal.hpp"
@@ -24,12 +23,6 @@ void write_input(runtime::LogWriter& writer, const runtime::Input& input) {
 }
 
 }  // namespace
-
-double processor_time_s() {
-  std::timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 void InProcessGame::add(const std::string& node, std::unique_ptr<runtime::NodeCore> core,
                         std::map<std::string, runtime::WorkFunction> work) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/processor_time.hpp"
 #include "base/random.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
@@ -91,8 +92,5 @@ class InProcessGame {
   std::map<std::string, std::vector<std::pair<runtime::Input, runtime::Outputs>>> journal_;
   double longest_step_s_ = 0.0;
 };
-
-/// Processor time of this thread: what other programs do on the machine is no fault of what is measured.
-double processor_time_s();
 
 }  // namespace nacre::game_test
