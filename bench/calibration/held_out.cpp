@@ -115,6 +115,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   sysid::LocalSimulator simulator = kept_simulator(options);
   sysid::CalibrationSettings settings;
   settings.start = material::default_parameters();
+  settings.floor = sysid::read_numerics_floor("data/numerics_floor.toml", *tester::fidelity_from_string(options.fidelity));
   settings.toughness_budget = options.budget;
   const auto named = sysid::toughness_search_from_string(search);
   if (!named) throw InputError(named.error().message);

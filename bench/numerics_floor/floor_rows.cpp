@@ -80,7 +80,7 @@ std::string toughness_key(const Plan& plan, std::size_t layout, std::size_t set,
 
 std::vector<study::Wanted> wanted_fracture_tests(const Plan& plan) {
   std::vector<study::Wanted> wanted;
-  for (std::size_t pass = 0; pass < plan.sets.size(); ++pass)
+  for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
     for (std::size_t i = 0; i < plan.layouts.size(); ++i)
       for (const int refinement : {1, 2}) {
         const std::size_t set = (i + pass) % plan.sets.size();

@@ -17,6 +17,7 @@ struct Plan {
   std::uint64_t seed = 1;
   std::vector<pattern::Pattern> layouts;
   std::vector<material::ParameterSet> sets;  ///< the first is the default
+  int sets_per_layout = 5;                   ///< of a fracture test, in turn; every layout with all of them: as many as sets
 };
 
 /// Half of the layouts random, stratified over 50-85 % rigid; half the best ones (by rank) of a gamut.

@@ -15,7 +15,7 @@ using namespace nacre;
 using namespace nacre::numerics_floor;
 
 struct Options {
-  int layouts = 48, sets = 5;
+  int layouts = 48, sets = 5, sets_per_layout = 5;
   std::string fidelity = "preview", gamut = "bench/numerics_floor/gamut.csv", output;
   study::TableOptions table{.table = "numerics_floor.csv"};
 };
@@ -24,7 +24,8 @@ void run(const Options& options) {
   const Plan plan{.fidelity = *tester::fidelity_from_string(options.fidelity),
                   .seed = options.table.seed,
                   .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
-                  .sets = floor_parameter_sets(options.sets, options.table.seed)};
+                  .sets = floor_parameter_sets(options.sets, options.table.seed),
+                  .sets_per_layout = std::min(options.sets, options.sets_per_layout)};
   study::StudyTable table(options.table.table, kToughnessColumns);
   const int missing = study::fill(table, wanted_fracture_tests(plan), options.table.seconds, options.table.threads);
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")->check(CLI::Range(12, 1000));
   app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
+  app.add_option("--sets-per-layout", options.sets_per_layout, "Of a fracture test: each layout gets so many, in turn")->check(CLI::Range(1, 100));
   app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
   study::add_fidelity_option(app, options.fidelity);
   study::add_table_options(app, options.table, "layouts and parameter sets");

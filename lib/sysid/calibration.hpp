@@ -67,12 +67,13 @@ Result<ToughnessSearch> toughness_search_from_string(std::string_view name);
 
 /// What remains between two numerics of one truth, so between any laboratory and the testers, beside scatter and
 /// physics: standard deviations of natural logarithms, per design (after parameters have taken over what they can) and
-/// common to all designs.
+/// common to all designs. `trend`: growing along the rigid fraction.
 struct NumericsFloor {
   double log_modulus_sd = 0.006, log_toughness_sd = 0.22, log_peak_sd = 0.10;
   double log_modulus_common_sd = 0.06, log_toughness_common_sd = 0.27, log_peak_common_sd = 0.10;
   double log_modulus_trend_sd =
-      0.024;  ///< along the rigid fraction: thin soft joints are computed softer than thick ones
+      0.024;  ///< over the designs: thin soft joints are computed softer than thick ones
+  double log_toughness_trend_sd = 0.05, log_peak_trend_sd = 0.07;  ///< per 0.1 of rigid fraction
 };
 /// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
 /// InputError.

@@ -6,6 +6,7 @@
 #include <nlopt.hpp>
 #include <numeric>
 
+#include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
 namespace nacre::sysid {
@@ -268,10 +269,7 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
     weights[designs + i] = weights[i];
   }
   if (weights.sum() <= 0.0) return unknown;
-  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(2 * designs, 2);
-  shared.col(0).head(designs).setConstant(floor.log_toughness_common_sd);
-  shared.col(1).tail(designs).setConstant(floor.log_peak_common_sd);
-  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise, shared);
+  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise, shared_fracture_errors(data.measured, floor));
 }
 
 void FeatureEmulator::add_pending(const Point& point) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
 namespace nacre::sysid {
@@ -16,7 +17,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor)
-    : start_(std::move(start)) {
+    : start_(std::move(start)), shared_errors_(shared_fracture_errors(data.measured, floor)) {
   const ReplicateScatter scatter = pooled_scatter(data.measured);
   for (const measurement::Replicates& design : data.measured) {
     const std::optional<double> peak = peak_of(design);
@@ -25,8 +26,6 @@ FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const Numer
     peak_.measured.push_back(peak ? std::log(*peak) : kNone);
     peak_.variances.push_back(peak_variance(scatter, floor));
   }
-  toughness_.common_variance = square(floor.log_toughness_common_sd);
-  peak_.common_variance = square(floor.log_peak_common_sd);
   toughness_.base.assign(data.measured.size(), kNone);
   peak_.base = toughness_.base;
 }
@@ -102,15 +101,9 @@ Eigen::MatrixXd FeaturePosterior::posterior_covariance(const Eigen::MatrixXd& sl
 Eigen::MatrixXd FeaturePosterior::estimate_covariance(const Eigen::MatrixXd& slopes) const {
   const Eigen::VectorXd variances = learnt_variances();
   const Eigen::MatrixXd covariance = posterior_covariance(slopes);
-  const Eigen::Index designs = variances.size() / 2;
-  Eigen::MatrixXd result = covariance;
-  for (const auto& [feature, first] : {std::pair{&toughness_, Eigen::Index{0}}, std::pair{&peak_, designs}}) {
-    // A shift of all residuals of this feature by one moves the estimate by `gain`.
-    const Eigen::VectorXd gain =
-        covariance * (slopes.middleRows(first, designs).transpose() * variances.segment(first, designs).cwiseInverse());
-    result += feature->common_variance * gain * gain.transpose();
-  }
-  return result;
+  // The estimate moves by a column of `moves` for a shared error of normal size.
+  const Eigen::MatrixXd moves = covariance * slopes.transpose() * variances.cwiseInverse().asDiagonal() * shared_errors_;
+  return covariance + moves * moves.transpose();
 }
 
 }  // namespace nacre::sysid

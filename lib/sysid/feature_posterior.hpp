@@ -29,7 +29,6 @@ class FeaturePosterior {
     std::vector<double> measured;   ///< log; not a number where there is none
     std::vector<double> variances;  ///< prior
     std::vector<double> base;       ///< log, of the base trial; not a number where it failed
-    double common_variance = 0.0;
     double sum_of_squares(std::span<const double> changes, int& count) const;
   };
   /// Variances of all residuals, log T then log peak, with the factor that the residuals at the base suggest; infinite
@@ -39,6 +38,7 @@ class FeaturePosterior {
 
   Point start_;
   Feature toughness_, peak_;
+  Eigen::MatrixXd shared_errors_;
 };
 
 }  // namespace nacre::sysid

@@ -7,6 +7,7 @@
 #include "sysid/emulator.hpp"
 #include "sysid/objective.hpp"
 #include "sysid/recorded_fit.hpp"
+#include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
 namespace nacre::sysid {
@@ -207,22 +208,6 @@ double pull_to_start(std::span<const double> point, std::span<const double> star
   return point.empty() ? 0.0 : strength * sum / static_cast<double>(point.size());
 }
 
-namespace {
-
-/// What numerics shift in all moduli, the more the lower the rigid fraction: where thin soft joints carry the load.
-Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>& measured, const NumericsFloor& floor) {
-  const Eigen::Index designs = static_cast<Eigen::Index>(measured.size());
-  Eigen::VectorXd fraction(designs);
-  for (Eigen::Index i = 0; i < designs; ++i)
-    fraction[i] = measured[static_cast<std::size_t>(i)].design.rigid_fraction();
-  fraction.array() -= designs > 0 ? fraction.mean() : 0.0;
-  const double spread = designs > 0 ? std::sqrt(fraction.squaredNorm() / static_cast<double>(designs)) : 0.0;
-  if (spread > 0.0) fraction *= floor.log_modulus_trend_sd / spread;
-  return Eigen::VectorXd::Constant(designs, floor.log_modulus_common_sd) - fraction;
-}
-
-}  // namespace
-
 std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings) {
   Problem problem;
   problem.weights =
@@ -267,9 +252,7 @@ std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& sett
     }
     return result;
   };
-  problem.shared = Eigen::MatrixXd::Zero(2 * designs, 2);
-  problem.shared.col(0).head(designs).setConstant(settings.floor.log_toughness_common_sd);
-  problem.shared.col(1).tail(designs).setConstant(settings.floor.log_peak_common_sd);
+  problem.shared = shared_fracture_errors(data.measured, settings.floor);
   problem.searched = {kE0, kE0 + 1, kE0 + 2, kW0, kW0 + 1, kW0 + 2, kGamma};  // Poisson's ratios hardly act
   problem.difference = 0.08;  // wide enough to step over the jumps of single fractures
   problem.pull = 0.01;

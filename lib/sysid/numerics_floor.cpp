@@ -36,6 +36,17 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
   read("log_modulus_mean", floor.log_modulus_common_sd);
   read("log_toughness_mean", floor.log_toughness_common_sd);
   read("log_peak_mean", floor.log_peak_common_sd);
+  const auto read_trend = [&](std::size_t feature, double& value) {
+    const toml::node_view<const toml::node> entry = (*table)["covariance_rigid"][feature][feature];
+    if (!entry) return;
+    const std::optional<double> variance = entry.value<double>();
+    if (!variance || !(*variance >= 0.0 && *variance <= 1.0))
+      throw InputError::format("{}:{}: covariance_rigid expected to hold variances between 0 and 1 on its diagonal",
+                               file.string(), entry.node()->source().begin.line);
+    value = std::sqrt(*variance);
+  };
+  read_trend(1, floor.log_toughness_trend_sd);  // features: log E, log T, log peak, log failure strain
+  read_trend(2, floor.log_peak_trend_sd);
   return floor;
 }
 

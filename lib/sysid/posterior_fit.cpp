@@ -17,6 +17,7 @@ constexpr double kFirstRadius = 0.7;  // of the trust region, in natural logarit
 constexpr double kLargestRadius = 1.0;
 constexpr double kSmallestRadius = 0.2;  // below it the jumps decide; evaluations then average over them
 constexpr double kLeastGain = 0.5;       // in -log posterior
+constexpr int kIdleBatches = 4;          // in a row within the smallest radius without that gain: nothing more is to be found
 
 class PosteriorFit final : public RecordedFit {
  public:
@@ -42,8 +43,9 @@ class PosteriorFit final : public RecordedFit {
     const double before = smallest_cost_;
     learn();
     if (trials_.size() <= others_.size() + 1) return;
-    radius_ = smallest_cost_ < before - kLeastGain ? std::min(kLargestRadius, 1.3 * radius_)
-                                                   : std::max(kSmallestRadius, 0.6 * radius_);
+    const bool gained = smallest_cost_ < before - kLeastGain;
+    idle_batches_ = gained || radius_ > kSmallestRadius ? 0 : idle_batches_ + 1;
+    radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : std::max(kSmallestRadius, 0.6 * radius_);
   }
 
   std::vector<double> deviations() const override {
@@ -61,7 +63,7 @@ class PosteriorFit final : public RecordedFit {
  private:
   std::vector<Point> propose() {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));
-    if (count <= 0) return {};
+    if (count <= 0 || idle_batches_ >= kIdleBatches) return {};
     std::vector<Point> points;
     if (trials_.empty()) {
       points = {settings_.start};
@@ -160,6 +162,7 @@ class PosteriorFit final : public RecordedFit {
   std::vector<FeatureChange> changes_;
   double radius_ = kFirstRadius;
   double smallest_cost_ = HUGE_VAL;
+  int idle_batches_ = 0;
 };
 
 }  // namespace

@@ -198,7 +198,7 @@ std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   tables.base_materials = game::read_base_materials(scenario.base_materials_file);
   if (!scenario.benchmark_file.empty()) tables.benchmark = game::read_benchmark_line(scenario.benchmark_file);
   tables.floor = scenario.numerics_floor_file.empty()
-                     ? sysid::NumericsFloor{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}
+                     ? sysid::NumericsFloor{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}
                      : sysid::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity);
   return std::make_unique<ValidationCore>(scenario, std::move(tables));
 }

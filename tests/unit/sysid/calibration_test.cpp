@@ -285,6 +285,15 @@ TEST(PosteriorSearch, AveragesOverTheJumpsOfSingleFractures) {
   EXPECT_LT(posterior, emulator);
 }
 
+TEST(PosteriorSearch, StopsWhenNothingMoreIsToBeFound) {
+  CalibrationSettings with = settings();
+  with.toughness_budget = 300;
+  const Calibrated result = finish_jumpy(measured_designs(18), with);
+  EXPECT_GT(result.toughness_objectives.size(), 12u);
+  EXPECT_LT(result.toughness_objectives.size(), 150u);
+  EXPECT_LT(smooth_error(result.parameters.toughness), 0.05);
+}
+
 TEST(PosteriorSearch, DrawsAnEnsembleThatSpreadsWhereTheDataSayLittle) {
   const std::vector<Replicates> measured = measured_designs(12);
   CalibrationSettings with = settings();

@@ -81,11 +81,14 @@ TEST(GoodnessOfFit, CallsResidualsOfTheSizeOfScatterNoMisfitAndLargerOnesOne) {
 
 TEST(NumericsFloor, IsReadFromTheTableOfItsFidelity) {
   const auto file = std::filesystem::path(testing::TempDir()) / "floor.toml";
-  write_file_atomically(file, "[tiny]\nlog_modulus_mean = -0.05\nlog_toughness_sd = 0.3\n");
+  write_file_atomically(file, "[tiny]\nlog_modulus_mean = -0.05\nlog_toughness_sd = 0.3\n"
+                        "covariance_rigid = [[1e-6, 0, 0], [0, 0.04, 0], [0, 0, 0.01]]\n");
   const NumericsFloor floor = read_numerics_floor(file, tester::Fidelity::tiny);
   EXPECT_EQ(floor.log_modulus_common_sd, 0.05);
   EXPECT_EQ(floor.log_toughness_sd, 0.3);
   EXPECT_EQ(floor.log_modulus_sd, NumericsFloor{}.log_modulus_sd);
+  EXPECT_DOUBLE_EQ(floor.log_toughness_trend_sd, 0.2);
+  EXPECT_DOUBLE_EQ(floor.log_peak_trend_sd, 0.1);
   EXPECT_EQ(read_numerics_floor(file, tester::Fidelity::full).log_toughness_sd, NumericsFloor{}.log_toughness_sd);
   write_file_atomically(file, "[tiny]\nlog_toughness_sd = \"much\"\n");
   EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
@@ -136,6 +139,20 @@ TEST(FeaturePosterior, AnErrorCommonToAllDesignsIsNotAveragedAway) {
   posterior.set_base(problem.trial);
   const Eigen::MatrixXd covariance = posterior.estimate_covariance(problem.slopes);
   EXPECT_NEAR(std::sqrt(covariance(kW0 + 2, kW0 + 2)), 0.3 / 3.0, 0.005);
+}
+
+TEST(FeaturePosterior, NorIsAnErrorThatGrowsWithTheRigidFraction) {
+  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3, .log_toughness_trend_sd = 0.1};
+  OneSlope problem(400);
+  for (Eigen::Index i = 0; i < 400; ++i) {  // the parameter acts as the error does
+    const double fraction = i % 2 == 0 ? 0.6 : 0.8;
+    problem.data.measured[static_cast<std::size_t>(i)].design = pattern::Mixture{fraction};
+    problem.slopes(i, kW0 + 2) = 3.0 * (fraction - 0.7) / 0.1;
+  }
+  FeaturePosterior posterior(problem.data, problem.start, floor);
+  posterior.set_base(problem.trial);
+  const Eigen::MatrixXd covariance = posterior.estimate_covariance(problem.slopes);
+  EXPECT_NEAR(std::sqrt(covariance(kW0 + 2, kW0 + 2)), 0.1 / 3.0, 0.005);
 }
 
 TEST(FeaturePosterior, IsSmallestWhereTheResidualsVanish) {
