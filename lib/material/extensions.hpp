@@ -3,6 +3,7 @@
 // change the simulator; measurement-side effects act only in measurement::observe().
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "material/parameters.hpp"
@@ -11,13 +12,34 @@ namespace nacre::material {
 
 enum class EffectSide { material, measurement };
 
-/// One parameter of an effect: what it means, its unit and the range it may take.
+/// How an effect's strength goes with the value of a parameter.
+enum class Strength {
+  proportional,  ///< grows with the value; 0 is the base model
+  reciprocal,    ///< a limit: the smaller, the stronger; 0 stands for no limit, the base model
+  scale,         ///< says where or when the effect acts, not how strongly; searched in log10
+};
+
+/// One parameter of an effect: what it means, its unit and the values it may take: 0, and from `minimum` or, where that
+/// is given, `smallest` up to `maximum`.
 struct EffectParameter {
   std::string_view meaning;
   std::string_view unit;
   double minimum = 0.0;
   double maximum = 0.0;
+  Strength strength = Strength::proportional;
+  double smallest = 0.0;  ///< smallest value above 0 of a limit or a scale
+
+  bool allows(double value) const;
+  /// The allowed values in words, for messages.
+  std::string range() const;
 };
+
+/// Value of a parameter at `strength`, -1 or 0 to 1, where 0 is the base model and 1 the strongest allowed: strength
+/// times the largest size, the smallest limit over strength (0 where that is beyond the range), or, for a scale, the
+/// point between smallest and largest in log10.
+double value_at_strength(const EffectParameter& parameter, double strength);
+/// The inverse of value_at_strength().
+double strength_of(const EffectParameter& parameter, double value);
 
 /// A named extension of the model. `family` groups effects that one set of data may not tell apart.
 struct Effect {
@@ -27,6 +49,7 @@ struct Effect {
   std::span<const EffectParameter> parameters;
   bool acts_on_modulus = false;
   bool acts_on_toughness = false;
+  bool acts_on_tensile = false;  ///< the unnotched homogeneous coupon
   std::string_view explanation;
 };
 

@@ -66,10 +66,8 @@ std::vector<double> extension_values(const Place& place, const toml::node& node,
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const EffectParameter& parameter = effect.parameters[i];
     const std::optional<double> value = entries[i]->value<double>();
-    if (!value || !(*value >= parameter.minimum && *value <= parameter.maximum))
-      throw place.error(
-          *entries[i], path,
-          fmt::format("expected a number from {} to {} ({})", parameter.minimum, parameter.maximum, parameter.unit));
+    if (!value || !parameter.allows(*value))
+      throw place.error(*entries[i], path, fmt::format("expected {} ({})", parameter.range(), parameter.unit));
     values.push_back(*value);
   }
   return values;

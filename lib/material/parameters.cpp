@@ -80,9 +80,8 @@ std::string extension_fault(std::string_view name, const std::vector<double>& va
     return fmt::format("extension {} takes {} value(s), not {}", name, effect->parameters.size(), values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const EffectParameter& parameter = effect->parameters[i];
-    if (!(values[i] >= parameter.minimum && values[i] <= parameter.maximum))
-      return fmt::format("extension {} = {} {}: expected {} to {}", name, values[i], parameter.unit, parameter.minimum,
-                         parameter.maximum);
+    if (!parameter.allows(values[i]))
+      return fmt::format("extension {} = {} {}: expected {}", name, values[i], parameter.unit, parameter.range());
   }
   return {};
 }

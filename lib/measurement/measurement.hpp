@@ -74,10 +74,22 @@ std::optional<double> modulus_of(const SpecimenRecord& specimen);
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
 std::optional<double> toughness_of(const SpecimenRecord& specimen);
 
-/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`. A
-/// machine of compliance c (1/Pa) is a spring in series, 1/E_shown = 1/E + c. Exactly the identity without extensions.
-double observe_modulus(double modulus_pa, const material::Extensions& extensions);
-/// The same for a curve: strain_shown = strain + c stress. Strain may decrease where stress falls steeply.
-tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions);
+/// Where a specimen stands among the others of its set, for the effects that go with it.
+struct PrintContext {
+  double batch_step = 0.0;  ///< batches after the first one, in the order of printing
+};
+
+/// The contexts of a set's specimens, in their order. Batches follow each other by name, numbers in their natural order
+/// (batch-2 before batch-10); a specimen without batch counts to the first.
+std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& specimens);
+
+/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`, printed
+/// in that context. Stiffness drifts by the batch, E (1 + d)^step; a machine of compliance c (1/Pa) is a spring in series,
+/// 1/E_shown = 1/E + c; the load cell shows 1 + g of the force. Exactly the identity without extensions.
+double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context = {});
+/// The same for a curve: strain_shown = slack + strain + c stress, with a first point (0, 0) before the slack is taken
+/// up. Strain may decrease where stress falls steeply.
+tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
+                            const PrintContext& context = {});
 
 }  // namespace nacre::measurement

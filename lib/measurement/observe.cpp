@@ -1,26 +1,83 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
 #include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
 namespace {
 
-/// Strain per stress, 1/Pa.
-double machine_compliance(const material::Extensions& extensions) {
-  return material::extension_value(extensions, "machine_compliance");
+/// The machine as the extensions describe it, and how far the print has drifted in one context.
+struct Machine {
+  double compliance_per_pa = 0.0, slack = 0.0, gain = 1.0, drift = 1.0;
+
+  Machine(const material::Extensions& extensions, const PrintContext& context)
+      : compliance_per_pa(material::extension_value(extensions, "machine_compliance")),
+        slack(material::extension_value(extensions, "toe_slack")),
+        gain(1.0 + material::extension_value(extensions, "load_cell_gain")) {
+    const double per_step = material::extension_value(extensions, "batch_drift");
+    if (per_step != 0.0) drift = std::exp(context.batch_step * std::log1p(per_step));
+  }
+  bool shows_the_truth() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
+};
+
+/// Less where `a` comes first: digits by their number, the rest letter by letter.
+bool natural_less(const std::string& a, const std::string& b) {
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!digit(a[i]) || !digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const auto number = [&](const std::string& text, std::size_t& at) {
+      while (at < text.size() && text[at] == '0') ++at;
+      const std::size_t start = at;
+      while (at < text.size() && digit(text[at])) ++at;
+      return text.substr(start, at - start);
+    };
+    const std::string x = number(a, i), y = number(b, j);
+    if (x != y) return x.size() != y.size() ? x.size() < y.size() : x < y;
+  }
+  return a.size() - i < b.size() - j;
 }
 
 }  // namespace
 
-double observe_modulus(double modulus_pa, const material::Extensions& extensions) {
-  const double compliance = machine_compliance(extensions);
-  return compliance == 0.0 ? modulus_pa : modulus_pa / (1.0 + compliance * modulus_pa);
+std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& specimens) {
+  std::vector<std::string> batches;
+  for (const SpecimenRecord& specimen : specimens)
+    if (!specimen.batch.empty()) batches.push_back(specimen.batch);
+  std::sort(batches.begin(), batches.end(), natural_less);
+  batches.erase(std::unique(batches.begin(), batches.end()), batches.end());
+  std::vector<PrintContext> contexts;
+  for (const SpecimenRecord& specimen : specimens) {
+    const auto batch = std::find(batches.begin(), batches.end(), specimen.batch);
+    contexts.push_back({.batch_step = batch == batches.end() ? 0.0 : static_cast<double>(batch - batches.begin())});
+  }
+  return contexts;
 }
 
-tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions) {
-  const double compliance = machine_compliance(extensions);
-  tester::Curve shown = curve;
-  if (compliance == 0.0) return shown;
-  for (std::size_t i = 0; i < shown.size(); ++i) shown.strain[i] += compliance * shown.stress_pa[i];
+double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context) {
+  const Machine machine(extensions, context);
+  if (machine.shows_the_truth()) return modulus_pa;
+  const double printed_pa = machine.drift * modulus_pa;
+  return machine.gain * printed_pa / (1.0 + machine.compliance_per_pa * printed_pa);
+}
+
+tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
+                            const PrintContext& context) {
+  const Machine machine(extensions, context);
+  if (machine.shows_the_truth()) return curve;
+  tester::Curve shown;
+  if (machine.slack > 0.0) shown = {.strain = {0.0}, .stress_pa = {0.0}};
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double stress_pa = machine.drift * curve.stress_pa[i];
+    shown.strain.push_back(curve.strain[i] + machine.slack + machine.compliance_per_pa * stress_pa);
+    shown.stress_pa.push_back(machine.gain * stress_pa);
+  }
   return shown;
 }
 

@@ -3,17 +3,16 @@
 // counted from the bottom-left; an element with an odd index lies between pixels.
 
 #include "fem/grid.hpp"
+#include "material/mixture.hpp"
 #include "material/parameters.hpp"
 #include "pattern/design.hpp"
+#include "tester/printed_unit.hpp"
 #include "tester/tester.hpp"
 
 namespace nacre::tester {
 
 /// Which tester the grid is for: `modulus` takes theta and thresholds of infinity, `toughness` takes eta.
 enum class AssemblyTarget { modulus, toughness };
-
-/// Elements along one side of a unit: the pattern's resolution doubled.
-inline constexpr int kElementsPerUnit = 2 * pattern::kSide;
 
 /// The grid of a specimen of units_x x units_y units, every element split into refinement x refinement (same physical
 /// geometry, thresholds times refinement so that the fracture energy is shared), with all material-side extensions that
@@ -23,5 +22,9 @@ inline constexpr int kElementsPerUnit = 2 * pattern::kSide;
 fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& parameters,
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y,
                    int refinement = 1);
+
+/// Constants of a homogeneous coupon, with the extensions that act on them.
+material::Constants coupon_constants(const material::Phases& phases, const pattern::Mixture& mixture,
+                                     const material::Extensions& extensions, const TestConditions& conditions);
 
 }  // namespace nacre::tester

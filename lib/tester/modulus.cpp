@@ -1,5 +1,4 @@
 #include "fem/static_solver.hpp"
-#include "material/mixture.hpp"
 #include "material/neo_hookean.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
@@ -11,8 +10,10 @@
 namespace nacre::tester {
 namespace {
 
-double homogeneous_modulus(const pattern::Mixture& mixture, const material::ModulusParameters& theta) {
-  const material::Constants constants = material::mixture(material::phases_of(theta), mixture.rigid_fraction);
+double homogeneous_modulus(const pattern::Mixture& mixture, const Simulation& simulation) {
+  const material::Constants constants =
+      coupon_constants(material::phases_of(simulation.parameters.modulus), mixture, simulation.parameters.extensions,
+                       simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
   return material::uniaxial_stress(thesis::kModulusStrain, lame).nominal_stress_pa / thesis::kModulusStrain;
 }
@@ -24,7 +25,7 @@ Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics&
     return fail("modulus tester: {}", fault);
   const bool homogeneous = simulation.design.mixture() != nullptr;
   if (homogeneous && !numerics.explicit_modulus)
-    return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation.parameters.modulus)};
+    return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation)};
 
   const SpecimenUnits units = modulus_units(simulation.fidelity);
   const fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions,

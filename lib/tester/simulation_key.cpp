@@ -33,7 +33,7 @@ bool acts(std::string_view name, const std::vector<double>& values, TestKind kin
   if (effect->side == material::EffectSide::measurement) return false;
   return kind == TestKind::modulus     ? effect->acts_on_modulus
          : kind == TestKind::toughness ? effect->acts_on_toughness
-                                       : true;
+                                       : effect->acts_on_tensile;
 }
 
 /// Extensions in the order of their names, then the conditions that they make the simulation depend on.

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "material/mixture.hpp"
 #include "material/neo_hookean.hpp"
+#include "tester/assembly.hpp"
 #include "tester/tester.hpp"
 #include "tester/usable.hpp"
 
@@ -16,7 +16,8 @@ Result<Curve> test_tensile(const Simulation& simulation, const std::vector<doubl
         "tensile tester: {} is not homogeneous; only soft, interface, rigid and mix: are pulled as unnotched coupons",
         simulation.design.name());
   const material::Constants constants =
-      material::mixture(material::phases_of(simulation.parameters.modulus), mixture->rigid_fraction);
+      coupon_constants(material::phases_of(simulation.parameters.modulus), *mixture, simulation.parameters.extensions,
+                       simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
   Curve curve;
   for (std::size_t i = 0; i < strain_history.size(); ++i) {

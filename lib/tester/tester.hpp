@@ -55,6 +55,7 @@ struct Numerics {
   double rate_scale = 1.0;        ///< factor on the simulated strain rate (20 /s)
   int recording_scale = 1;        ///< factor on the number of recorded samples
   bool explicit_modulus = false;  ///< modulus by explicit integration with gamma instead of the static solver
+  int specimen = 0;               ///< which of the specimens whose voxels' strength scatters (strength_scatter)
   int frame_count = 0;            ///< fracture frames to keep, placed by film_strains() (film_strains.hpp); 0 none
 };
 

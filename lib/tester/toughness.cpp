@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/extensions.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
 #include "tester/film_strains.hpp"
 #include "tester/fracture_record.hpp"
 #include "tester/fracture_test.hpp"
 #include "tester/notch.hpp"
+#include "tester/strength_scatter.hpp"
 #include "tester/usable.hpp"
 #include "thesis/constants.hpp"
 
@@ -115,6 +117,12 @@ Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>
   return result;
 }
 
+/// What tells one specimen's voxels from another's.
+std::string specimen_name(const Simulation& simulation, int specimen) {
+  return fmt::format("{} at {} degrees, {}, specimen {}", simulation.design.name(),
+                     simulation.conditions.orientation_deg, to_string(simulation.fidelity), specimen);
+}
+
 }  // namespace
 
 FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics) {
@@ -122,7 +130,11 @@ FractureTest fracture_test(const Simulation& simulation, const Numerics& numeric
   FractureTest test;
   test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
                        units.x, units.y, numerics.refinement);
+  const material::Extensions& extensions = simulation.parameters.extensions;
+  scatter_strength(test.grid, numerics.refinement, material::extension_value(extensions, "strength_scatter"),
+                   specimen_name(simulation, numerics.specimen));
   cut_notch(test.grid, numerics.refinement);
+  round_notch_root(test.grid, numerics.refinement, material::extension_value(extensions, "blunt_notch"));
   const bool pure_soft = simulation.design.rigid_fraction() == 0.0;
   const double gamma_per_s = simulation.parameters.toughness.gamma_per_s;
   const bool capped = simulation.fidelity == Fidelity::full && !pure_soft;

@@ -1,8 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <gtest/gtest.h>
+
+#include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
@@ -113,6 +114,52 @@ TEST(Observe, MachineComplianceIsASpringInSeries) {
   // A closed loop of stress gives back what the spring took: toughness to separation is not changed.
   const tester::Curve broken = {{0.0, 0.01, 0.011, 0.012}, {0.0, 1e7, 4e6, 0.0}};
   EXPECT_NEAR(tester::area_under(observe_curve(broken, machine)), tester::area_under(broken), 1e-6);
+}
+
+TEST(Observe, SlackComesBeforeTheCurveAndLeavesModulusAndArea) {
+  const material::Extensions slack = {{"toe_slack", {0.004}}};
+  const tester::Curve curve{.strain = {0.0, 0.01, 0.02}, .stress_pa = {0.0, 2e6, 1e6}};
+  const tester::Curve shown = observe_curve(curve, slack);
+  EXPECT_EQ(shown.strain, (std::vector<double>{0.0, 0.004, 0.014, 0.024}));
+  EXPECT_EQ(shown.stress_pa, (std::vector<double>{0.0, 0.0, 2e6, 1e6}));
+  EXPECT_NEAR(tester::area_under(shown), tester::area_under(curve), 1e-9);
+  EXPECT_EQ(observe_modulus(1e9, slack), 1e9);
+}
+
+TEST(Observe, GainScalesForcesAfterTheMachineHasStretched) {
+  const material::Extensions both = {{"load_cell_gain", {0.1}}, {"machine_compliance", {1e-10}}};
+  EXPECT_NEAR(observe_modulus(1e9, both), 1.1 / (1e-9 + 1e-10), 1.0);
+  const tester::Curve curve{.strain = {0.0, 0.01}, .stress_pa = {0.0, 1e7}};
+  const tester::Curve shown = observe_curve(curve, both);
+  EXPECT_NEAR(shown.stress_pa[1], 1.1e7, 1e-6);
+  EXPECT_NEAR(shown.strain[1], 0.011, 1e-15);
+}
+
+TEST(Observe, DriftGoesWithTheBatchAndLeavesTheFirstOne) {
+  const material::Extensions drift = {{"batch_drift", {-0.1}}};
+  EXPECT_EQ(observe_modulus(1e9, drift), 1e9);
+  EXPECT_NEAR(observe_modulus(1e9, drift, {.batch_step = 2.0}), 0.81e9, 1e-3);
+  const tester::Curve curve{.strain = {0.0, 0.01}, .stress_pa = {0.0, 1e7}};
+  EXPECT_NEAR(observe_curve(curve, drift, {.batch_step = 1.0}).stress_pa[1], 0.9e7, 1e-6);
+}
+
+TEST(PrintContexts, CountBatchesInTheirNaturalOrder) {
+  std::vector<SpecimenRecord> specimens(5);
+  const char* const batches[] = {"batch-10", "batch-2", "", "batch-2", "batch-1"};
+  for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].batch = batches[i];
+  std::vector<double> steps;
+  for (const PrintContext& context : print_contexts(specimens)) steps.push_back(context.batch_step);
+  EXPECT_EQ(steps, (std::vector<double>{2.0, 1.0, 0.0, 1.0, 0.0}));
+}
+
+TEST(Observe, EveryMeasurementEffectAtZeroShowsTheTruthToTheBit) {
+  const tester::Curve curve{.strain = {0.0, 0.013, 0.027}, .stress_pa = {0.0, 2.3e6, 1.1e6}};
+  for (const material::Effect& effect : material::effect_library()) {
+    if (effect.side != material::EffectSide::measurement) continue;
+    const material::Extensions zero = {{std::string(effect.name), {0.0}}};
+    EXPECT_EQ(observe_modulus(1.234567e9, zero, {.batch_step = 3.0}), 1.234567e9) << effect.name;
+    EXPECT_EQ(observe_curve(curve, zero, {.batch_step = 3.0}), curve) << effect.name;
+  }
 }
 
 }  // namespace

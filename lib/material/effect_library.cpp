@@ -1,0 +1,91 @@
+// The table of effects: names, units, ranges, where each acts and what it is in words.
+
+#include <array>
+
+#include "material/extensions.hpp"
+
+namespace nacre::material {
+namespace {
+
+constexpr std::array kInterfaceAnisotropy = {EffectParameter{
+    "(x - y)/(x + y) of the interface's stiffness and strength, x and y being the printer's axes", "1", -0.8, 0.8}};
+constexpr std::array kDropletMixing = {
+    EffectParameter{"side of the square over which material fractions are averaged", "pixels", 0.0, 4.0}};
+constexpr std::array kRigidOverprint = {
+    EffectParameter{"distance by which rigid regions grow on every side", "pixels", 0.0, 1.0}};
+constexpr std::array kRigidYield = {
+    EffectParameter{"yield stress of the rigid phase", "Pa", 0.0, 1e9, Strength::reciprocal, 1e7}};
+constexpr std::array kSoftStiffening = {
+    EffectParameter{"limit J_m of I_1 - 2 in the soft phase", "1", 0.0, 1e3, Strength::reciprocal, 0.2}};
+constexpr std::array kRateDependence = {
+    EffectParameter{"stress of an instantaneous stretch over the relaxed stress, less one", "1", 0.0, 2.0},
+    EffectParameter{"time in which the overstress relaxes", "s", 0.0, 1e4, Strength::scale, 1e-2}};
+constexpr std::array kProgressiveDamage = {
+    EffectParameter{"energy spent in softening over the threshold energy", "1", 0.0, 4.0}};
+constexpr std::array kTensionOnlyFailure = {
+    EffectParameter{"share of the compressive energy that breaks nothing", "1", 0.0, 1.0}};
+constexpr std::array kStrengthScatter = {
+    EffectParameter{"coefficient of variation of the thresholds of elements", "1", 0.0, 0.6}};
+constexpr std::array kBluntNotch = {EffectParameter{"radius of the notch root", "share of the width", 0.0, 0.05}};
+constexpr std::array kResidualStrain = {
+    EffectParameter{"shrinkage of the rigid phase against the soft one", "strain", -0.02, 0.02}};
+constexpr std::array kPlaneStrain = {EffectParameter{
+    "share of the way from plane stress to plane strain at the standard thickness of 3.2 mm", "1", 0.0, 1.0}};
+constexpr std::array kMachineCompliance = {
+    EffectParameter{"strain per nominal stress of the load train", "1/Pa", 0.0, 2e-9}};
+constexpr std::array kToeSlack = {EffectParameter{"strain recorded before the specimen carries", "strain", 0.0, 0.02}};
+constexpr std::array kBatchDrift = {
+    EffectParameter{"growth of stiffness and stress from one batch to the next", "relative per batch step", -0.2, 0.2}};
+constexpr std::array kLoadCellGain = {EffectParameter{"error of the recorded force", "relative", -0.3, 0.3}};
+
+/// Which tests an effect shows in.
+struct ActsOn {
+  bool modulus = false, toughness = false, tensile = false;
+};
+constexpr ActsOn kFracture{.toughness = true}, kLayouts{.modulus = true, .toughness = true},
+    kLargeStrain{.toughness = true, .tensile = true}, kEverything{.modulus = true, .toughness = true, .tensile = true};
+
+constexpr Effect effect(std::string_view name, std::string_view family, EffectSide side,
+                        std::span<const EffectParameter> parameters, ActsOn acts_on, std::string_view explanation) {
+  return {.name = name,
+          .family = family,
+          .side = side,
+          .parameters = parameters,
+          .acts_on_modulus = acts_on.modulus,
+          .acts_on_toughness = acts_on.toughness,
+          .acts_on_tensile = acts_on.tensile,
+          .explanation = explanation};
+}
+
+// In the order in which they are reported. An effect stands here once all its code does.
+constexpr std::array kLibrary = {
+    effect("interface_anisotropy", "interface", EffectSide::material, kInterfaceAnisotropy, kLayouts,
+           "Interfaces between x-neighbours and between y-neighbours differ in stiffness and strength; shows in "
+           "rotated twins and in runs along against across the load."),
+    effect("droplet_mixing", "geometry", EffectSide::material, kDropletMixing, kLayouts,
+           "Droplets of the two materials mix over some pixels before they cure; depends on run length, not on the "
+           "rigid fraction."),
+    effect("rigid_overprint", "geometry", EffectSide::material, kRigidOverprint, kLayouts,
+           "Rigid regions come out larger than drawn; thin soft features vanish, thick ones hardly change."),
+    effect("strength_scatter", "failure", EffectSide::material, kStrengthScatter, kFracture,
+           "The strength of voxels scatters (Weibull); replicates scatter more and mean toughness falls."),
+    effect("blunt_notch", "geometry", EffectSide::material, kBluntNotch, kFracture,
+           "The root of the notch is round instead of sharp; changes toughness alone, and a twin without notch not at "
+           "all."),
+    effect("plane_strain", "stress state", EffectSide::material, kPlaneStrain, kEverything,
+           "The specimen cannot contract freely through its thickness; shows between two thicknesses."),
+    effect("machine_compliance", "measurement", EffectSide::measurement, kMachineCompliance, kEverything,
+           "A spring in series with the specimen: the error grows with stiffness, in loading and unloading alike."),
+    effect("toe_slack", "measurement", EffectSide::measurement, kToeSlack, kLargeStrain,
+           "The grips move before the specimen carries; only the first part of the curve changes."),
+    effect("batch_drift", "batch", EffectSide::measurement, kBatchDrift, kEverything,
+           "Stiffness and stress drift from print batch to print batch; a reference coupon in each batch shows it."),
+    effect("load_cell_gain", "measurement", EffectSide::measurement, kLoadCellGain, kEverything,
+           "The load cell shows too much or too little; other constants of the materials explain it exactly."),
+};
+
+}  // namespace
+
+std::span<const Effect> effect_library() { return kLibrary; }
+
+}  // namespace nacre::material
