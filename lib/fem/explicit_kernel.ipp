@@ -1,4 +1,5 @@
-// The kernel of the explicit solver, compiled once per instruction set (explicit_kernel_*.cpp define NACRE_SIMD).
+// The kernel of the explicit solver, compiled once per instruction set (explicit_kernel_*.cpp define NACRE_SIMD). The
+// sweep takes the law as a template parameter; extended_kernel.ipp has the other one.
 //
 // One sweep over the rows does a whole step: element row j gives the forces on node row j, these its new velocity, and
 // with the velocities of rows j-2 .. j known, row j-1 is smoothed and moved. Symbols, per element:
@@ -244,12 +245,24 @@ struct NodeForces {
   }
 };
 
+/// The law of Eq. 2.1, as the sweep asks for it: what a pack of elements gives.
+template <class Number>
+struct NeoHookean {
+  using Real = Number;
+  using State = ExplicitState<Real>;
+  template <class Meanwhile>
+  NACRE_INLINE static EdgeForces<Real> forces(const State& s, int node, int element, const Meanwhile& meanwhile) {
+    return edge_forces(s, node, element, meanwhile);
+  }
+};
+
 /// One row of elements, and v += f for the row of nodes below it: the grip (`Grip`), which moves no node vertically, or
 /// an interior one. Beside it, with `Finish`, the filter and motion of the row two below, whose velocities are
 /// complete.
-template <class Real, bool Grip, bool Finish>
-void sweep_row(ExplicitState<Real>& state, int row) {
-  const ExplicitState<Real> s = state;  // its pointers stay in registers
+template <class Law, bool Grip, bool Finish>
+void sweep_row(typename Law::State& state, int row) {
+  using Real = typename Law::Real;
+  const typename Law::State s = state;  // its pointers stay in registers
   const ExplicitRows<Real>& r = s.row;
   Real *const vx = s.vx + row * s.stride, *const vy = s.vy + row * s.stride;
   const RowSums<Real> sums(r, Finish ? row - 2 : 0);
@@ -259,7 +272,7 @@ void sweep_row(ExplicitState<Real>& state, int row) {
     const auto finish_below = [&]() __attribute__((always_inline)) {
       if constexpr (Finish) smooth_and_move(s, sums, row - 2, column);
     };
-    const EdgeForces<Real> f = edge_forces(s, row * s.stride + column, element, finish_below);
+    const EdgeForces<Real> f = Law::forces(s, row * s.stride + column, element, finish_below);
     Flags failed;
     flag_unless_at_most(failed, f.energy, load(s.threshold + element));
     if (any(failed)) [[unlikely]] {
@@ -381,8 +394,9 @@ void start_sweep(const ExplicitState<Real>& s) {
   for (Real* row : carried) zero_row(row, s.columns);
 }
 
-template <class Real, bool Ledger>
-void advance(ExplicitState<Real>& s) {
+template <class Law, bool Ledger>
+void advance(typename Law::State& s) {
+  using Real = typename Law::Real;
   const FlushToZero flush;
   s.failed_count = 0;
   s.damping_work = 0.0;
@@ -390,12 +404,12 @@ void advance(ExplicitState<Real>& s) {
   const bool fused = !Ledger && s.damping == Damping::smoothing;
   for (int row = 0; row < s.rows; ++row) {
     if (row == 0) {
-      sweep_row<Real, true, false>(s, 0);
+      sweep_row<Law, true, false>(s, 0);
       s.bottom_force = ordered_sum(s.row.below_y, s.columns);
     } else if (fused && row > 2) {
-      sweep_row<Real, false, true>(s, row);
+      sweep_row<Law, false, true>(s, row);
     } else {
-      sweep_row<Real, false, false>(s, row);
+      sweep_row<Law, false, false>(s, row);
       if (row >= 2) finish_row<Real, Ledger>(s, row - 2);
     }
     if (row < 2) sum_row(s, row);
@@ -405,8 +419,9 @@ void advance(ExplicitState<Real>& s) {
   for (int row = s.rows - 2; row <= s.rows; ++row) finish_row<Real, Ledger>(s, row);
 }
 
-template <class Real>
-void internal_forces(ExplicitState<Real>& s) {
+template <class Law>
+void internal_forces(typename Law::State& s) {
+  using Real = typename Law::Real;
   const FlushToZero flush;
   start_sweep(s);
   s.failed_count = 0;
@@ -414,7 +429,7 @@ void internal_forces(ExplicitState<Real>& s) {
     zero_row(s.vx + row * s.stride, s.columns);
     zero_row(s.vy + row * s.stride, s.columns);
     if (row < s.rows) {
-      sweep_row<Real, false, false>(s, row);
+      sweep_row<Law, false, false>(s, row);
       if (row == 0) s.bottom_force = ordered_sum(s.row.below_y, s.columns);
     } else {
       s.top_force = ordered_sum(s.row.below_y, s.columns);
@@ -444,10 +459,5 @@ int first_inverted(const ExplicitState<Real>& s) {
   }
   return -1;
 }
-
-extern const ExplicitKernel<float> kSingle = {advance<float, false>, advance<float, true>, first_inverted<float>,
-                                              internal_forces<float>};
-extern const ExplicitKernel<double> kDouble = {advance<double, false>, advance<double, true>, first_inverted<double>,
-                                               internal_forces<double>};
 
 }  // namespace nacre::fem::NACRE_SIMD

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "material/neo_hookean.hpp"
+#include "material/extended_law.hpp"
 
 namespace nacre::fem {
 namespace {
@@ -21,6 +21,18 @@ constexpr double kLargestSmoothing = 0.75;
 /// Lame parameters of an element of the grid.
 material::Lame lame_of(const Grid& grid, int element) {
   return material::lame_from_engineering(grid.young_pa[element], grid.poisson[element]);
+}
+
+/// lambda + 2 mu, or of the stiffest state that the laws of the grid allow.
+double stiffest_pa(const Grid& grid, int element) {
+  const material::Lame lame = lame_of(grid, element);
+  const GridLaws& laws = grid.laws;
+  if (!laws.any()) return lame.lambda_pa + 2.0 * lame.mu_pa;
+  material::ExtendedLaw law{.lame = lame};
+  law.overstress = laws.overstress;
+  if (!laws.inverse_limit.empty()) law.inverse_limit = laws.inverse_limit[element];
+  const double last = 1.0 + laws.softening;
+  return material::stiffest_tangent_pa(law, grid.threshold_j_per_m3[element] * last * last);
 }
 
 /// dN/dX of the four corners (bottom-left, bottom-right, top-left, top-right) at Gauss point `point`, on the unit
@@ -39,8 +51,7 @@ double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3) {
   double stiffest = 0.0;
   for (int element = 0; element < grid.element_count(); ++element) {
     if (grid.phase[element] == Phase::empty) continue;
-    const material::Lame lame = lame_of(grid, element);
-    stiffest = std::max(stiffest, lame.lambda_pa + 2.0 * lame.mu_pa);
+    stiffest = std::max(stiffest, stiffest_pa(grid, element));
   }
   return std::sqrt(stiffest / density_kg_per_m3);
 }
@@ -51,13 +62,17 @@ ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& s
   const SimdLevel level = settings.simd.value_or(best_simd_level());
   assert(has_simd_level(level));
   kernel_ = &explicit_kernel<Real>(level);
-  state_ = storage_.state();
+  static_cast<ExplicitState<Real>&>(state_) = storage_.state();
   const double alpha = settings.gamma_per_s * settings.time_step_s;
   std::fill_n(state_.row.weight + 1, grid.columns - 1, static_cast<Real>(alpha));
   state_.damping = settings.damping;
   state_.decay = static_cast<Real>(std::exp(-alpha));
   state_.grip_step = settings.strain_rate_per_s * settings.time_step_s * grid.rows;
   fill_elements();
+  if (grid.laws.any()) {
+    extended_ = std::make_unique<ExtendedStorage<Real>>(grid, element_scale(), settings.time_step_s, state_);
+    extended_kernel_ = &extended_kernel<Real>(level);
+  }
   if (settings.keep_ledger) {
     ledger_.initial_kinetic = kinetic_energy();
     ledger_.initial_stored = stored_energy();
@@ -82,13 +97,20 @@ Result<ExplicitSolver<Real>> ExplicitSolver<Real>::create(const Grid& grid, cons
     return fail(
         "alpha = gamma dt = {} is beyond {}, up to which the filter of Eq. 2.4 is stable: time step at most {} s",
         dt * settings.gamma_per_s, kLargestSmoothing, kLargestSmoothing / settings.gamma_per_s);
+  if (settings.keep_ledger && grid.laws.any()) return fail("no ledger of energies is kept with an extended law");
   return ExplicitSolver(grid, settings);
 }
 
 template <class Real>
-void ExplicitSolver<Real>::fill_elements() {
+double ExplicitSolver<Real>::element_scale() const {
   const double h = grid_.element_size_m, dt = settings_.time_step_s;
-  const double scale = dt * dt / (4.0 * settings_.density_kg_per_m3 * h * h);
+  return dt * dt / (4.0 * settings_.density_kg_per_m3 * h * h);
+}
+
+template <class Real>
+void ExplicitSolver<Real>::fill_elements() {
+  const double scale = element_scale();
+  const double last = 1.0 + grid_.laws.softening;  // an element that softens stands until s = sqrt(w / W) reaches it
   std::fill_n(state_.threshold, static_cast<std::size_t>(grid_.rows) * state_.element_stride,
               std::numeric_limits<Real>::infinity());
   for (int row = 0; row < grid_.rows; ++row) {
@@ -98,7 +120,7 @@ void ExplicitSolver<Real>::fill_elements() {
       const material::Lame lame = lame_of(grid_, element);
       state_.mu[at] = static_cast<Real>(lame.mu_pa * scale);
       state_.lambda[at] = static_cast<Real>(lame.lambda_pa * scale);
-      state_.threshold[at] = static_cast<Real>(2.0 * grid_.threshold_j_per_m3[element] * scale);
+      state_.threshold[at] = static_cast<Real>(2.0 * last * last * grid_.threshold_j_per_m3[element] * scale);
     }
   }
 }
@@ -106,7 +128,9 @@ void ExplicitSolver<Real>::fill_elements() {
 template <class Real>
 Result<StepReport> ExplicitSolver<Real>::step() {
   state_.strain = static_cast<Real>(strain());
-  if (settings_.keep_ledger) {
+  if (extended_) {
+    extended_kernel_->advance(state_);
+  } else if (settings_.keep_ledger) {
     kernel_->advance_with_ledger(state_);
   } else {
     kernel_->advance(state_);
@@ -147,6 +171,7 @@ void ExplicitSolver<Real>::erase_failed() {
     if (settings_.keep_ledger) ledger_.fractured += element_energy(element, 0.5);
     state_.mu[at] = state_.lambda[at] = Real{0};
     state_.threshold[at] = std::numeric_limits<Real>::infinity();
+    if (extended_) erase_laws(state_, at);
     grid_.phase[element] = Phase::empty;
   }
 }
@@ -239,9 +264,12 @@ template <class Real>
 double ExplicitSolver<Real>::energy_density_j_per_m3(int element) const {
   if (is_empty(element)) return 0.0;
   const material::Lame lame = lame_of(grid_, element);
+  const double eigenstrain = grid_.laws.eigenstrain.empty() ? 0.0 : grid_.laws.eigenstrain[element];
   double largest = 0.0;
-  visit_gradients(element, 0.0,
-                  [&](const Eigen::Matrix2d& h) { largest = std::max(largest, material::energy_density(h, lame)); });
+  visit_gradients(element, 0.0, [&](const Eigen::Matrix2d& h) {
+    const Eigen::Matrix2d elastic = (h - eigenstrain * Eigen::Matrix2d::Identity()) / (1.0 + eigenstrain);
+    largest = std::max(largest, material::energy_density(elastic, lame));
+  });
   return largest;
 }
 

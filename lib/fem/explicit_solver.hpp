@@ -12,12 +12,14 @@
 
 #include "base/result.hpp"
 #include "fem/explicit_storage.hpp"
+#include "fem/extended_storage.hpp"
 #include "fem/grid.hpp"
 #include "fem/simd_level.hpp"
 
 namespace nacre::fem {
 
-/// Speed of the fastest elastic wave in any element that is not empty, sqrt((lambda + 2 mu) / rho), m/s.
+/// Speed of the fastest elastic wave in any element that is not empty, sqrt((lambda + 2 mu) / rho), m/s; with an
+/// extended law that of its stiffest state before failure.
 double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3);
 
 /// How a grid is loaded and integrated. The bottom row of nodes is held vertically, the top row moves at
@@ -63,7 +65,9 @@ struct EnergyLedger {
 template <class Real>
 class ExplicitSolver {
  public:
-  /// Error: a time step beyond stability, alpha = gamma dt > 3/4 (Eq. 2.4), constants that are not usable.
+  /// A grid with laws of its own (Grid::laws) goes through the extended kernel, without a ledger.
+  /// Error: a time step beyond stability, alpha = gamma dt > 3/4 (Eq. 2.4), constants that are not usable, a ledger for
+  /// an extended law.
   static Result<ExplicitSolver> create(const Grid& grid, const ExplicitSettings& settings);
   ExplicitSolver(ExplicitSolver&&) noexcept;
   ~ExplicitSolver();
@@ -87,13 +91,15 @@ class ExplicitSolver {
   /// Replaces displacement and velocity of a node, for verification.
   void set_node(int node, const Eigen::Vector2d& displacement_m, const Eigen::Vector2d& velocity_m_per_s);
 
-  /// Largest energy density at the quadrature points of an element, J/m^3; 0 when it is empty.
+  /// Largest elastic energy density of Eq. 2.1 at the quadrature points of an element, less its eigenstrain, J/m^3; 0
+  /// when it is empty.
   double energy_density_j_per_m3(int element) const;
   /// The energies now.
   EnergyLedger ledger() const;
 
  private:
   ExplicitSolver(const Grid& grid, const ExplicitSettings& settings);
+  double element_scale() const;  ///< unit of the state's mu over Pa
   void fill_elements();
   void erase_failed();
   tl::unexpected<Error> blow_up(int element) const;
@@ -109,7 +115,9 @@ class ExplicitSolver {
   ExplicitSettings settings_;
   const ExplicitKernel<Real>* kernel_ = nullptr;
   ExplicitStorage<Real> storage_;
-  ExplicitState<Real> state_{};
+  std::unique_ptr<ExtendedStorage<Real>> extended_;  ///< null without extended law
+  const ExtendedKernel<Real>* extended_kernel_ = nullptr;
+  ExtendedState<Real> state_{};
   std::int64_t steps_ = 0;
   EnergyLedger ledger_;
 };

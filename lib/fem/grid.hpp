@@ -11,6 +11,21 @@ namespace nacre::fem {
 /// Phase of an element; `empty` elements carry nothing (notch, cut, failed).
 enum class Phase : std::uint8_t { soft = 0, rigid = 1, interface = 2, empty = 3 };
 
+/// What extends the law of the elements (material/extended_law.hpp); empty vectors and zeros extend nothing.
+struct GridLaws {
+  std::vector<double> eigenstrain;    ///< columns * rows, strain
+  std::vector<double> inverse_limit;  ///< columns * rows, 1 / J_m
+  std::vector<double> yield_pa;       ///< columns * rows, infinity where nothing flows
+  double overstress = 0.0;
+  double relaxation_time_s = 0.0;  ///< in the time of whoever integrates
+  double softening = 0.0;
+  double tension_only = 0.0;
+  bool any() const {
+    return !eigenstrain.empty() || !inverse_limit.empty() || !yield_pa.empty() || overstress != 0.0 ||
+           softening != 0.0 || tension_only != 0.0;
+  }
+};
+
 /// Elements with their own elastic constants and failure threshold, so that mixtures and extensions cost the kernels
 /// nothing.
 struct Grid {
@@ -21,6 +36,7 @@ struct Grid {
   std::vector<double> young_pa;            ///< E of Eq. 2.3; ignored where empty
   std::vector<double> poisson;             ///< nu of Eq. 2.3
   std::vector<double> threshold_j_per_m3;  ///< W at which an element fails; infinity in the modulus tester
+  GridLaws laws = {};
   int index(int row, int column) const { return row * columns + column; }
   int element_count() const { return columns * rows; }
 };

@@ -71,6 +71,8 @@ NACRE_INLINE Pack<float> larger(Pack<float> a, Pack<float> b) { return _mm512_ma
 NACRE_INLINE Pack<double> larger(Pack<double> a, Pack<double> b) { return _mm512_max_pd(a, b); }
 NACRE_INLINE Pack<float> smaller(Pack<float> a, Pack<float> b) { return _mm512_min_ps(a, b); }
 NACRE_INLINE Pack<double> smaller(Pack<double> a, Pack<double> b) { return _mm512_min_pd(a, b); }
+NACRE_INLINE Pack<float> square_root(Pack<float> a) { return _mm512_sqrt_ps(a); }
+NACRE_INLINE Pack<double> square_root(Pack<double> a) { return _mm512_sqrt_pd(a); }
 NACRE_INLINE void flag_unless_at_most(Flags& flags, Pack<float> a, Pack<float> b) {
   flags.bits |= _mm512_cmp_ps_mask(a, b, _CMP_NLE_UQ);
 }
@@ -94,6 +96,8 @@ NACRE_INLINE Pack<float> larger(Pack<float> a, Pack<float> b) { return _mm256_ma
 NACRE_INLINE Pack<double> larger(Pack<double> a, Pack<double> b) { return _mm256_max_pd(a, b); }
 NACRE_INLINE Pack<float> smaller(Pack<float> a, Pack<float> b) { return _mm256_min_ps(a, b); }
 NACRE_INLINE Pack<double> smaller(Pack<double> a, Pack<double> b) { return _mm256_min_pd(a, b); }
+NACRE_INLINE Pack<float> square_root(Pack<float> a) { return _mm256_sqrt_ps(a); }
+NACRE_INLINE Pack<double> square_root(Pack<double> a) { return _mm256_sqrt_pd(a); }
 NACRE_INLINE void flag_unless_at_most(Flags& flags, Pack<float> a, Pack<float> b) {
   flags.bits = _mm256_or_ps(flags.bits, _mm256_cmp_ps(a, b, _CMP_NLE_UQ));
 }
@@ -140,6 +144,8 @@ NACRE_INLINE Pack<float> larger(Pack<float> a, Pack<float> b) { return _mm_max_p
 NACRE_INLINE Pack<double> larger(Pack<double> a, Pack<double> b) { return _mm_max_pd(a, b); }
 NACRE_INLINE Pack<float> smaller(Pack<float> a, Pack<float> b) { return _mm_min_ps(a, b); }
 NACRE_INLINE Pack<double> smaller(Pack<double> a, Pack<double> b) { return _mm_min_pd(a, b); }
+NACRE_INLINE Pack<float> square_root(Pack<float> a) { return _mm_sqrt_ps(a); }
+NACRE_INLINE Pack<double> square_root(Pack<double> a) { return _mm_sqrt_pd(a); }
 NACRE_INLINE void flag_unless_at_most(Flags& flags, Pack<float> a, Pack<float> b) {
   flags.bits = _mm_or_ps(flags.bits, _mm_cmpnle_ps(a, b));
 }

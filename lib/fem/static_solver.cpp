@@ -1,12 +1,14 @@
 #include "fem/static_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "fem/element.hpp"
 #include "fem/explicit_storage.hpp"
+#include "fem/extended_storage.hpp"
 #include "fem/frontal_cholesky.hpp"
 
 namespace nacre::fem {
@@ -66,9 +68,10 @@ Workspace& workspace_for(const Grid& grid, std::vector<char> held) {
 
 /// The grid at rest on the linear profile (every row of nodes moves up in proportion to its height), from which the
 /// displacements of the explicit kernel are counted. Its forces are then in Pa, per element size and unit thickness.
-ExplicitState<double> stretched(const Grid& grid, const std::vector<material::Lame>& lame, double strain,
+ExtendedState<double> stretched(const Grid& grid, const std::vector<material::Lame>& lame, double strain,
                                 const ExplicitStorage<double>& storage) {
-  ExplicitState<double> state = storage.state();
+  ExtendedState<double> state;
+  static_cast<ExplicitState<double>&>(state) = storage.state();
   const auto nodes = static_cast<std::size_t>((grid.rows + 1) * state.stride);
   std::fill_n(state.qx, nodes, 0.0);
   std::fill_n(state.qy, nodes, 0.0);
@@ -112,17 +115,28 @@ Balance balance_of(const std::vector<char>& held, const std::vector<double>& for
   return {.free = std::sqrt(free_square), .held = std::sqrt(held_square)};
 }
 
-/// Corrects the displacement until the forces balance; leaves the reactions of the last state in `state`.
-Result<void> balance(const Grid& grid, Workspace& workspace, ExplicitState<double>& state, StaticSolution& solution) {
+void internal_forces(ExtendedState<double>& state) {
+  if (state.eigenstrain == nullptr && state.inverse_limit == nullptr) {
+    explicit_kernel<double>(best_simd_level()).internal_forces(state);
+  } else {
+    extended_kernel<double>(best_simd_level()).internal_forces(state);
+  }
+}
+
+/// Corrects the displacement until the forces balance against the reactions, or against `least_reactions` where these
+/// are smaller; leaves the reactions of the last state in `state`.
+Result<void> balance(const Grid& grid, Workspace& workspace, ExtendedState<double>& state, StaticSolution& solution,
+                     double least_reactions = 0.0) {
   const ExplicitKernel<double>& kernel = explicit_kernel<double>(best_simd_level());
   const std::vector<char>& held = workspace.held;
   std::vector<double> force(held.size());
   double previous = 1.0;
   for (;; ++solution.corrections) {
     if (kernel.first_inverted(state) >= 0) return fail("static solver: an element is turned inside out");
-    kernel.internal_forces(state);
+    internal_forces(state);
     forces_of(grid, state, force);
-    const Balance forces = balance_of(held, force);
+    Balance forces = balance_of(held, force);
+    forces.held = std::max(forces.held, least_reactions);
     solution.relative_residual = forces.held > 0.0 ? forces.free / forces.held : forces.free;
     if (solution.relative_residual < kTolerance) return {};
     if (solution.relative_residual < kRoundingLevel && solution.relative_residual > 0.5 * previous) return {};
@@ -146,6 +160,56 @@ std::vector<double> displacements(const Grid& grid, const ExplicitState<double>&
   return result;
 }
 
+/// The grid with that part of its laws which has no history.
+Grid elastic(const Grid& grid) {
+  Grid result = grid;
+  result.laws = {.eigenstrain = grid.laws.eigenstrain, .inverse_limit = grid.laws.inverse_limit, .yield_pa = {}};
+  return result;
+}
+
+/// The order of the reactions to eigenstrains that cannot relax.
+double eigen_reactions(const Grid& grid) {
+  double largest = 0.0, compliance = 0.0;
+  int standing = 0;
+  for (std::size_t e = 0; e < grid.phase.size(); ++e) {
+    if (grid.phase[e] == Phase::empty) continue;
+    largest = std::max(largest, std::abs(grid.laws.eigenstrain[e]));
+    compliance += 1.0 / grid.young_pa[e];
+    ++standing;
+  }
+  return largest * standing / compliance * std::sqrt(static_cast<double>(grid.columns));
+}
+
+constexpr int kMostRestSteps = 10;
+constexpr double kRestTolerance = 1e-7;
+
+/// Moves the grips until they carry nothing (secant); the state is balanced there. Returns the strain.
+Result<double> come_to_rest(const Grid& grid, Workspace& workspace, ExtendedState<double>& state) {
+  const double reactions = eigen_reactions(grid);
+  const auto force_at = [&](double strain) -> Result<double> {
+    state.strain = strain;
+    StaticSolution solution;
+    const Result<void> done = balance(grid, workspace, state, solution, reactions);
+    if (!done) return tl::unexpected(done.error());
+    return state.top_force;
+  };
+  double last_strain = 0.0, strain = 0.0;
+  for (const double eigenstrain : grid.laws.eigenstrain) strain += eigenstrain / grid.element_count();
+  Result<double> last = force_at(last_strain);
+  if (!last || *last == 0.0 || strain == 0.0) return last.transform([](double) { return 0.0; });
+  const double first = std::abs(*last);
+  for (int i = 0; i < kMostRestSteps; ++i) {
+    const Result<double> now = force_at(strain);
+    if (!now) return now;
+    if (std::abs(*now) <= kRestTolerance * first || *now == *last) return strain;
+    const double next = strain - *now * (strain - last_strain) / (*now - *last);
+    last_strain = strain;
+    last = now;
+    strain = next;
+  }
+  return fail("static solver: the eigenstrains find no rest");
+}
+
 }  // namespace
 
 Result<StaticSolution> pull(const Grid& grid, double strain) {
@@ -155,12 +219,32 @@ Result<StaticSolution> pull(const Grid& grid, double strain) {
   if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is held by nothing");
 
   StaticSolution solution;
-  ExplicitState<double> state = stretched(grid, lame, strain, *workspace.storage);
+  ExtendedState<double> state = stretched(grid, lame, strain, *workspace.storage);
   if (const Result<void> done = balance(grid, workspace, state, solution); !done) return tl::unexpected(done.error());
   solution.displacement = displacements(grid, state);
   solution.top_stress_pa = state.top_force / grid.columns;
   solution.bottom_stress_pa = state.bottom_force / grid.columns;
   return solution;
+}
+
+Result<RestingSolution> pull_from_rest(const Grid& whole, double strain) {
+  const Grid grid = elastic(whole);
+  assert(!grid.laws.eigenstrain.empty());
+  const std::vector<material::Lame> lame = lame_of(grid);
+  Workspace& workspace = workspace_for(grid, held_unknowns(grid));
+  if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is held by nothing");
+  ExtendedState<double> state = stretched(grid, lame, 0.0, *workspace.storage);
+  const ExtendedStorage<double> laws(grid, kGaussWeight, 0.0, state);
+  const Result<double> rest = come_to_rest(grid, workspace, state);
+  if (!rest) return tl::unexpected(rest.error());
+  RestingSolution result{.rest_strain = *rest, .displacement = displacements(grid, state), .stress_pa = 0.0};
+  const double resting_force = state.top_force;
+  state.strain += strain * (1.0 + *rest);
+  StaticSolution solution;
+  if (const Result<void> done = balance(grid, workspace, state, solution, eigen_reactions(grid)); !done)
+    return tl::unexpected(done.error());
+  result.stress_pa = (state.top_force - resting_force) / grid.columns;
+  return result;
 }
 
 }  // namespace nacre::fem

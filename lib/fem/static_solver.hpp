@@ -24,4 +24,14 @@ struct StaticSolution {
 /// grid that is not held by anything.
 Result<StaticSolution> pull(const Grid& grid, double strain);
 
+/// A grid whose elements hold eigenstrains, between grips that first let it rest and then pull it.
+struct RestingSolution {
+  double rest_strain = 0.0;          ///< of the grips where they carry no force in sum
+  std::vector<double> displacement;  ///< there, as in StaticSolution
+  double stress_pa = 0.0;            ///< gained by the pull from there
+};
+
+/// Lets the grid come to rest, then pulls it by `strain` of the height that it then has. Errors as pull().
+Result<RestingSolution> pull_from_rest(const Grid& grid, double strain);
+
 }  // namespace nacre::fem

@@ -67,11 +67,26 @@ constexpr std::array kLibrary = {
            "rigid fraction."),
     effect("rigid_overprint", "geometry", EffectSide::material, kRigidOverprint, kLayouts,
            "Rigid regions come out larger than drawn; thin soft features vanish, thick ones hardly change."),
+    effect("rigid_yield", "rigid bulk", EffectSide::material, kRigidYield, kLargeStrain,
+           "The rigid phase flows beyond a yield stress: a knee in the curve, and a permanent set on unloading."),
+    effect("soft_stiffening", "soft bulk", EffectSide::material, kSoftStiffening, kLargeStrain,
+           "The chains of the soft phase reach their limit (Gent): the late curve rises, its start is unchanged."),
+    effect(
+        "rate_dependence", "rate", EffectSide::material, kRateDependence, kEverything,
+        "All materials answer more stiffly the faster they are pulled (a Maxwell branch); a second strain rate shows "
+        "it."),
+    effect("progressive_damage", "failure", EffectSide::material, kProgressiveDamage, kLargeStrain,
+           "Material softens before it breaks: a rounder peak and a longer tail."),
+    effect("tension_only_failure", "failure", EffectSide::material, kTensionOnlyFailure, kFracture,
+           "Compression does not break material: compressed and bent ligaments survive."),
     effect("strength_scatter", "failure", EffectSide::material, kStrengthScatter, kFracture,
            "The strength of voxels scatters (Weibull); replicates scatter more and mean toughness falls."),
     effect("blunt_notch", "geometry", EffectSide::material, kBluntNotch, kFracture,
            "The root of the notch is round instead of sharp; changes toughness alone, and a twin without notch not at "
            "all."),
+    effect("residual_strain", "residual", EffectSide::material, kResidualStrain, kLayouts,
+           "The rigid phase shrank when it cured and stands under stress before any load: stress that is there from "
+           "the start adds to what the pull brings."),
     effect("plane_strain", "stress state", EffectSide::material, kPlaneStrain, kEverything,
            "The specimen cannot contract freely through its thickness; shows between two thicknesses."),
     effect("machine_compliance", "measurement", EffectSide::measurement, kMachineCompliance, kEverything,

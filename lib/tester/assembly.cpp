@@ -2,9 +2,11 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "material/confinement.hpp"
+#include "material/extended_law.hpp"
 #include "material/extensions.hpp"
 #include "tester/printed_unit.hpp"
 #include "thesis/constants.hpp"
@@ -120,8 +122,31 @@ void collect(const LaidDown& made, int refinement, int row, int column, MadeOf& 
   }
 }
 
+/// Puts down what extends the law of element `e`, of that rigid fraction. An array is taken by the first element that
+/// needs it.
+void set_law(fem::Grid& grid, std::size_t e, const material::LawExtensions& extensions, double rigid_fraction) {
+  const material::ExtendedLaw law = material::extended_law(extensions, {}, grid.threshold_j_per_m3[e], rigid_fraction);
+  const auto put = [&](std::vector<double>& field, double value, double otherwise) {
+    if (field.empty() && value == otherwise) return;
+    if (field.empty()) field.assign(grid.phase.size(), otherwise);
+    field[e] = value;
+  };
+  put(grid.laws.eigenstrain, law.eigenstrain, 0.0);
+  put(grid.laws.inverse_limit, law.inverse_limit, 0.0);
+  put(grid.laws.yield_pa, law.yield_pa, std::numeric_limits<double>::infinity());
+}
+
+/// The laws of a tester: the modulus tester strains too little for anything but eigenstrains and, as a factor on E, the
+/// Maxwell branch.
+material::LawExtensions laws_for(const material::Extensions& extensions, AssemblyTarget target) {
+  const material::LawExtensions laws = material::law_extensions(extensions);
+  if (target == AssemblyTarget::toughness) return laws;
+  return {.shrinkage = laws.shrinkage};
+}
+
 void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const material::Phases& phases,
-                   const material::Extensions& extensions, const TestConditions& conditions, int refinement) {
+                   const material::Extensions& extensions, const material::LawExtensions& laws,
+                   const TestConditions& conditions, int refinement) {
   const bool turned = conditions.orientation_deg == 90.0;
   const LaidDown made = laid_down(turned ? layout.rotated() : layout, extensions, refinement);
   const double printer_anisotropy = material::extension_value(extensions, "interface_anisotropy");
@@ -138,6 +163,8 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
       constants.threshold_j_per_m3 *= factor;
       set_element(grid, static_cast<std::size_t>(grid.index(row, column)), material::confined(constants, confinement),
                   nearest_phase(element.mean_fraction), refinement);
+      if (laws.any())
+        set_law(grid, static_cast<std::size_t>(grid.index(row, column)), laws, element.mean_fraction);
     }
 }
 
@@ -156,14 +183,22 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
   const material::Phases phases = target == AssemblyTarget::modulus ? material::phases_of(parameters.modulus)
                                                                     : material::phases_of(parameters.toughness);
   fem::Grid grid = empty_grid(units_x, units_y, refinement);
+  material::LawExtensions laws = laws_for(parameters.extensions, target);
+  if (design.mixture() != nullptr) laws.shrinkage = 0.0;  // it shrinks freely, and its measures are taken afterwards
+  grid.laws.overstress = laws.overstress;
+  grid.laws.relaxation_time_s = laws.relaxation_time_s;
+  grid.laws.softening = laws.softening;
+  grid.laws.tension_only = laws.tension_only;
   if (const pattern::Layout* layout = design.layout()) {
-    assign_layout(grid, *layout, phases, parameters.extensions, conditions, refinement);
+    assign_layout(grid, *layout, phases, parameters.extensions, laws, conditions, refinement);
   } else {
     const double rigid_fraction = design.mixture()->rigid_fraction;
     const material::Constants constants =
         coupon_constants(phases, *design.mixture(), parameters.extensions, conditions);
-    for (std::size_t e = 0; e < grid.phase.size(); ++e)
+    for (std::size_t e = 0; e < grid.phase.size(); ++e) {
       set_element(grid, e, constants, nearest_phase(rigid_fraction), refinement);
+      if (laws.any()) set_law(grid, e, laws, rigid_fraction);
+    }
   }
   return grid;
 }

@@ -39,7 +39,10 @@ void FractureRecord::add(double strain, double stress_pa) {
   if (++sample_steps_ == plan_.steps_per_sample) close_sample();
 }
 
-bool FractureRecord::separated() const { return transit_.mean() < thesis::kStressDropLimit * peak_pa_; }
+bool FractureRecord::separated() const {
+  // Before it is pulled a specimen with residual strains may show a trace of pressure.
+  return peak_pa_ > 0.0 && transit_.mean() < thesis::kStressDropLimit * peak_pa_;
+}
 
 void FractureRecord::close_sample() {
   if (sample_steps_ == 0) return;

@@ -1,11 +1,39 @@
+#include <algorithm>
 #include <cmath>
 
-#include "material/neo_hookean.hpp"
+#include "material/mixture.hpp"
+#include "material/pulled_bar.hpp"
 #include "tester/assembly.hpp"
 #include "tester/tester.hpp"
 #include "tester/usable.hpp"
 
 namespace nacre::tester {
+namespace {
+
+/// Strain in one step of the integration along a history.
+constexpr double kStepStrain = 5e-4;
+
+Result<Curve> pull_coupon(const material::ExtendedLaw& law, double rate_per_s,
+                          const std::vector<double>& strain_history) {
+  material::PulledBar coupon(law);
+  Curve curve;
+  double strain = 0.0;
+  for (const double target : strain_history) {
+    const double way = target - strain;
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(way) / kStepStrain)));
+    double stress_pa = 0.0;
+    for (int step = 1; step <= steps; ++step) {
+      stress_pa = coupon.pull(strain + way * step / steps, std::abs(way) / steps / rate_per_s);
+    }
+    strain = target;
+    if (!std::isfinite(stress_pa)) return fail("tensile tester: the law has no state at strain {}", target);
+    curve.strain.push_back(target);
+    curve.stress_pa.push_back(stress_pa);
+  }
+  return curve;
+}
+
+}  // namespace
 
 Result<Curve> test_tensile(const Simulation& simulation, const std::vector<double>& strain_history) {
   if (std::string fault = simulation_fault(simulation, TestKind::tensile); !fault.empty())
@@ -15,15 +43,23 @@ Result<Curve> test_tensile(const Simulation& simulation, const std::vector<doubl
     return fail(
         "tensile tester: {} is not homogeneous; only soft, interface, rigid and mix: are pulled as unnotched coupons",
         simulation.design.name());
-  const material::Constants constants =
-      coupon_constants(material::phases_of(simulation.parameters.modulus), *mixture, simulation.parameters.extensions,
-                       simulation.conditions);
+  const material::Constants constants = coupon_constants(material::phases_of(simulation.parameters.modulus), *mixture,
+                                                         simulation.parameters.extensions, simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
+  material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
+  extensions.shrinkage = 0.0;  // it shrinks freely, and its measures are taken afterwards
+  for (std::size_t i = 0; i < strain_history.size(); ++i)
+    if (!(std::isfinite(strain_history[i]) && strain_history[i] > -1.0))
+      return fail("tensile tester: strain {} at sample {}, expected a number above -1", strain_history[i], i);
+  if (extensions.any()) {
+    const double threshold =
+        material::mixture(material::phases_of(simulation.parameters.toughness), mixture->rigid_fraction)
+            .threshold_j_per_m3;
+    return pull_coupon(material::extended_law(extensions, lame, threshold, mixture->rigid_fraction),
+                       simulation.conditions.strain_rate_per_s, strain_history);
+  }
   Curve curve;
-  for (std::size_t i = 0; i < strain_history.size(); ++i) {
-    const double strain = strain_history[i];
-    if (!(std::isfinite(strain) && strain > -1.0))
-      return fail("tensile tester: strain {} at sample {}, expected a number above -1", strain, i);
+  for (const double strain : strain_history) {
     curve.strain.push_back(strain);
     curve.stress_pa.push_back(material::uniaxial_stress(strain, lame).nominal_stress_pa);
   }

@@ -55,6 +55,7 @@ TEST(EveryEffect, AtZeroPullsTheBaseSpecimenToTheBit) {
     EXPECT_EQ(test.grid.poisson, base.grid.poisson) << effect.name;
     EXPECT_EQ(test.grid.threshold_j_per_m3, base.grid.threshold_j_per_m3) << effect.name;
     EXPECT_EQ(test.settings.time_step_s, base.settings.time_step_s) << effect.name;
+    EXPECT_FALSE(test.grid.laws.any()) << effect.name << ": the base kernel does the work";
   }
 }
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +48,69 @@ TEST(Tensile, UnloadingRetracesLoading) {
   EXPECT_EQ(curve->stress_pa[1], curve->stress_pa[3]);
   EXPECT_EQ(curve->stress_pa[0], 0.0);
   EXPECT_EQ(curve->stress_pa[4], 0.0);
+}
+
+Simulation extended_coupon(double rigid_fraction, material::Extensions extensions) {
+  Simulation simulation = coupon(rigid_fraction);
+  simulation.parameters.extensions = std::move(extensions);
+  return simulation;
+}
+
+TEST(Tensile, WithWeakExtensionsIsNearTheBaseCoupon) {
+  const std::vector<double> history = {0.0, 0.01, 0.02, 0.01, 0.0};
+  const Curve base = test_tensile(coupon(0.8), history).value();
+  const Curve weak = test_tensile(extended_coupon(0.8, {{"rate_dependence", {1e-9, 1.0}}}), history).value();
+  for (std::size_t i = 0; i < history.size(); ++i)
+    EXPECT_NEAR(weak.stress_pa[i], base.stress_pa[i], 1e-6 * base.stress_pa[2]) << i;
+}
+
+TEST(Tensile, YieldsAndKeepsASetOnUnloading) {
+  const Curve curve =
+      test_tensile(extended_coupon(1.0, {{"rigid_yield", {4e7}}}), {0.01, 0.03, 0.05, 0.035, 0.03}).value();
+  EXPECT_NEAR(curve.stress_pa[1] * 1.03, 4e7, 1.0);
+  EXPECT_NEAR(curve.stress_pa[2] * 1.05, 4e7, 1.0);
+  EXPECT_LT(curve.stress_pa[3], 0.2 * 4e7);
+  EXPECT_LT(curve.stress_pa[4], 0.0) << "pushed back beyond its set";
+}
+
+TEST(Tensile, StiffensLateWhereTheSoftPhaseIsAndNowhereElse) {
+  const auto ratio = [](double rigid_fraction, double strain) {
+    const double base = test_tensile(coupon(rigid_fraction), {strain}).value().stress_pa[0];
+    return test_tensile(extended_coupon(rigid_fraction, {{"soft_stiffening", {1.0}}}), {strain}).value().stress_pa[0] /
+           base;
+  };
+  EXPECT_GT(ratio(0.0, 0.4), 1.2);
+  EXPECT_NEAR(ratio(0.0, 1e-3), 1.0, 3e-3);
+  EXPECT_GT(ratio(0.0, 0.4), ratio(0.25, 0.4));
+  EXPECT_NEAR(ratio(1.0, 0.1), 1.0, 1e-6);
+}
+
+TEST(Tensile, RelaxesInRealTime) {
+  Simulation slow = extended_coupon(1.0, {{"rate_dependence", {0.5, 20.0}}}), fast = slow;
+  slow.conditions.strain_rate_per_s = 1e-7;
+  fast.conditions.strain_rate_per_s = 1e2;
+  const double relaxed = test_tensile(coupon(1.0), {0.01}).value().stress_pa[0];
+  EXPECT_NEAR(test_tensile(slow, {0.01}).value().stress_pa[0] / relaxed, 1.0, 1e-3);
+  EXPECT_NEAR(test_tensile(fast, {0.01}).value().stress_pa[0] / relaxed, 1.5, 1e-3);
+}
+
+TEST(Tensile, SoftensFromTheThresholdOfTheToughnessTable) {
+  Simulation simulation = extended_coupon(1.0, {{"progressive_damage", {1.0}}});
+  const double young = simulation.parameters.modulus.e_vw_pa, threshold = simulation.parameters.toughness.w_vw_j_per_m3;
+  const double first = std::sqrt(2.0 * threshold / young);
+  std::vector<double> history;
+  for (int i = 1; i <= 60; ++i) history.push_back(0.05 * i * first);
+  const Curve curve = test_tensile(simulation, history).value();
+  const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) - curve.stress_pa.begin();
+  EXPECT_NEAR(history[static_cast<std::size_t>(peak)] / first, 1.0, 0.1);
+  EXPECT_EQ(curve.stress_pa.back(), 0.0);
+  EXPECT_NEAR(area_under(curve) / (2.0 * threshold), 1.0, 0.05);
+}
+
+TEST(Tensile, ShrunkCouponsAreMeasuredAsTheyAre) {
+  const std::vector<double> history = {0.0, 0.01};
+  EXPECT_EQ(test_tensile(extended_coupon(1.0, {{"residual_strain", {0.01}}}), history).value(),
+            test_tensile(coupon(1.0), history).value());
 }
 
 TEST(Tensile, RefusesPatternsAndImpossibleStrains) {
