@@ -29,10 +29,11 @@ Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>
 Eigen::MatrixXd shared_fracture_errors(const std::vector<measurement::Replicates>& measured, const NumericsFloor& floor) {
   const Eigen::VectorXd fraction = centred_fractions(measured) / kTrendUnit;
   const Eigen::Index designs = fraction.size();
-  Eigen::MatrixXd shared(2 * designs, 2);
-  shared.col(0) << Eigen::VectorXd::Constant(designs, floor.log_toughness_common_sd),
-      Eigen::VectorXd::Constant(designs, floor.log_peak_common_sd);
-  shared.col(1) << floor.log_toughness_trend_sd * fraction, floor.log_peak_trend_sd * fraction;
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(2 * designs, 3);
+  shared.col(0).head(designs).setConstant(floor.log_toughness_common_sd);
+  shared.col(0).tail(designs).setConstant(floor.log_peak_common_sd);
+  shared.col(1).head(designs) = floor.log_toughness_trend_sd * fraction;
+  shared.col(2).tail(designs) = floor.log_peak_trend_sd * fraction;
   return shared;
 }
 
