@@ -1,6 +1,6 @@
 # The modules of lib/, lowest first: a module may include only modules that stand before it in this list.
-# (families and surrogate join when they are built.)
-set(NACRE_MODULES base thesis pattern material fem tester crack film animation measurement optimize sysid explore select diagnosis fabricate game wire store
+# (surrogate joins when it is built.)
+set(NACRE_MODULES base thesis pattern material fem tester crack film animation measurement optimize sysid explore select diagnosis families fabricate game wire store
                   runtime)
 
 add_library(nacre_flags INTERFACE)

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "families/grouping.hpp"
+
+namespace nacre::families {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const toml::node& node, const std::string& what) {
+  throw InputError::format("{}:{}: {}", file.string(), node.source().begin.line, what);
+}
+
+bool is_name(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+}
+
+pattern::Pattern seed_of(const toml::node& node, const std::filesystem::path& file) {
+  const std::optional<std::string> key = node.value<std::string>();
+  if (!key) refuse(file, node, "a seed is expected to be a pattern key, 14 hexadecimal digits in quotes");
+  const Result<pattern::Layout> layout = pattern::layout_from_key(*key);
+  if (!layout) refuse(file, node, fmt::format("seed '{}': {}", *key, layout.error().message));
+  const std::optional<pattern::Pattern> seed = pattern::Pattern::from_layout(*layout);
+  if (!seed) refuse(file, node, fmt::format("seed '{}': expected a pattern with eightfold symmetry", *key));
+  return *seed;
+}
+
+Family family_of(const toml::table& table, const std::filesystem::path& file) {
+  Family family{.name = table["name"].value_or(std::string()), .seeds = {}};
+  if (!is_name(family.name)) refuse(file, table, "a family is expected to have a name of letters, digits, - and _");
+  const toml::array* seeds = table["seeds"].as_array();
+  if (seeds == nullptr || seeds->empty()) refuse(file, table, "a family is expected to have seeds = [\"key\", ...]");
+  for (const toml::node& seed : *seeds) family.seeds.push_back(seed_of(seed, file));
+  return family;
+}
+
+}  // namespace
+
+std::string to_toml(const std::vector<Family>& families) {
+  std::string text =
+      "# Families of near-Pareto designs. Move seeds, rename or merge families as you see them; `nacre families` reads this file.\n";
+  for (const Family& family : families) {
+    text += fmt::format("\n[[family]]\nname = \"{}\"\nseeds = [", family.name);
+    for (std::size_t i = 0; i < family.seeds.size(); ++i)
+      text += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", family.seeds[i].key());
+    text += "]\n";
+  }
+  return text;
+}
+
+std::vector<Family> read_families(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  const toml::parse_result document = [&] {
+    try {
+      return toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    }
+  }();
+  const toml::array* tables = document["family"].as_array();
+  if (tables == nullptr) throw InputError::format("{}: expected [[family]] tables", file.string());
+  std::vector<Family> families;
+  std::set<std::string> names;
+  std::set<pattern::Pattern> seeds;
+  for (const toml::node& node : *tables) {
+    if (!node.is_table()) refuse(file, node, "expected a [[family]] table");
+    families.push_back(family_of(*node.as_table(), file));
+    if (!names.insert(families.back().name).second)
+      refuse(file, node, fmt::format("family '{}' stands here for the second time", families.back().name));
+    for (const pattern::Pattern& seed : families.back().seeds)
+      if (!seeds.insert(seed).second) refuse(file, node, fmt::format("seed '{}' belongs to two families", seed.key()));
+  }
+  return families;
+}
+
+}  // namespace nacre::families

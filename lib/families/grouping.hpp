@@ -1,0 +1,43 @@
+#pragma once
+// Which near-Pareto designs belong together (thesis 2.4.1, where a person decides): a proposal, and the file in which a
+// person changes it.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "optimize/pareto.hpp"
+#include "pattern/layout.hpp"
+
+namespace nacre::families {
+
+/// A measured design.
+struct Member {
+  pattern::Pattern pattern;
+  optimize::Performance performance;
+};
+
+/// Designs that resemble one another.
+struct Family {
+  std::string name;
+  std::vector<pattern::Pattern> seeds;
+  bool operator==(const Family&) const = default;
+};
+
+/// The designs of rank <= maximum_rank, in the order given.
+std::vector<Member> near_pareto(std::span<const Member> measured, int maximum_rank = 2);
+
+/// Groups designs by average linkage. The distance of two designs is that of their patterns (earth mover's) plus that of
+/// their properties (relative to the range), each over its mean. The number of families, 1 to `largest_count`, is the one
+/// whose mean silhouette is largest; one family when none exceeds 0.25, where groups are no more than chance. Families
+/// are named `family-1`, ... by falling modulus of their stiffest member.
+std::vector<Family> proposed_families(std::span<const Member> designs, int largest_count = 6);
+
+/// families.toml: `[[family]] name, seeds = ["key", ...]`.
+std::string to_toml(const std::vector<Family>& families);
+/// Reads it back. Throws InputError naming file, line and what was expected: a name (letters, digits, - and _; each once) and at least one
+/// pattern key; a pattern belongs to one family.
+std::vector<Family> read_families(const std::filesystem::path& file);
+
+}  // namespace nacre::families

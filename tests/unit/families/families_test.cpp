@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "families/barycentre.hpp"
+#include "families/dense_sampling.hpp"
+#include "families/distances.hpp"
+#include "families/earth_movers.hpp"
+#include "families/grouping.hpp"
+#include "families/interpolation.hpp"
+#include "families/isomap.hpp"
+#include "pattern/constraints.hpp"
+#include "pattern/random_pattern.hpp"
+
+namespace nacre::families {
+namespace {
+
+using pattern::Pattern;
+
+constexpr std::uint64_t kAllRigid = (std::uint64_t{1} << pattern::kFreePixels) - 1;
+
+Pattern with_soft(std::initializer_list<std::pair<int, int>> pixels) {
+  Pattern pattern(kAllRigid);
+  for (const auto& [row, column] : pixels) pattern.set(row, column, false);
+  return pattern;
+}
+
+std::vector<Pattern> random_patterns(int count) {
+  RandomStream random(3, "families test");
+  return pattern::stratified_patterns(count, random);
+}
+
+TEST(Barycentre, OfOnePatternIsItself) {
+  for (const Pattern& pattern : random_patterns(8)) {
+    EXPECT_EQ(barycentre(std::vector{pattern}, std::vector{1.0}), pattern);
+    EXPECT_EQ(barycentre(std::vector{pattern, pattern, pattern}, std::vector{0.2, 0.3, 0.5}), pattern);
+  }
+  const std::vector<Pattern> three = random_patterns(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> weights(3, 0.0);
+    weights[k] = 1.0;
+    EXPECT_EQ(barycentre(three, weights), three[k]) << "all weight on one source";
+  }
+}
+
+TEST(Barycentre, LiesHalfWayOfASoftPixel) {
+  const std::vector<Pattern> ends = {with_soft({{2, 2}, {0, 9}}), with_soft({{6, 6}, {0, 9}})};
+  EXPECT_EQ(barycentre(ends, std::vector{1.0, 1.0}), with_soft({{4, 4}, {0, 9}}));
+  EXPECT_EQ(barycentre(ends, std::vector{3.0, 1.0}), with_soft({{3, 3}, {0, 9}}));
+}
+
+TEST(Barycentre, HasNothingToMoveIntoAPatternThatOthersContain) {
+  const std::vector<Pattern> nested = {with_soft({{2, 2}}), with_soft({{2, 2}, {5, 5}})};
+  EXPECT_FALSE(barycentre(nested, std::vector{1.0, 1.0}));
+}
+
+TEST(DenseSampler, FindsFeasiblePatternsWithinTheRadiusOnce) {
+  std::vector<Pattern> seeds = random_patterns(2);
+  DenseSampler sampler(seeds, {});
+  std::set<Pattern> found(seeds.begin(), seeds.end());
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const std::vector<Pattern> batch = sampler.next();
+    ASSERT_EQ(batch.size(), 10u);
+    for (const Pattern& pattern : batch) {
+      EXPECT_TRUE(pattern::is_feasible(pattern));
+      EXPECT_LE(nearest_seed(pattern, seeds).difference, 16);
+      EXPECT_TRUE(found.insert(pattern).second);
+    }
+  }
+  EXPECT_EQ(sampler.members().size(), found.size());
+}
+
+TEST(DenseSampler, EndsWhenTheFamilyIsExhausted) {
+  const Pattern seed = random_patterns(1).front();
+  DenseSampler sampler({seed}, {.radius_pixels = 4, .batch = 10, .attempts = 20'000, .seed = 1});  // diagonal pixels alone
+  std::size_t found = 0;
+  while (!sampler.exhausted()) found += sampler.next().size();
+  EXPECT_LE(found, 10u);
+  EXPECT_GT(found, 4u);
+  EXPECT_TRUE(sampler.next().empty());
+  EXPECT_THROW(DenseSampler({}, {}), InputError);
+}
+
+TEST(Interpolation, AddsFeasiblePatternsNearTheSeedThatAreNew) {
+  const Pattern seed = random_patterns(3).back();
+  DenseSampler sampler({seed}, {});
+  while (sampler.members().size() < 150) sampler.next();
+  const std::vector<Pattern>& members = sampler.members();
+  const Embedding map = isomap(earth_movers_distances(members));
+  const std::vector<Pattern> added = interpolated(seed, members, map.points);
+  EXPECT_GT(added.size(), 5u);
+  std::set<Pattern> known(members.begin(), members.end());
+  for (const Pattern& pattern : added) {
+    EXPECT_TRUE(known.insert(pattern).second);
+    EXPECT_TRUE(pattern::is_feasible(pattern));
+    EXPECT_LE(pattern::pixel_difference(pattern, seed), 16);
+  }
+}
+
+TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
+  const std::vector<Pattern> seeds = random_patterns(12);
+  std::vector<Member> designs;
+  for (const std::size_t kind : {0u, 5u, 11u}) {  // soft, middle and stiff strata
+    DenseSampler sampler({seeds[kind]}, {.seed = kind + 1});
+    sampler.next();
+    for (std::size_t i = 0; i < 6; ++i)
+      designs.push_back({sampler.members()[i],
+                         {1e9 * (1.0 + static_cast<double>(kind)) + 1e7 * static_cast<double>(i), 1e5 * (12.0 - static_cast<double>(kind))}});
+  }
+  const std::vector<Family> families = proposed_families(designs);
+  ASSERT_EQ(families.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(families[k].seeds.size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(families[k].seeds[i], designs[6 * (2 - k) + i].pattern) << "by falling modulus";
+  }
+}
+
+TEST(Grouping, SeesOneFamilyWhereNothingParts) {
+  const Pattern seed = random_patterns(4).back();
+  DenseSampler sampler({seed}, {});
+  while (sampler.members().size() < 30) sampler.next();
+  RandomStream random(5, "properties");
+  std::vector<Member> designs;
+  for (const Pattern& pattern : sampler.members())
+    designs.push_back({pattern, {random.uniform(1e9, 1.1e9), random.uniform(1e5, 1.1e5)}});
+  EXPECT_EQ(proposed_families(designs).size(), 1u);
+}
+
+TEST(Grouping, KeepsTheFirstRanksOfWhatWasMeasured) {
+  const std::vector<Pattern> some = random_patterns(4);
+  const std::vector<Member> measured = {{some[0], {3.0, 1.0}}, {some[1], {2.0, 2.0}}, {some[2], {1.5, 1.5}}, {some[3], {1.0, 1.0}}};
+  EXPECT_EQ(near_pareto(measured, 1).size(), 2u);
+  EXPECT_EQ(near_pareto(measured, 2).size(), 3u);
+}
+
+TEST(FamiliesFile, ComesBackAsItWasWritten) {
+  const std::vector<Pattern> some = random_patterns(4);
+  const std::vector<Family> families = {{"family-1", {some[0], some[1]}}, {"arcs", {some[2]}}};
+  const auto file = std::filesystem::path(testing::TempDir()) / "families.toml";
+  write_file_atomically(file, to_toml(families));
+  EXPECT_EQ(read_families(file), families);
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    write_file_atomically(file, text);
+    try {
+      read_families(file);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1: a family is expected to have seeds");
+  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n", "families.toml:1: a family is expected to have a name");
+  refused("[[family]]\nname = \"a\"\nseeds = [\"577f\"]\n", "families.toml:3: seed '577f'");
+  refused("[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = [\"577fffe9fffdef\"]\n",
+          "families.toml:4: seed '577fffe9fffdef' belongs to two families");
+}
+
+}  // namespace
+}  // namespace nacre::families
