@@ -3,10 +3,12 @@
 #include <Spectra/MatOp/DenseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace nacre::families {
 namespace {
 
 constexpr double kFarAway = 10.0;  // times the largest finite distance
+constexpr Eigen::Index kDenseSize = 200, kLanczosVectors = 20;
 
 struct Edge {
   std::size_t to = 0;
@@ -114,21 +117,41 @@ void shortest_paths(const Graph& graph, std::size_t source, Eigen::Ref<Eigen::Ve
   }
 }
 
+struct Axes {
+  Eigen::Vector2d values;
+  Eigen::MatrixX2d vectors;
+};
+
+/// The two leading eigenpairs by Lanczos' method; nothing when it loses its way, as it does where the rank is one.
+std::optional<Axes> leading_axes(const Eigen::MatrixXd& matrix) {
+  Spectra::DenseSymMatProd<double> operation(matrix);
+  Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(operation, 2, kLanczosVectors);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
+  const Axes axes{solver.eigenvalues(), solver.eigenvectors(2)};
+  const Eigen::MatrixX2d residual = matrix * axes.vectors - axes.vectors * axes.values.asDiagonal();
+  const bool right = residual.allFinite() && residual.norm() < 1e-6 * std::abs(axes.values[0]);
+  return right ? std::optional(axes) : std::nullopt;
+}
+
+Axes leading_axes_dense(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  return {solver.eigenvalues().tail<2>().reverse(), solver.eigenvectors().rightCols<2>().rowwise().reverse()};
+}
+
 /// The two leading coordinates of classical scaling.
 Eigen::MatrixX2d scaled(const Eigen::MatrixXd& geodesics) {
   Eigen::MatrixXd products = -0.5 * geodesics.cwiseAbs2();
   const Eigen::VectorXd row_means = products.rowwise().mean();
   products.colwise() -= row_means;
   products.rowwise() -= products.colwise().mean().eval();
-  const Spectra::DenseSymMatProd<double> operation(products);
-  Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(
-      operation, 2, std::min<Eigen::Index>(20, products.cols()));
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful) throw InputError("isomap: the two leading axes were not found");
-  Eigen::MatrixX2d points = solver.eigenvectors(2);
+  std::optional<Axes> axes;
+  if (products.cols() > kDenseSize) axes = leading_axes(products);
+  if (!axes) axes = leading_axes_dense(products);
+  Eigen::MatrixX2d points = axes->vectors;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    points.col(axis) *= std::sqrt(std::max(0.0, solver.eigenvalues()[axis]));
+    points.col(axis) *= std::sqrt(std::max(0.0, axes->values[axis]));
     Eigen::Index farthest = 0;  // an axis has no direction of its own: its farthest point lies on the positive side
     points.col(axis).cwiseAbs().maxCoeff(&farthest);
     if (points(farthest, axis) < 0.0) points.col(axis) *= -1.0;
