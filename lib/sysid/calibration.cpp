@@ -31,11 +31,12 @@ Point to_point(const Vector& vector, std::span<const ParameterRange> ranges, std
 }
 
 FitData data_of(const std::vector<measurement::Replicates>& measured, const std::vector<double>& weights,
-                const std::vector<std::size_t>& items) {
+                const std::vector<double>& evidence, const std::vector<std::size_t>& items) {
   FitData data;
   for (const std::size_t item : items) {
     data.measured.push_back(measured[item]);
     data.weights.push_back(weights[item]);
+    if (!evidence.empty()) data.evidence.push_back(evidence[item]);
   }
   return data;
 }
@@ -102,7 +103,7 @@ struct Calibration::State {
   }
 
   void begin() {
-    weights = sample_weights(measured);
+    weights = settings.weights.empty() ? sample_weights(measured) : settings.weights;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       if (measured[i].modulus_count > 0) modulus.items.push_back(i);
       if (measured[i].toughness_count > 0) toughness.items.push_back(i);
@@ -111,7 +112,7 @@ struct Calibration::State {
     result.predictions.resize(measured.size());
     if (!modulus.items.empty()) {
       modulus.fit =
-          make_modulus_fit(data_of(measured, weights, modulus.items),
+          make_modulus_fit(data_of(measured, weights, settings.weights, modulus.items),
                            {.start = to_point(to_vector(settings.start.modulus), modulus_ranges(), kModulusDimensions),
                             .budget = std::max(1, settings.modulus_budget),
                             .batch = settings.batch,
@@ -137,7 +138,7 @@ struct Calibration::State {
   }
 
   std::unique_ptr<Fit> make_toughness_fit(const FitSettings& fit_settings) const {
-    FitData data = data_of(measured, weights, toughness.items);
+    FitData data = data_of(measured, weights, settings.weights, toughness.items);
     std::vector<Point> others = other_starts(fit_settings.start);
     switch (settings.toughness_search) {
       case ToughnessSearch::posterior:

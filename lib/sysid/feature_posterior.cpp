@@ -26,6 +26,10 @@ FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const Numer
     peak_.measured.push_back(peak ? std::log(*peak) : kNone);
     peak_.variances.push_back(peak_variance(scatter, floor));
   }
+  for (std::size_t i = 0; i < data.evidence.size(); ++i) {
+    toughness_.variances[i] /= data.evidence[i];
+    peak_.variances[i] /= data.evidence[i];
+  }
   toughness_.base.assign(data.measured.size(), kNone);
   peak_.base = toughness_.base;
 }

@@ -16,6 +16,7 @@ using optimize::Point;
 struct FitData {
   std::vector<measurement::Replicates> measured;
   std::vector<double> weights;
+  std::vector<double> evidence = {};  ///< how much of a design each counts as in the likelihood; empty: 1
 };
 
 /// One parameter set and what it predicts, measurement-side extensions applied; `objective` is that of (2.8) without

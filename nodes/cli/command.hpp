@@ -25,6 +25,7 @@ CLI::App& add_command(CLI::App& app, Action& action, const std::string& name, co
 void add_simulate(CLI::App& app, Action& action);
 void add_calibrate(CLI::App& app, Action& action);
 void add_explore(CLI::App& app, Action& action);
+void add_families(CLI::App& app, Action& action);
 void add_film(CLI::App& app, Action& action);
 void add_select(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);

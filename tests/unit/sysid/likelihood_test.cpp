@@ -141,6 +141,18 @@ TEST(FeaturePosterior, AnErrorCommonToAllDesignsIsNotAveragedAway) {
   EXPECT_NEAR(std::sqrt(covariance(kW0 + 2, kW0 + 2)), 0.3 / 3.0, 0.005);
 }
 
+TEST(FeaturePosterior, ADesignOfATenthOfTheWeightCountsATenth) {
+  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
+  const auto information = [&](double evidence) {  // of 40 designs on the parameter that acts
+    OneSlope problem(40);
+    problem.data.evidence.assign(40, evidence);
+    FeaturePosterior posterior(problem.data, problem.start, floor);
+    posterior.set_base(problem.trial);
+    return 1.0 / posterior.posterior_covariance(problem.slopes)(kW0 + 2, kW0 + 2) - 12.0;
+  };
+  EXPECT_NEAR(information(0.1) / information(1.0), 0.1, 1e-6);
+}
+
 TEST(FeaturePosterior, NorIsAnErrorThatGrowsWithTheRigidFraction) {
   const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3, .log_toughness_trend_sd = 0.1};
   OneSlope problem(400);

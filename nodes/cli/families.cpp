@@ -1,0 +1,272 @@
+// nacre families: which families of good designs there are, their variants, and a map of each (thesis 2.4).
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <ranges>
+#include <string>
+#include <vector>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "command.hpp"
+#include "explore/gamut_csv.hpp"
+#include "families/dense_sampling.hpp"
+#include "families/grouping.hpp"
+#include "families/subfamily.hpp"
+#include "laboratory_view.hpp"
+#include "material/parameters.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "run_access.hpp"
+#include "shipped_files.hpp"
+#include "sysid/offline.hpp"
+#include "wire/codec.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::cli {
+namespace {
+
+using families::Family;
+using pattern::Pattern;
+
+constexpr double kOthersWeight = 0.1;  // of designs outside the family in its calibration (thesis 2.4.1)
+
+struct Options {
+  std::string set;
+  std::string run = "logs/latest";
+  std::string params;
+  std::string out = "families";
+  std::string fidelity;
+  std::string numerics_floor;
+  int samples = 300;
+  int rank = 2;
+  int calibration = 25;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+/// What the stage begins with: everything measured, and a model of it.
+struct Beginning {
+  std::vector<measurement::Replicates> measured;  ///< patterns alone
+  material::ParameterSet parameters;
+  tester::Fidelity fidelity = tester::Fidelity::full;
+};
+
+/// Eightfold pattern of a design that has one.
+std::optional<Pattern> pattern_of(const pattern::Design& design) {
+  return design.layout() == nullptr ? std::nullopt : Pattern::from_layout(*design.layout());
+}
+
+std::vector<measurement::Replicates> patterns_of(const std::vector<measurement::SpecimenRecord>& specimens) {
+  std::vector<measurement::Replicates> groups = measurement::summarise(specimens);
+  std::erase_if(groups, [](const measurement::Replicates& group) {
+    return !pattern_of(group.design) || group.conditions.orientation_deg != 0.0 || group.modulus_count == 0 ||
+           group.toughness_count == 0;
+  });
+  return groups;
+}
+
+Beginning beginning_of_set(const Options& options) {
+  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  warn_about(set, options.set);
+  return {.measured = patterns_of(set.specimens),
+          .parameters = material::default_parameters(),
+          .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity)};
+}
+
+/// The model that the validation agent adopted last.
+material::ParameterSet adopted_parameters(const RunAccess& run) {
+  for (const std::string& payload : sent_by_validation_agent(run, "PARAMETERS") | std::views::reverse) {
+    const auto message = wire::decode_safe<parameters_t>(payload);
+    if (!message) continue;
+    if (const auto model = wire::from_wire(*message)) return model->parameters;
+  }
+  throw InputError::format("{}: no model has been adopted yet", run.folder.string());
+}
+
+Beginning beginning_of_run(const Options& options) {
+  const RunAccess run = open_run(options.run);
+  return {.measured = patterns_of(view_laboratory(run).facts.book.specimens()),
+          .parameters = adopted_parameters(run),
+          .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity)};
+}
+
+/// families.toml of the folder when a person or a former call left one, else a proposal, which is written there.
+std::vector<Family> families_in(const std::filesystem::path& folder, const std::vector<families::Member>& designs) {
+  const std::filesystem::path file = folder / "families.toml";
+  if (std::filesystem::exists(file)) return families::read_families(file);
+  const std::vector<Family> proposed = families::proposed_families(designs);
+  write_file_atomically(file, families::to_toml(proposed));
+  return proposed;
+}
+
+/// A model of one family: its designs weigh 1, the others 0.1.
+sysid::Calibrated family_model(const Family& family, const Beginning& beginning, const Options& options,
+                               sysid::LocalSimulator& simulator) {
+  sysid::CalibrationSettings settings;
+  settings.start = beginning.parameters;
+  settings.toughness_budget = options.calibration;
+  settings.seed = options.seed;
+  settings.floor = sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), beginning.fidelity);
+  for (const measurement::Replicates& group : beginning.measured)
+    settings.weights.push_back(std::ranges::count(family.seeds, *pattern_of(group.design)) > 0 ? 1.0 : kOthersWeight);
+  Progress progress(family.name + ": calibrating");
+  return sysid::run_calibration(beginning.measured, settings, simulator,
+                                [&](double share, std::string_view what) { progress.set_share(share, std::string(what)); });
+}
+
+using Performances = std::map<Pattern, optimize::Performance>;
+
+/// Simulates what `known` lacks; failed simulations stay out.
+void simulate(const std::string& task, const std::vector<Pattern>& patterns, const material::ParameterSet& parameters,
+              sysid::LocalSimulator& simulator, Performances& known) {
+  std::vector<measurement::Replicates> wanted;
+  for (const Pattern& pattern : patterns) {
+    if (known.contains(pattern)) continue;
+    wanted.emplace_back().design = pattern;
+    wanted.back().modulus_count = wanted.back().toughness_count = 1;
+  }
+  Progress progress(task, static_cast<std::int64_t>(wanted.size()));
+  const auto predictions = sysid::predict({parameters}, wanted, simulator, [&] { progress.advance(); }).front();
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (predictions[i].modulus_pa && predictions[i].toughness_pa)
+      known[*pattern_of(wanted[i].design)] = {*predictions[i].modulus_pa, *predictions[i].toughness_pa};
+  }
+}
+
+std::vector<Pattern> sampled_densely(const Family& family, const Options& options) {
+  families::DenseSampler sampler(family.seeds, {.seed = options.seed});
+  while (static_cast<int>(sampler.members().size()) < options.samples && !sampler.exhausted()) sampler.next();
+  return sampler.members();
+}
+
+std::string map_csv(const families::Subfamily& subfamily, const Performances& performances) {
+  std::string text = "pattern,source,x,y,rigid_fraction,modulus_pa,toughness_pa\n";
+  for (std::size_t i = 0; i < subfamily.members.size(); ++i) {
+    const Pattern& pattern = subfamily.members[i];
+    const auto found = performances.find(pattern);
+    const auto row = subfamily.map.points.row(static_cast<Eigen::Index>(i));
+    text += fmt::format("{},{},{:.5g},{:.5g},{:.4f}", pattern.key(),
+                        i == 0 ? "seed" : i < subfamily.sampled ? "sampled" : "interpolated", row.x(), row.y(),
+                        pattern.rigid_fraction());
+    text += found == performances.end()
+                ? ",,\n"
+                : fmt::format(",{:.6g},{:.6g}\n", found->second.modulus_pa, found->second.toughness_pa);
+  }
+  return text;
+}
+
+nlohmann::ordered_json errors_json(const sysid::PredictionErrors& errors) {
+  return {{"count", errors.toughness_count}, {"E_mean", errors.modulus_mean}, {"T_mean", errors.toughness_mean}};
+}
+
+/// Errors on the family's own designs.
+sysid::PredictionErrors own_errors(const Family& family, const Beginning& beginning,
+                                   const material::ParameterSet& parameters, sysid::LocalSimulator& simulator) {
+  std::vector<measurement::Replicates> own;
+  for (const measurement::Replicates& group : beginning.measured)
+    if (std::ranges::count(family.seeds, *pattern_of(group.design)) > 0) own.push_back(group);
+  return sysid::prediction_errors(own, sysid::predict({parameters}, own, simulator).front());
+}
+
+/// Calibration, dense sampling and maps of one family, written into its folder.
+nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning, const Options& options,
+                                sysid::LocalSimulator& simulator) {
+  const std::filesystem::path folder = std::filesystem::path(options.out) / family.name;
+  std::filesystem::create_directories(folder);
+  material::ParameterSet parameters = beginning.parameters;
+  nlohmann::ordered_json document = {{"name", family.name}, {"seeds", family.seeds.size()}};
+  document["errors_of_the_global_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
+  if (options.calibration > 0) {
+    parameters = family_model(family, beginning, options, simulator).parameters;
+    document["errors_of_the_family_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
+  }
+  write_file_atomically(folder / "parameters.toml", material::to_toml(parameters));
+  const std::vector<Pattern> members = sampled_densely(family, options);
+  Performances performances;
+  simulate(family.name + ": dense samples", members, parameters, simulator, performances);
+  nlohmann::ordered_json maps = nlohmann::ordered_json::array();
+  for (const Pattern& seed : family.seeds) {
+    Progress progress(family.name + ": map of " + seed.key());
+    const families::Subfamily subfamily =
+        families::subfamily_of(seed, members, {}, [&](double share) { progress.set_share(share, ""); });
+    progress.end();
+    simulate(family.name + ": interpolated", subfamily.members, parameters, simulator, performances);
+    write_file_atomically(folder / (seed.key() + ".csv"), map_csv(subfamily, performances));
+    maps.push_back({{"seed", seed.key()},
+                    {"sampled", subfamily.sampled},
+                    {"interpolated", subfamily.members.size() - subfamily.sampled},
+                    {"growth", subfamily.growth()},
+                    {"residual_variance", subfamily.map.residual_variance},
+                    {"bridges", subfamily.map.bridges}});
+  }
+  std::vector<explore::Evaluated> gamut;
+  for (const auto& [pattern, performance] : performances) gamut.push_back({pattern, performance});
+  explore::write_gamut_csv(folder / "gamut.csv", gamut);
+  document["samples"] = gamut.size();
+  document["maps"] = maps;
+  return document;
+}
+
+void print_family(const nlohmann::ordered_json& family) {
+  fmt::print("{}: {} seeds, {} samples\n", family["name"].get<std::string>(), family["seeds"].get<int>(),
+             family["samples"].get<int>());
+  for (const auto& map : family["maps"])
+    fmt::print("  {}  {} sampled, {} interpolated (+{:.1f} %; thesis, Table A.7: 4.5 %), map explains {:.1f} %\n",
+               map["seed"].get<std::string>(), map["sampled"].get<int>(), map["interpolated"].get<int>(),
+               100.0 * map["growth"].get<double>(), 100.0 * (1.0 - map["residual_variance"].get<double>()));
+}
+
+int find_families(const Options& options) {
+  Beginning beginning = options.set.empty() ? beginning_of_run(options) : beginning_of_set(options);
+  if (!options.params.empty()) beginning.parameters = material::read_parameters(options.params, beginning.parameters);
+  std::vector<families::Member> members;
+  for (const measurement::Replicates& group : beginning.measured)
+    members.push_back({*pattern_of(group.design), {group.modulus_pa, group.toughness_pa}});
+  const std::vector<families::Member> near = families::near_pareto(members, options.rank);
+  if (near.empty()) {
+    remark("no pattern has been measured in both tests yet");
+    return 1;
+  }
+  std::erase_if(beginning.measured, [&](const measurement::Replicates& group) {
+    return std::ranges::count(near, *pattern_of(group.design), &families::Member::pattern) == 0;
+  });
+  const std::filesystem::path folder = options.out;
+  std::filesystem::create_directories(folder);
+  sysid::LocalSimulator simulator(beginning.fidelity, 0, folder / "simulations.bin");
+  nlohmann::ordered_json document = nlohmann::ordered_json::array();
+  for (const Family& family : families_in(folder, near)) {
+    document.push_back(work_out(family, beginning, options, simulator));
+    if (!options.json) print_family(document.back());
+  }
+  write_file_atomically(folder / "families.json", document.dump(2) + "\n");
+  if (options.json) print_json(document);
+  return 0;
+}
+
+}  // namespace
+
+void add_families(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(
+      app, action, "families", "Group the best measured designs, sample around them, and map what was found", options,
+      find_families);
+  command.add_option("SET", options->set, "Measurement set; default: what the run has measured");
+  add_run_option(command, options->run);
+  command.add_option("--params", options->params, "Parameter file; default: the run's adopted model, or the built-in parameters");
+  command.add_option("--out", options->out, "Folder; families.toml in it may be edited, then call again")->capture_default_str();
+  command.add_option("--fidelity", options->fidelity, "Size of the specimens; default: the run's, or full");
+  command.add_option("--samples", options->samples, "Patterns of a family (thesis: 2000 to 3000 around each seed)")
+      ->check(CLI::Range(4, 100'000))
+      ->capture_default_str();
+  command.add_option("--rank", options->rank, "Near-Pareto: non-dominated up to this rank")->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--calibration", options->calibration, "Evaluations of a family's own calibration; 0: none")
+      ->check(CLI::Range(0, 100'000))
+      ->capture_default_str();
+  command.add_option("--numerics-floor", options->numerics_floor, "Default: data/numerics_floor.toml");
+  command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli
