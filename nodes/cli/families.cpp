@@ -127,7 +127,7 @@ void simulate(const std::string& task, const std::vector<Pattern>& patterns, con
     wanted.emplace_back().design = pattern;
     wanted.back().modulus_count = wanted.back().toughness_count = 1;
   }
-  Progress progress(task, static_cast<std::int64_t>(wanted.size()));
+  Progress progress(task, 2 * static_cast<std::int64_t>(wanted.size()));  // both tests
   const auto predictions = sysid::predict({parameters}, wanted, simulator, [&] { progress.advance(); }).front();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (predictions[i].modulus_pa && predictions[i].toughness_pa)

@@ -215,6 +215,33 @@ TEST_F(CommandLine, CalibrateFindsTheModulusOfASetAndWritesParametersThatSimulat
   EXPECT_EQ(run_nacre({"simulate", "soft", "--fidelity", "tiny", "--params", path("p.toml")}).status, 0);
 }
 
+TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
+  const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\n");
+  ASSERT_EQ(run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "577fffe9fffdef", "3ffc9b4ad4d2d9"}).status, 0);
+  const std::vector<std::string> command = {"families", path("set"),     "--fidelity", "tiny", "--samples", "40",
+                                            "--rank",   "5",             "--calibration", "2", "--out",     path("found"),
+                                            "--json"};
+  const Outcome outcome = run_nacre(command);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto document = nlohmann::json::parse(outcome.out);
+  std::size_t seeds = 0;
+  for (const auto& family : document) {
+    EXPECT_GE(family["samples"].get<int>(), 40);
+    for (const auto& map : family["maps"]) {
+      EXPECT_TRUE(fs::exists(path("found/" + family["name"].get<std::string>() + "/" + map["seed"].get<std::string>() + ".csv")));
+      ++seeds;
+    }
+  }
+  EXPECT_EQ(seeds, 2U);
+  const Outcome again = run_nacre(command);  // from what it kept
+  EXPECT_EQ(again.out, outcome.out);
+  file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577fffe9fffdef\"]\n");
+  const Outcome edited = run_nacre(command);
+  EXPECT_EQ(nlohmann::json::parse(edited.out).at(0)["name"], "mine");
+  file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577\"]\n");
+  expect_refused(run_nacre(command), {"families.toml:3", "577"});
+}
+
 TEST_F(CommandLine, MeasurementSetsThatCannotBeUsedAreRefusedWithTheirPlace) {
   const std::string head = "specimen,pattern,test,modulus_pa,toughness_pa,curve\n";
   const auto calibrate = [&](const std::string& set) {
