@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "base/files.hpp"
+#include "base/parallel.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "crack/mechanisms.hpp"
 #include "explore/gamut_csv.hpp"
 #include "families/dense_sampling.hpp"
+#include "families/evidence.hpp"
 #include "families/grouping.hpp"
 #include "families/subfamily.hpp"
 #include "laboratory_view.hpp"
@@ -42,6 +45,7 @@ struct Options {
   int samples = 300;
   int rank = 2;
   int calibration = 25;
+  int cracks = 60;
   std::uint64_t seed = 1;
   bool json = false;
 };
@@ -170,6 +174,66 @@ sysid::PredictionErrors own_errors(const Family& family, const Beginning& beginn
   return sysid::prediction_errors(own, sysid::predict({parameters}, own, simulator).front());
 }
 
+/// One pattern whose crack was looked at.
+struct Cracked {
+  Pattern pattern;
+  double modulus_pa = 0.0, toughness_pa = 0.0;
+  crack::Mechanisms mechanisms;
+};
+
+/// The first `count` members, seeds among them, broken once more for their cracks.
+std::vector<Cracked> broken(const std::string& task, const std::vector<Pattern>& members, int count,
+                            const material::ParameterSet& parameters, tester::Fidelity fidelity,
+                            const Performances& performances) {
+  const int wanted = std::min(count, static_cast<int>(members.size()));
+  std::vector<std::optional<Cracked>> found(static_cast<std::size_t>(wanted));
+  Progress progress(task, wanted);
+  parallel_for(wanted, [&](int i) {
+    const auto index = static_cast<std::size_t>(i);
+    const auto known = performances.find(members[index]);
+    const tester::Simulation simulation{members[index], parameters, {}, fidelity};
+    const auto result = tester::test_toughness(simulation);
+    if (result && known != performances.end())
+      found[index] = {members[index], known->second.modulus_pa, result->toughness_pa,
+                      crack::mechanisms_of(simulation, crack::record_of(simulation, result->breaks))};
+    progress.advance();
+  });
+  std::vector<Cracked> all;
+  for (const std::optional<Cracked>& each : found)
+    if (each) all.push_back(*each);
+  return all;
+}
+
+/// mechanisms.csv, and what goes with T when rigid fraction and E are held: evidence, not cause.
+nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked, const std::filesystem::path& file,
+                                            std::uint64_t seed) {
+  std::string text = "pattern,rigid_fraction,modulus_pa,toughness_pa";
+  std::vector<families::Column> features, controls = {{"rigid_fraction", {}}, {"modulus_pa", {}}};
+  families::Column outcome{"toughness_pa", {}};
+  for (const crack::Mechanism& mechanism : crack::mechanism_names()) {
+    text += fmt::format(",{}", mechanism.name);
+    features.push_back({std::string(mechanism.name), {}});
+  }
+  for (const Cracked& each : cracked) {
+    text += fmt::format("\n{},{:.4f},{:.6g},{:.6g}", each.pattern.key(), each.pattern.rigid_fraction(), each.modulus_pa, each.toughness_pa);
+    controls[0].values.push_back(each.pattern.rigid_fraction());
+    controls[1].values.push_back(each.modulus_pa);
+    outcome.values.push_back(each.toughness_pa);
+    const auto values = crack::values_of(each.mechanisms);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      text += fmt::format(",{:.5g}", values[k]);
+      features[k].values.push_back(values[k]);
+    }
+  }
+  write_file_atomically(file, text + "\n");
+  nlohmann::ordered_json document = nlohmann::ordered_json::array();
+  if (cracked.size() < 20) return document;  // nothing could be said
+  for (const families::Association& each : families::associations(features, outcome, controls, seed))
+    document.push_back({{"mechanism", each.feature}, {"patterns", cracked.size()}, {"spearman_with_toughness", each.spearman},
+                        {"partial", each.partial}, {"p_family_wise", each.p_family_wise}});
+  return document;
+}
+
 /// Calibration, dense sampling and maps of one family, written into its folder.
 nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning, const Options& options,
                                 sysid::LocalSimulator& simulator) {
@@ -206,6 +270,9 @@ nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning
   explore::write_gamut_csv(folder / "gamut.csv", gamut);
   document["samples"] = gamut.size();
   document["maps"] = maps;
+  document["mechanisms"] = mechanisms_of_family(
+      broken(family.name + ": cracks", members, options.cracks, parameters, beginning.fidelity, performances),
+      folder / "mechanisms.csv", options.seed);
   return document;
 }
 
@@ -216,6 +283,10 @@ void print_family(const nlohmann::ordered_json& family) {
     fmt::print("  {}  {} sampled, {} interpolated (+{:.1f} %; thesis, Table A.7: 4.5 %), map explains {:.1f} %\n",
                map["seed"].get<std::string>(), map["sampled"].get<int>(), map["interpolated"].get<int>(),
                100.0 * map["growth"].get<double>(), 100.0 * (1.0 - map["residual_variance"].get<double>()));
+  for (const auto& found : family["mechanisms"])
+    fmt::print("  {:<11} goes with toughness at equal rigid fraction and modulus: {:+.2f} (p {:.3f}, {} patterns)\n",
+               found["mechanism"].get<std::string>(), found["partial"].get<double>(), found["p_family_wise"].get<double>(),
+               found["patterns"].get<int>());
 }
 
 int find_families(const Options& options) {
@@ -262,6 +333,9 @@ void add_families(CLI::App& app, Action& action) {
       ->capture_default_str();
   command.add_option("--rank", options->rank, "Near-Pareto: non-dominated up to this rank")->check(CLI::Range(1, 100))->capture_default_str();
   command.add_option("--calibration", options->calibration, "Evaluations of a family's own calibration; 0: none")
+      ->check(CLI::Range(0, 100'000))
+      ->capture_default_str();
+  command.add_option("--cracks", options->cracks, "Patterns of a family whose cracks are looked at; from 20 on mechanisms are compared")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor, "Default: data/numerics_floor.toml");

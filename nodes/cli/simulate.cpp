@@ -10,6 +10,7 @@
 #include "base/processor_time.hpp"
 #include "command.hpp"
 #include "crack/crack_record.hpp"
+#include "crack/mechanisms.hpp"
 #include "film/film_file.hpp"
 #include "film_files.hpp"
 #include "material/parameters.hpp"
@@ -44,6 +45,7 @@ struct Specimen {
   std::optional<Result<tester::ModulusResult>> modulus;
   std::optional<Result<tester::ToughnessResult>> toughness;
   std::optional<crack::Record> crack;
+  crack::Mechanisms mechanisms;
   double kernel_s = 0.0;  ///< processor time of the toughness test
 
   /// Why there is no number; empty when every test that was run succeeded.
@@ -102,6 +104,7 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
       specimen.kernel_s = processor_time_s() - begun_s;
       if (*specimen.toughness) {
         specimen.crack = crack::record_of(simulation, (*specimen.toughness)->breaks);
+        specimen.mechanisms = crack::mechanisms_of(simulation, *specimen.crack);
         if (options.wants_films()) film_specimen(specimen, simulation, options);
       }
     }
@@ -109,7 +112,7 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
   });
 }
 
-nlohmann::ordered_json to_json(const crack::Record& crack) {
+nlohmann::ordered_json to_json(const crack::Record& crack, const crack::Mechanisms& mechanisms) {
   nlohmann::ordered_json entry = {{"columns", crack.columns},
                                   {"rows", crack.rows},
                                   {"broken", crack.order.size()},
@@ -127,6 +130,9 @@ nlohmann::ordered_json to_json(const crack::Record& crack) {
     entry["crosses"] = crack.path->crosses;
     entry["path"] = crack.path->elements;
   }
+  const auto names = crack::mechanism_names();
+  const auto values = crack::values_of(mechanisms);
+  for (std::size_t k = 0; k < names.size(); ++k) entry["mechanisms"][std::string(names[k].name)] = values[k];
   entry["order"] = nlohmann::ordered_json::array();
   for (const tester::Break& broken : crack.order) entry["order"].push_back(broken.element);
   return entry;
@@ -152,7 +158,7 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
     entry["element_steps_per_s"] =
         static_cast<double>(result.steps) * static_cast<double>(result.element_count) / specimen.kernel_s;
   }
-  entry["crack"] = specimen.crack ? to_json(*specimen.crack) : nlohmann::ordered_json(nullptr);
+  entry["crack"] = specimen.crack ? to_json(*specimen.crack, specimen.mechanisms) : nlohmann::ordered_json(nullptr);
   return entry;
 }
 
