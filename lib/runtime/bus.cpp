@@ -1,6 +1,7 @@
 #include "runtime/bus.hpp"
 
 #include <arpa/inet.h>
+#include <linux/sock_diag.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -9,9 +10,11 @@
 #include <bit>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <filesystem>
 #include <utility>
 
 #include <lcm/lcm-cpp.hpp>
@@ -39,8 +42,14 @@ std::string escaped(const std::string& channel) {
 }  // namespace
 
 std::int64_t now_utime() {
+  static const ClockFault fault(faults_from_environment());
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();
+  return std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count() + fault.offset_us(steady_us());
+}
+
+std::int64_t steady_us() {
+  const auto since_start = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(since_start).count();
 }
 
 std::string bus_url(int port, bool lan) {
@@ -75,6 +84,22 @@ Result<void> check_multicast_route(int port, bool lan) {
       "multicast to {} stays on this machine, and the run spans hosts: run "
       "`ip route replace 224.0.0.0/4 dev INTERFACE` as root, INTERFACE the one to the other machines",
       kMulticastGroup);
+}
+
+std::int64_t dropped_by_system() {
+  // LCM does not show its sockets, so all of this process' datagram sockets are asked.
+  std::int64_t dropped = 0;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", unreadable)) {
+    const int fd = std::atoi(entry.path().filename().c_str());
+    int type = 0;
+    socklen_t length = sizeof type;
+    if (::getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &length) != 0 || type != SOCK_DGRAM) continue;
+    std::uint32_t memory[SK_MEMINFO_VARS] = {};
+    length = sizeof memory;
+    if (::getsockopt(fd, SOL_SOCKET, SO_MEMINFO, memory, &length) == 0) dropped += memory[SK_MEMINFO_DROPS];
+  }
+  return dropped;
 }
 
 /// LCM's callbacks only queue; everything else happens outside lcm's handle(), which an exception would leave unusable.
@@ -252,6 +277,7 @@ int Bus::receive_raw(int timeout_ms, const std::function<void(Datagram)>& handle
 }
 
 const BusCounters& Bus::counters() const { return state_->counters; }
+int Bus::queued() const { return static_cast<int>(state_->waiting.size()); }
 std::int64_t Bus::epoch() const { return state_->options.epoch; }
 
 }  // namespace nacre::runtime

@@ -15,8 +15,11 @@
 
 namespace nacre::runtime {
 
-/// Microseconds since 1970.
+/// Microseconds since 1970, as this machine's clock says: for people and for names, never for waiting.
 std::int64_t now_utime();
+
+/// Microseconds of a clock that nobody sets: for waiting.
+std::int64_t steady_us();
 
 /// `udpm://239.255.76.67:PORT?ttl=0&recv_buf_size=2097152`; ttl 1 when the run spans hosts of one network.
 std::string bus_url(int port, bool lan = false);
@@ -27,6 +30,9 @@ Result<std::string> multicast_source(int port);
 /// Whether multicast has a way: out of this process, for `lan` also out of this host. The error says which command
 /// mends it.
 Result<void> check_multicast_route(int port, bool lan = false);
+
+/// Datagrams for this process that the system dropped because a socket's buffer was full.
+std::int64_t dropped_by_system();
 
 struct BusOptions {
   std::string url;
@@ -82,6 +88,8 @@ class Bus {
   int receive_raw(int timeout_ms, const std::function<void(Datagram)>& handler, int wake_fd = -1, int limit = 256);
 
   const BusCounters& counters() const;
+  /// Datagrams that have arrived and were not handed over yet.
+  int queued() const;
   std::int64_t epoch() const;
 
  private:

@@ -34,8 +34,8 @@ Result<std::string> Endpoint::offer(const Message& message) {
 }
 
 void Endpoint::pump(int timeout_ms, const std::function<void(const Received&)>& handler) {
-  const std::int64_t end = now_utime() + std::int64_t{1000} * timeout_ms;
-  std::int64_t now = now_utime();
+  const std::int64_t end = steady_us() + std::int64_t{1000} * timeout_ms;
+  std::int64_t now = steady_us();
   do {
     for (const Message* message : outbox_.due(now)) bus_->publish(*message);
     const std::int64_t until = std::min(end, outbox_.next_due().value_or(end));
@@ -44,13 +44,13 @@ void Endpoint::pump(int timeout_ms, const std::function<void(const Received&)>& 
       handle(received);
       if (handler) handler(received);
     });
-    now = now_utime();
+    now = steady_us();
   } while (now < end);
 }
 
 bool Endpoint::deliver(double timeout_s, const std::function<void(const Received&)>& handler) {
-  const std::int64_t end = now_utime() + static_cast<std::int64_t>(1e6 * timeout_s);
-  while (outbox_.unacknowledged() > 0 && now_utime() < end) pump(20, handler);
+  const std::int64_t end = steady_us() + static_cast<std::int64_t>(1e6 * timeout_s);
+  while (outbox_.unacknowledged() > 0 && steady_us() < end) pump(20, handler);
   return outbox_.unacknowledged() == 0;
 }
 

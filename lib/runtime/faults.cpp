@@ -1,9 +1,12 @@
 #include "runtime/faults.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <utility>
+
+#include "runtime/bus.hpp"
 
 namespace nacre::runtime {
 namespace {
@@ -13,6 +16,15 @@ double share(std::string_view key, std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0 && value <= 1.0)) {
     throw InputError::format("NACRE_FAULTS: {}=\"{}\": expected a share from 0 to 1", key, text);
+  }
+  return value;
+}
+
+double seconds(std::string_view key, std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0 && value <= 1e8)) {
+    throw InputError::format("NACRE_FAULTS: {}=\"{}\": expected seconds from 0 to 1e8", key, text);
   }
   return value;
 }
@@ -37,9 +49,11 @@ void set(FaultSettings& settings, std::string_view key, std::string_view value) 
     settings.reorder = share(key, value);
   } else if (key == "corrupt") {
     settings.corrupt = share(key, value);
+  } else if (key == "clock") {
+    settings.clock_s = seconds(key, value);
   } else {
-    throw InputError::format("NACRE_FAULTS: unknown key \"{}\", expected seed, drop, duplicate, reorder or corrupt",
-                             key);
+    throw InputError::format(
+        "NACRE_FAULTS: unknown key \"{}\", expected seed, drop, duplicate, reorder, corrupt or clock", key);
   }
 }
 
@@ -60,6 +74,16 @@ FaultSettings parse_faults(std::string_view text) {
 FaultSettings faults_from_environment() {
   const char* text = std::getenv("NACRE_FAULTS");
   return text ? parse_faults(text) : FaultSettings{};
+}
+
+ClockFault::ClockFault(const FaultSettings& settings) : settings_(settings), start_us_(steady_us()) {}
+
+std::int64_t ClockFault::offset_us(std::int64_t steady_us) const {
+  if (settings_.clock_s == 0.0) return 0;
+  constexpr std::int64_t kPeriodUs = 2'000'000;
+  const std::int64_t period = (steady_us - start_us_) / kPeriodUs;
+  RandomStream random(settings_.seed, fmt::format("clock/{}/{}", program_invocation_short_name, period));
+  return static_cast<std::int64_t>(1e6 * random.uniform(-settings_.clock_s, settings_.clock_s));
 }
 
 FaultInjector::FaultInjector(const FaultSettings& settings, std::string_view node)

@@ -1,6 +1,8 @@
 #pragma once
-// Seeded faults on the receiving side: what a bad network does, reproducibly and on machines without packet filters.
+// Seeded faults: what a bad network does, on the receiving side, reproducibly and on machines without packet filters; and
+// a clock that somebody sets.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,14 +20,27 @@ struct FaultSettings {
   double duplicate = 0.0;
   double reorder = 0.0;
   double corrupt = 0.0;
+  double clock_s = 0.0;  ///< the clock jumps by up to so many seconds, forward or back
   bool any() const { return drop > 0 || duplicate > 0 || reorder > 0 || corrupt > 0; }
 };
 
-/// Reads "seed=7,drop=0.2,duplicate=0.05,reorder=0.05,corrupt=0.01". Throws InputError naming the key.
+/// Reads "seed=7,drop=0.2,duplicate=0.05,reorder=0.05,corrupt=0.01,clock=3600". Throws InputError naming the key.
 FaultSettings parse_faults(std::string_view text);
 
 /// The settings in NACRE_FAULTS; none when it is not set.
 FaultSettings faults_from_environment();
+
+/// A clock that is set now and then: by how much this process' clock is off.
+class ClockFault {
+ public:
+  explicit ClockFault(const FaultSettings& settings);
+  /// The offset some time after the process began: another one every two seconds. 0 without fault.
+  std::int64_t offset_us(std::int64_t steady_us) const;
+
+ private:
+  FaultSettings settings_;
+  std::int64_t start_us_;
+};
 
 /// A datagram on its way.
 struct Datagram {

@@ -124,6 +124,9 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   journal->warning_ = found.warning;
   journal->identity_ = found.identity;
   journal->writer_ = std::make_unique<LogWriter>(journal->path_, found.records);
+  journal->bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(journal->path_));
+  // What the process before wrote may not be on disk yet, and this one will call it known.
+  if (const auto on_disk = journal->writer_->sync(); !on_disk) throw InputError(on_disk.error().message);
   if (journal->identity_ == 0 || !journal->warning_.empty()) {
     // What a torn tail held may have been acknowledged (a disk that lies, a machine that failed): begin a new identity.
     journal->identity_ = now_utime;
@@ -143,6 +146,8 @@ Result<void> Journal::append(std::int64_t utime, std::string_view channel, std::
   Result<void> written = writer_->append(utime, channel, data);
   if (written) written = writer_->flush();
   if (written && to_disk) written = writer_->sync();
+  constexpr std::int64_t kRecordHeader = 28;
+  if (written) bytes_ += kRecordHeader + static_cast<std::int64_t>(channel.size() + data.size());
   return written;
 }
 

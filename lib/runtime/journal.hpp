@@ -39,6 +39,8 @@ class Journal {
   const std::filesystem::path& path() const { return path_; }
   /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off.
   std::int64_t identity() const { return identity_; }
+  /// Its length.
+  std::int64_t bytes() const { return bytes_; }
   /// What was cut off, as a sentence; empty when nothing was.
   const std::string& warning() const { return warning_; }
   /// Adds a record and flushes; `to_disk` also waits for the disk.
@@ -49,6 +51,7 @@ class Journal {
   std::unique_ptr<LogWriter> writer_;
   std::filesystem::path path_;
   std::int64_t identity_ = 0;
+  std::int64_t bytes_ = 0;
   std::string warning_;
   int lock_fd_ = -1;
 };

@@ -6,6 +6,7 @@
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_shell.hpp"
+#include "runtime/version.hpp"
 
 namespace nacre::runtime {
 
@@ -23,6 +24,7 @@ void add_node_options(CLI::App& app, NodeOptions& options) {
 int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
               const std::function<void(CLI::App&)>& add_options) {
   CLI::App app("nacre " + node);
+  app.set_version_flag("--version", version_in_words());
   NodeOptions options;
   options.node = node;
   add_node_options(app, options);
@@ -40,7 +42,7 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
     options.lan = scenario.hosts == "lan";
     NodeProgram program = make(options, scenario);
     if (options.threads == 0) options.threads = program.default_threads;
-    return run_node(std::move(options), std::move(program.core), std::move(program.work));
+    return run_node(std::move(options), std::move(program.core), std::move(program.work), program.executor);
   } catch (const InputError& problem) {
     std::cerr << node << ": " << problem.what() << '\n';
     return 2;

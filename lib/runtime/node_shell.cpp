@@ -84,17 +84,17 @@ class Eta {
 
 class NodeShell {
  public:
-  NodeShell(NodeOptions options, NodeCore& core, std::map<std::string, WorkFunction> work, TextLog& log)
-      : options_(std::move(options)), core_(core), log_(log), pool_(std::move(work), options_.threads, wake) {}
+  NodeShell(NodeOptions options, NodeCore& core, const MakeExecutor& executor, TextLog& log)
+      : options_(std::move(options)), core_(core), log_(log), executor_(executor(wake)) {}
 
   void start() {
     journal_ = Journal::open(options_.node_dir(), now_utime());
     if (!journal_->warning().empty()) problem(LogLevel::warning, journal_->warning());
     open_bus();
     resume();
-    next_status_ = now_utime();
+    next_status_ = steady_us();
     tick_period_us_ = static_cast<std::int64_t>(1e6 * core_.tick_period_s());
-    next_tick_ = now_utime() + tick_period_us_;
+    next_tick_ = steady_us() + tick_period_us_;
   }
 
   void run() {
@@ -103,14 +103,17 @@ class NodeShell {
           wait_ms(), [this](const Received& received) { handle(received); }, wake_fd);
       std::uint64_t count = 0;
       [[maybe_unused]] const ssize_t drained = ::read(wake_fd, &count, sizeof count);
-      for (FinishedWork& finished : pool_.finished()) take_result(std::move(finished));
-      if (tick_period_us_ > 0 && now_utime() >= next_tick_) tick();
+      for (const LogLine& line : executor_->take_log()) {
+        line.level >= LogLevel::warning ? problem(line.level, line.text) : log_.write(line.level, line.text);
+      }
+      for (FinishedWork& finished : executor_->finished()) take_result(std::move(finished));
+      if (tick_period_us_ > 0 && steady_us() >= next_tick_) tick();
       send_due();
-      if (now_utime() >= next_status_) publish_status();
+      if (steady_us() >= next_status_) publish_status();
     }
   }
 
-  bool busy() const { return pool_.pending() > 0; }
+  bool busy() const { return executor_->pending() > 0; }
 
  private:
   void open_bus() {
@@ -148,11 +151,11 @@ class NodeShell {
                                  agreed.error().message);
       }
     }
-    for (Compute& compute : fold.open_work()) pool_.start(std::move(compute));
+    for (Compute& compute : fold.open_work()) executor_->start(std::move(compute));
     carry_out(fold.take_unfinished());
     if (fold.inputs > 0) {
       log_.write(LogLevel::info, fmt::format("resumed from a journal of {} inputs; {} messages and {} works are open",
-                                             fold.inputs, outbox_.unacknowledged(), pool_.pending()));
+                                             fold.inputs, outbox_.unacknowledged(), executor_->pending()));
     }
   }
 
@@ -190,7 +193,7 @@ class NodeShell {
       inbox_.remember(hash);
       step(received.message);
     }
-    inbox_.owe(hash, now_utime());
+    inbox_.owe(hash, steady_us());
   }
 
   void handle_status(const Received& received) {
@@ -235,7 +238,7 @@ class NodeShell {
 
   void tick() {
     const std::int64_t now = now_utime();
-    next_tick_ = now + tick_period_us_;
+    next_tick_ = steady_us() + tick_period_us_;
     write_down(kTickChannel, pack({std::to_string(now)}));
     step(Tick{now});
   }
@@ -252,11 +255,11 @@ class NodeShell {
       offer(message);
     }
     for (Compute& compute : outputs.computes) {
-      if (!pool_.knows(compute.kind)) {
+      if (!executor_->knows(compute.kind)) {
         throw NodeFailure(fmt::format("the core asks for work of the unknown kind {} ({})", compute.kind, compute.id));
       }
       write_down(kComputeChannel, pack({compute.id, compute.kind, compute.spec}));
-      pool_.start(std::move(compute));
+      executor_->start(std::move(compute));
     }
   }
 
@@ -277,7 +280,7 @@ class NodeShell {
   }
 
   void send_due() {
-    const std::int64_t now = now_utime();
+    const std::int64_t now = steady_us();
     for (const Message* message : outbox_.due(now)) bus_->publish(*message);
     if (std::vector<std::string> hashes = inbox_.due(now); !hashes.empty()) {
       ack_t ack{};
@@ -288,7 +291,7 @@ class NodeShell {
   }
 
   void publish_status() {
-    const std::int64_t now = now_utime();
+    const std::int64_t now = steady_us();
     next_status_ = now + kStatusPeriodUs;
     const Status status = core_.status();
     const BusCounters& bus = bus_->counters();
@@ -296,7 +299,7 @@ class NodeShell {
     message.journal = journal_->identity();
     message.ready = heard_itself_;
     message.unacknowledged = outbox_.unacknowledged();
-    message.computing = pool_.pending();
+    message.computing = executor_->pending();
     message.finished = status.finished && message.unacknowledged == 0 && message.computing == 0;
     message.phase = status.phase;
     message.round = status.round;
@@ -308,12 +311,17 @@ class NodeShell {
     message.duplicates = inbox_.duplicates;
     message.rejected = bus.rejected();
     message.lost = bus.lost;
+    message.dropped = dropped_by_system();
+    message.queued = bus_->queued();
+    message.owed = static_cast<std::int32_t>(inbox_.owed());
+    message.journal_bytes = journal_->bytes();
+    message.work = executor_->standing();
     message.last_problem = last_problem_;
     bus_->publish({"STATUS", wire::encode(message)});
   }
 
   int wait_ms() const {
-    const std::int64_t now = now_utime();
+    const std::int64_t now = steady_us();
     std::int64_t until = std::min(now + kLongestWaitUs, next_status_);
     if (tick_period_us_ > 0) until = std::min(until, next_tick_);
     if (const auto due = outbox_.next_due()) until = std::min(until, *due);
@@ -328,7 +336,7 @@ class NodeShell {
   std::unique_ptr<Bus> bus_;
   Outbox outbox_;
   Inbox inbox_;
-  WorkPool pool_;
+  std::unique_ptr<Executor> executor_;
   std::set<std::string> asked_;  ///< ids of our own requests
   Eta eta_;
   std::string last_problem_;
@@ -347,7 +355,8 @@ class NodeShell {
 
 }  // namespace
 
-int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work) {
+int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work,
+             const MakeExecutor& executor) {
   prepare_process(options.follow_parent);
   if (options.run_id.empty()) options.run_id = std::filesystem::absolute(options.run_dir).lexically_normal().filename();
   std::error_code ignored;  // Journal::open says why the folder cannot be created
@@ -356,7 +365,10 @@ int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::
   int status = 0;
   bool busy = false;
   try {
-    NodeShell shell(options, *core, std::move(work), log);
+    const MakeExecutor threads = [&](std::function<void()> wake_up) {
+      return std::make_unique<WorkPool>(std::move(work), options.threads, std::move(wake_up));
+    };
+    NodeShell shell(options, *core, executor ? executor : threads, log);
     try {
       shell.start();
       log.write(LogLevel::info, fmt::format("{} of run {} listens", options.node, options.run_id));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/executor.hpp"
 #include "runtime/node_core.hpp"
 
 namespace CLI {
@@ -40,14 +41,16 @@ struct NodeOptions {
 /// Runs the node until SIGINT or SIGTERM. Journal and text log stand in RUN_DIR/nodes/NODE. Returns the exit status: 0
 /// stopped in order, 1 something failed while running (disk full, an output that breaks the rules), 2 bad input
 /// (journal damaged or in use, a core that no longer reproduces its journal, no multicast). The sentence goes to
-/// standard error and the text log.
-int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work);
+/// standard error and the text log. Long work is done by `executor`; without one, by `work` on threads of this process.
+int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work,
+             const MakeExecutor& executor = {});
 
 /// What a node's main makes of options and scenario.
 struct NodeProgram {
   std::unique_ptr<NodeCore> core;
   std::map<std::string, WorkFunction> work;
   int default_threads = 0;  ///< for long work when --threads is not given; 0 all allowed cores
+  MakeExecutor executor = {};  ///< instead of threads
 };
 using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scenario&)>;
 

@@ -94,7 +94,7 @@ Result<void> Recorder::pump(int timeout_ms) {
   state_->bus->receive_raw(timeout_ms, [&](const Datagram& datagram) {
     if (written) written = state_->record(datagram);
   });
-  const std::int64_t now = now_utime();
+  const std::int64_t now = steady_us();
   if (written && state_->unflushed && now >= state_->next_flush) {
     written = state_->writer->flush();
     state_->unflushed = false;

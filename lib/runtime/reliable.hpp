@@ -99,6 +99,7 @@ class Inbox {
   std::vector<std::string> due(std::int64_t now_us);
   std::optional<std::int64_t> next_due() const;
   std::size_t size() const { return known_.size(); }
+  std::size_t owed() const { return owed_.size(); }
   std::int64_t duplicates = 0;
 
  private:

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "base/result.hpp"
-#include "runtime/bus.hpp"
 #include "runtime/terminal.hpp"
 
 namespace nacre::runtime {
@@ -41,18 +40,34 @@ SupervisedNode::~SupervisedNode() {
   if (log_ != nullptr) std::fclose(log_);
 }
 
-void SupervisedNode::start() {
+void SupervisedNode::open_log() {
+  std::error_code unmade;  // shows as a log that cannot be opened
+  std::filesystem::create_directories(settings_.log_file.parent_path(), unmade);
+  log_ = std::fopen(settings_.log_file.c_str(), "ae");
   if (log_ == nullptr) {
-    std::error_code unmade;  // shows as a log that cannot be opened
-    std::filesystem::create_directories(settings_.log_file.parent_path(), unmade);
-    log_ = std::fopen(settings_.log_file.c_str(), "ae");
-    if (log_ == nullptr) {
-      throw InputError::format("{}: cannot be written: {}", settings_.log_file.string(), std::strerror(errno));
-    }
+    throw InputError::format("{}: cannot be written: {}", settings_.log_file.string(), std::strerror(errno));
   }
+}
+
+/// output.log becomes output.log.1, that one output.log.2, the oldest goes: a node that talks for weeks fills no disk.
+void SupervisedNode::rotate_log() {
+  constexpr long kLargest = 5 << 20;
+  constexpr int kOldFiles = 3;
+  if (std::ftell(log_) < kLargest) return;
+  std::fclose(log_);
+  log_ = nullptr;
+  const auto old = [&](int number) { return fmt::format("{}.{}", settings_.log_file.string(), number); };
+  std::error_code ignored;  // a file that cannot be renamed is written on
+  for (int number = kOldFiles - 1; number >= 1; --number) std::filesystem::rename(old(number), old(number + 1), ignored);
+  std::filesystem::rename(settings_.log_file, old(1), ignored);
+  open_log();
+}
+
+void SupervisedNode::start() {
+  if (log_ == nullptr) open_log();
   fmt::print(log_, "# {:%Y-%m-%dT%H:%M:%SZ} {}\n", fmt::gmtime(std::time(nullptr)), fmt::join(settings_.command, " "));
   std::fflush(log_);
-  started_utime_ = now_utime();
+  epoch_before_ = epoch_;
   process_ = std::make_unique<ChildProcess>(settings_.command);
   state_ = State::starting;
 }
@@ -64,7 +79,10 @@ std::vector<std::string> SupervisedNode::take_output() {
     fmt::print(log_, "{}\n", line);
     if (!line.empty()) last_line_ = line;
   }
-  if (!lines.empty()) std::fflush(log_);
+  if (!lines.empty()) {
+    std::fflush(log_);
+    rotate_log();
+  }
   return lines;
 }
 
@@ -125,10 +143,11 @@ std::optional<std::string> SupervisedNode::listen(Clock::time_point now) {
 }
 
 void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now) {
-  if (process_ && epoch < started_utime_) return;
-  // A late word of a process that has died.
+  // A late word of a process that has died. Not told by the time in it: clocks may be set.
+  if (process_ && epoch_before_ != 0 && epoch == epoch_before_) return;
   if (!process_ && state_ != State::stopped && !runs_elsewhere()) return;
   heard_ = now;
+  epoch_ = epoch;
   status_ = status;
   // A stopped node that speaks again runs elsewhere: started by hand, perhaps on another machine.
   if (status.finished) {

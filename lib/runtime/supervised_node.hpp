@@ -57,6 +57,8 @@ class SupervisedNode {
   NodeView view() const;
 
  private:
+  void open_log();
+  void rotate_log();
   std::string take_end(const ProcessEnd& end, Clock::time_point now);
   std::optional<std::string> listen(Clock::time_point now);
 
@@ -65,7 +67,8 @@ class SupervisedNode {
   State state_ = State::stopped;
   std::unique_ptr<ChildProcess> process_;
   std::FILE* log_ = nullptr;
-  std::int64_t started_utime_ = 0;
+  std::int64_t epoch_ = 0;         ///< last heard
+  std::int64_t epoch_before_ = 0;  ///< last heard of the process before
   std::optional<Clock::time_point> restart_at_;
   std::string last_line_;
   node_status_t status_{};

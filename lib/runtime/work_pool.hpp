@@ -7,28 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "base/result.hpp"
-#include "runtime/node_core.hpp"
+#include "runtime/executor.hpp"
 
 namespace nacre::runtime {
 
-/// What became of a Compute.
-struct FinishedWork {
-  Compute compute;
-  Result<std::string> result;  ///< the error: the function threw
-};
-
-class WorkPool {
+/// The executor of one machine. Work whose function throws is an error.
+class WorkPool : public Executor {
  public:
   /// `threads` 0: all allowed cores. `wake` is called from a worker whenever a result is ready.
   WorkPool(std::map<std::string, WorkFunction> functions, int threads, std::function<void()> wake);
   /// Work that is still running is left to the end of the process: it has no effects.
-  ~WorkPool();
-  bool knows(const std::string& kind) const;
-  void start(Compute compute);
-  std::vector<FinishedWork> finished();
-  /// Asked for and not yet collected by finished().
-  int pending() const;
+  ~WorkPool() override;
+  bool knows(const std::string& kind) const override;
+  void start(Compute compute) override;
+  std::vector<FinishedWork> finished() override;
+  int pending() const override;
 
  private:
   struct State;

@@ -54,8 +54,13 @@ nlohmann::ordered_json to_json(const std::string& node, const node_status_t& s) 
           {"duplicates", s.duplicates},
           {"rejected", s.rejected},
           {"lost", s.lost},
+          {"dropped", s.dropped},
           {"unacknowledged", s.unacknowledged},
+          {"queued", s.queued},
+          {"owed", s.owed},
           {"computing", s.computing},
+          {"journal_bytes", s.journal_bytes},
+          {"work", s.work},
           {"last_problem", s.last_problem}};
 }
 
@@ -74,8 +79,11 @@ void print_table(const RunAccess& run, const Statuses& statuses) {
                                  .restarts = 0,
                                  .problem = s.last_problem};
     fmt::print("{}\n", runtime::node_line(view, columns > 0 ? columns : 200));
-    fmt::print("{:18}received {}, published {}, sent again {}, repeated {}, rejected {}, lost {}, waiting for ACK {}\n",
-               "", s.received, s.published, s.retries, s.duplicates, s.rejected, s.lost, s.unacknowledged);
+    fmt::print("{:18}received {}, published {}, sent again {}, repeated {}, rejected {}, lost {}, dropped by the system {}\n",
+               "", s.received, s.published, s.retries, s.duplicates, s.rejected, s.lost, s.dropped);
+    fmt::print("{:18}queues: {} to read, {} to acknowledge, {} waiting for ACK, {} to compute; journal {:.1f} MB\n", "",
+               s.queued, s.owed, s.unacknowledged, s.computing, 1e-6 * static_cast<double>(s.journal_bytes));
+    if (!s.work.empty()) fmt::print("{:18}{}\n", "", s.work);
   }
 }
 
