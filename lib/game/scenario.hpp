@@ -31,6 +31,13 @@ struct ValidationSettings {
   bool operator==(const ValidationSettings&) const = default;
 };
 
+struct FarmSettings {
+  std::string executor = "local";          ///< local: threads of the farm's machine; slurm: tasks of a cluster
+  std::vector<std::string> slurm_options;  ///< further options of sbatch, e.g. "--partition=short"
+  int batch_s = 20;                        ///< work that one task is given, in seconds of one core
+  bool operator==(const FarmSettings&) const = default;
+};
+
 struct DiagnosisSettings {
   bool enabled = true;
   int discrimination_orders = 2;  ///< extra specimens a round that separate rival causes
@@ -57,6 +64,7 @@ struct Scenario {
   std::string benchmark_file;                          ///< homogeneous benchmark for l1 when mixtures are not measured
   std::string base_materials_file = "data/thesis/base_materials.csv";  ///< real measurements of round 0
   std::string numerics_floor_file = "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
+  FarmSettings farm;
   ProposalSettings proposal;
   ValidationSettings validation;
   DiagnosisSettings diagnosis;

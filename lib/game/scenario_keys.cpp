@@ -153,6 +153,41 @@ ScenarioKey mixtures_key() {
           }};
 }
 
+/// Options of sbatch: each begins with a dash and is one word for it, whatever it holds.
+std::optional<std::vector<std::string>> cluster_options(const toml::node& node) {
+  constexpr std::size_t kMost = 32, kLongest = 500;
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() > kMost) return std::nullopt;
+  std::vector<std::string> options;
+  for (const toml::node& element : *array) {
+    const auto option = element.value_exact<std::string>();
+    const bool is_option = option && option->starts_with("-") && option->size() <= kLongest &&
+                           std::none_of(option->begin(), option->end(), [](char c) { return c >= 0 && c < ' '; });
+    if (!is_option) return std::nullopt;
+    options.push_back(*option);
+  }
+  return options;
+}
+
+ScenarioKey cluster_options_key() {
+  return {"farm",
+          "slurm_options",
+          "further options of sbatch, such as \"--partition=short\"",
+          "an array of at most 32 texts that begin with a dash",
+          [](const toml::node& node, Scenario& scenario) {
+            const auto options = cluster_options(node);
+            if (options) scenario.farm.slurm_options = *options;
+            return options.has_value();
+          },
+          [](const Scenario& scenario) {
+            std::string list;
+            for (const std::string& option : scenario.farm.slurm_options) {
+              list += (list.empty() ? "" : ", ") + toml_string(option);
+            }
+            return "[" + list + "]";
+          }};
+}
+
 /// Run folders and messages carry the name.
 bool is_plain_name(const std::string& name) {
   constexpr std::size_t kLongest = 40;
@@ -186,6 +221,17 @@ std::vector<ScenarioKey> make_top_level_keys() {
                 at(&Scenario::base_materials_file)),
       file_name("", "numerics_floor_file", "how far two numerics of one truth differ: the floor of every diagnosis",
                 at(&Scenario::numerics_floor_file)),
+  };
+}
+
+std::vector<ScenarioKey> make_farm_keys() {
+  constexpr auto table = &Scenario::farm;
+  return {
+      choice("farm", "executor", "who simulates: threads of the farm's machine, or tasks of a Slurm cluster",
+             {"local", "slurm"}, at(table, &FarmSettings::executor)),
+      cluster_options_key(),
+      whole_number<int>("farm", "batch_s", "work that a task of the cluster is given, in seconds of one core", 1, 3600,
+                        at(table, &FarmSettings::batch_s)),
   };
 }
 
@@ -246,7 +292,7 @@ std::vector<ScenarioKey> make_remaining_keys() {
 
 std::vector<ScenarioKey> make_keys() {
   std::vector<ScenarioKey> keys = make_top_level_keys();
-  for (auto part : {make_proposal_keys(), make_validation_keys(), make_remaining_keys()}) {
+  for (auto part : {make_farm_keys(), make_proposal_keys(), make_validation_keys(), make_remaining_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;

@@ -6,6 +6,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "base/result.hpp"
+#include "store/database_care.hpp"
 
 namespace nacre::store {
 namespace {
@@ -99,6 +100,7 @@ SimulationCache::SimulationCache(const std::filesystem::path& path) : path_(path
   guarded(path_, [&] {
     database_ =
         std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
+    distrust(*database_);
     database_->exec("PRAGMA journal_mode = WAL");
     // A power cut may lose the newest answers, never the file; they would be simulated again.
     database_->exec("PRAGMA synchronous = NORMAL");
@@ -131,10 +133,10 @@ std::optional<CachedSimulation> SimulationCache::find(const std::string& key) co
   });
 }
 
-void SimulationCache::insert(const std::string& key, const CachedSimulation& answer) {
+bool SimulationCache::insert(const std::string& key, const CachedSimulation& answer) {
   const std::vector<float> curve = pack_curve(answer.curve);
   const std::lock_guard lock(mutex_);
-  guarded(path_, [&] {
+  return guarded(path_, [&] {
     SQLite::Statement insertion(*database_,
                                 "INSERT INTO simulation VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO NOTHING");
     insertion.bind(1, key);
@@ -146,7 +148,7 @@ void SimulationCache::insert(const std::string& key, const CachedSimulation& ans
     // A null pointer would be stored as NULL, not as an empty curve.
     const void* bytes = curve.empty() ? "" : static_cast<const void*>(curve.data());
     insertion.bind(7, bytes, static_cast<int>(curve.size() * sizeof(float)));
-    insertion.exec();
+    return insertion.exec() == 1;
   });
 }
 

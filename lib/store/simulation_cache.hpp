@@ -37,8 +37,9 @@ class SimulationCache {
   ~SimulationCache();
 
   std::optional<CachedSimulation> find(const std::string& key) const;
-  /// Keeps the first answer when the key is already there. Throws InputError when it cannot be written (disk full).
-  void insert(const std::string& key, const CachedSimulation& answer);
+  /// Keeps the first answer when the key is already there, and returns false then. Throws InputError when it cannot be
+  /// written (disk full).
+  bool insert(const std::string& key, const CachedSimulation& answer);
   /// Elements that failed in a toughness test, strains as float; nothing when they were not kept.
   std::optional<std::vector<tester::Break>> find_breaks(const std::string& key) const;
   void insert_breaks(const std::string& key, const std::vector<tester::Break>& breaks);

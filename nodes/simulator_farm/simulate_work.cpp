@@ -4,9 +4,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "base/result.hpp"
 #include "crack/crack_record.hpp"
 #include "film/film_file.hpp"
+#include "simulator_farm/batch_file.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/question.hpp"
 #include "tester/tester.hpp"
@@ -31,27 +34,39 @@ store::CachedSimulation failed(const Result<Tested>& result) {
   return answer;
 }
 
+/// Whether the cache holds all that is asked for beside the film.
+bool has_numbers(const store::SimulationCache& cache, const std::optional<store::CachedSimulation>& known,
+                 const AskedSimulation& asked) {
+  if (!known) return false;
+  return !known->failure.empty() || !asked.extras.fracture() || cache.find_breaks(asked.key).has_value();
+}
+
 /// Simulates and keeps what is asked for and not there yet.
-void simulate(store::SimulationCache& cache, const std::string& key, const tester::Simulation& simulation,
-              tester::TestKind test, const Extras& extras) {
-  const std::optional<store::CachedSimulation> known = cache.find(key);
-  if (test == tester::TestKind::modulus) {
-    if (known) return;
-    const auto result = tester::test_modulus(simulation);
+void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
+  const auto known = cache.find(asked.key);
+  if (has_numbers(cache, known, asked)) return;
+  const auto keep = [&](const store::CachedSimulation& answer) {
+    if (cache.insert(asked.key, answer) || known) return;
+    // Another farm with the same cache was faster; harmless, and worth knowing.
+    fmt::print(stderr, "simulation {} was done twice at the same time\n", asked.key);
+  };
+  if (asked.test == tester::TestKind::modulus) {
+    const auto result = tester::test_modulus(asked.simulation);
     store::CachedSimulation answer;
     if (result) answer.modulus_pa = result->modulus_pa;
-    return cache.insert(key, result ? answer : failed(result));
+    return keep(result ? answer : failed(result));
   }
-  if (known && (!known->failure.empty() || !extras.fracture() || cache.find_breaks(key))) return;
-  const auto result = tester::test_toughness(simulation);
-  cache.insert(key, result ? cached(*result) : failed(result));
-  if (result && extras.fracture()) cache.insert_breaks(key, result->breaks);
+  const auto result = tester::test_toughness(asked.simulation);
+  keep(result ? cached(*result) : failed(result));
+  if (result && asked.extras.fracture()) cache.insert_breaks(asked.key, result->breaks);
 }
+
+std::string film_name(const std::string& key) { return key + ".film"; }
 
 /// Makes the film of a specimen whose answer is known, unless it is there. Gives the file's name.
 std::string filmed(const std::filesystem::path& folder, const std::string& key, const tester::Simulation& simulation,
                    const store::CachedSimulation& answer, const std::vector<tester::Break>& breaks) {
-  const std::string name = key + ".film";
+  const std::string name = film_name(key);
   if (std::filesystem::exists(folder / name)) return name;
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
@@ -62,7 +77,10 @@ std::string filmed(const std::filesystem::path& folder, const std::string& key, 
   known.breaks = breaks;
   const Result<film::Film> film = film::record_film(simulation, known);
   if (!film) throw std::logic_error("a specimen broke and cannot be filmed: " + film.error().message);
-  film::write_film(folder / name, *film);
+  // Under a name of this process' own first: two tasks of a cluster may be making the same film.
+  const std::filesystem::path aside = folder / (name + "." + own_name());
+  film::write_film(aside, *film);
+  std::filesystem::rename(aside, folder / name);
   return name;
 }
 
@@ -74,44 +92,55 @@ wire::Fracture fracture_of(const tester::Simulation& simulation, std::vector<tes
   return fracture;
 }
 
-std::string work(store::SimulationCache& cache, const std::filesystem::path& films, const std::string& spec) {
+}  // namespace
+
+AskedSimulation asked_in(const std::string& spec) {
   const auto question = wire::read<wire::SimulateRequest>(spec);
   if (!question || question->designs.size() != 1 || tests_of(*question).size() != 1) {
     throw std::logic_error("the spec of a simulation is not one question: " +
                            (question ? spec : question.error().message));
   }
-  const pattern::Design& design = question->designs.front();
-  const tester::TestKind test = tests_of(*question).front();
-  const tester::Simulation simulation = simulation_of(*question, design);
-  const std::string key = tester::simulation_key(simulation, test);
-  const Extras extras = wanted_extras(*question, test);
-  simulate(cache, key, simulation, test, extras);
+  AskedSimulation asked;
+  asked.test = tests_of(*question).front();
+  asked.simulation = simulation_of(*question, question->designs.front());
+  asked.key = tester::simulation_key(asked.simulation, asked.test);
+  asked.extras = wanted_extras(*question, asked.test);
+  return asked;
+}
+
+bool is_known(const store::SimulationCache& cache, const std::filesystem::path& films, const AskedSimulation& asked) {
+  const auto known = cache.find(asked.key);
+  if (!has_numbers(cache, known, asked)) return false;
+  return !known->failure.empty() || !asked.extras.film || std::filesystem::exists(films / film_name(asked.key));
+}
+
+std::string simulate_work(store::SimulationCache& cache, const std::filesystem::path& films, const std::string& spec) {
+  const AskedSimulation asked = asked_in(spec);
+  simulate(cache, asked);
   // Out of the cache even when just simulated: curves are stored as floats, and an answer must not depend on who asked
   // first.
-  store::CachedSimulation known = cache.find(key).value();
+  store::CachedSimulation known = cache.find(asked.key).value();
   Answer answer;
-  if (known.failure.empty() && extras.fracture()) {
-    const std::vector<tester::Break> breaks = cache.find_breaks(key).value();
-    answer.fracture = fracture_of(simulation, breaks);
-    if (extras.film) answer.fracture->film = filmed(films, key, simulation, known, breaks);
+  if (known.failure.empty() && asked.extras.fracture()) {
+    const std::vector<tester::Break> breaks = cache.find_breaks(asked.key).value();
+    answer.fracture = fracture_of(asked.simulation, breaks);
+    if (asked.extras.film) answer.fracture->film = filmed(films, asked.key, asked.simulation, known, breaks);
   }
-  answer.design = {.design = design,
+  answer.design = {.design = asked.simulation.design,
                    .failure = std::move(known.failure),
                    .modulus_pa = known.modulus_pa,
                    .toughness_pa = known.toughness_pa,
                    .peak_stress_pa = known.peak_stress_pa,
                    .failure_strain = known.failure_strain,
                    .curve = {}};
-  if (extras.curve) answer.design.curve = std::move(known.curve);
+  if (asked.extras.curve) answer.design.curve = std::move(known.curve);
   return write_answer(answer);
 }
-
-}  // namespace
 
 std::map<std::string, runtime::WorkFunction> work_functions(std::shared_ptr<store::SimulationCache> cache,
                                                             std::filesystem::path films) {
   return {{"simulate", [cache = std::move(cache), films = std::move(films)](const std::string& spec) {
-             return work(*cache, films, spec);
+             return simulate_work(*cache, films, spec);
            }}};
 }
 

@@ -7,9 +7,26 @@
 #include <string>
 
 #include "runtime/node_core.hpp"
+#include "simulator_farm/question.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre::simulator_farm {
+
+/// The question in the spec of a Compute of the kind "simulate". Throws std::logic_error when it is none.
+struct AskedSimulation {
+  tester::Simulation simulation;
+  tester::TestKind test = tester::TestKind::modulus;
+  std::string key;  ///< simulation_key
+  Extras extras;
+};
+AskedSimulation asked_in(const std::string& spec);
+
+/// Whether simulate_work() answers out of cache and film folder, without a simulation.
+bool is_known(const store::SimulationCache& cache, const std::filesystem::path& films, const AskedSimulation& asked);
+
+/// Answers a spec: simulates what the cache does not know yet, keeps it there, and writes the Answer (question.hpp)
+/// from what is kept.
+std::string simulate_work(store::SimulationCache& cache, const std::filesystem::path& films, const std::string& spec);
 
 /// Kind "simulate": the spec is the payload of a SIMULATE with one design and one test, the result an Answer
 /// (question.hpp). Films are written into the folder `films`, as SIMULATION_KEY.film; one that is there already is not

@@ -59,8 +59,10 @@ PlayedGame::PlayedGame(const fs::path& scenario, const fs::path& logs, const std
   ::unsetenv("NACRE_FAULTS");
 }
 
-PlayedGame::PlayedGame(const fs::path& run)
-    : folder_(run), process_({program("nacre"), "launch", "--resume", run.string()}) {}
+PlayedGame::PlayedGame(const fs::path& run, const std::string& faults)
+    : folder_(run), process_(with_faults(faults, {program("nacre"), "launch", "--resume", run.string()})) {
+  ::unsetenv("NACRE_FAULTS");
+}
 
 void PlayedGame::play_on() { wait_until_said(process_, "\n\n\n", said_, kTurnS); }
 

@@ -25,7 +25,7 @@ class PlayedGame {
              const std::string& faults = "");
 
   /// `nacre launch --resume` of a game that was stopped.
-  explicit PlayedGame(const std::filesystem::path& run);
+  explicit PlayedGame(const std::filesystem::path& run, const std::string& faults = "");
 
   /// Plays on for about 20 ms, keeping what the launcher says.
   void play_on();

@@ -1,0 +1,46 @@
+#pragma once
+// What goes to a task of a cluster and what comes back, as files.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "store/simulation_cache.hpp"
+
+namespace nacre::simulator_farm {
+
+/// Questions that one task answers: specs of Computes of the kind "simulate".
+struct Batch {
+  std::filesystem::path films;  ///< folder for films
+  std::vector<std::string> specs;
+};
+
+/// What a task adds to the farm's cache for one question.
+struct BatchRecord {
+  std::string key;  ///< simulation_key
+  store::CachedSimulation answer;
+  std::optional<std::vector<tester::Break>> breaks;
+  double seconds = 0.0;  ///< of the task's time
+  bool operator==(const BatchRecord&) const = default;
+};
+
+/// Bytes of a batch file, closed by a checksum; they carry the version of the kernel that is to answer.
+std::string write_batch(const Batch& batch);
+/// The error: damaged, or meant for another version of the kernel.
+Result<Batch> read_batch(std::string_view bytes);
+
+/// The batch's name: the hash of its bytes. A batch that is given out twice is the same batch.
+std::string batch_name(std::string_view bytes);
+
+/// Bytes of the answer to the batch of that name, closed by a checksum. Curves keep the precision of the cache (float).
+std::string write_batch_result(std::string_view batch, const std::vector<BatchRecord>& records);
+/// The error: damaged, the answer to another batch, or by another version of the kernel.
+Result<std::vector<BatchRecord>> read_batch_result(std::string_view bytes, std::string_view batch);
+
+/// HOST-PID: keeps apart what several processes write beside a file before they rename it.
+std::string own_name();
+
+}  // namespace nacre::simulator_farm

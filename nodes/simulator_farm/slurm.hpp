@@ -1,0 +1,53 @@
+#pragma once
+// The three things that are said to Slurm: take these tasks, how do they stand, which version are you. Commands run
+// beside the caller, so that a controller that does not answer holds up nothing else.
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.hpp"
+#include "runtime/process.hpp"
+#include "simulator_farm/batch_plan.hpp"
+
+namespace nacre::simulator_farm {
+
+/// A command on its way. Given up after `limit_s`.
+class RunningCommand {
+ public:
+  /// A program that cannot be started is an answer with exit status 127.
+  RunningCommand(const std::vector<std::string>& command, double now_s, double limit_s = 60.0);
+  /// What it printed and how it ended; nothing while it runs.
+  std::optional<runtime::ProgramAnswer> poll(double now_s);
+
+ private:
+  std::unique_ptr<runtime::ChildProcess> process_;
+  std::string output_;
+  double end_s_;
+};
+
+/// An array of tasks that is submitted at once.
+struct Wave {
+  std::string name;  ///< of the job
+  int tasks = 0;     ///< numbered from 0
+  std::filesystem::path script;
+  std::filesystem::path folder;      ///< working folder, and where TASK.log is written
+  std::vector<std::string> options;  ///< further options of sbatch
+};
+std::vector<std::string> submission(const Wave& wave);
+
+/// The command that lists tasks of jobs with these names.
+std::vector<std::string> listing(const std::vector<std::string>& names);
+
+/// The answer to listing(): tasks that Slurm still has, by job name and number.
+using Listing = std::map<std::pair<std::string, int>, TaskState>;
+Listing read_listing(const std::string& output);
+
+/// `text` as one word for a POSIX shell.
+std::string quoted_for_shell(const std::string& text);
+
+}  // namespace nacre::simulator_farm

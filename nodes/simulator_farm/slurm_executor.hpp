@@ -1,0 +1,131 @@
+#pragma once
+// The farm's executor on a Slurm cluster: questions that the cache does not answer go out in batches, a task of a job
+// array each. What is done is what has come back and lies in the cache, whatever Slurm says.
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "runtime/executor.hpp"
+#include "simulator_farm/batch_plan.hpp"
+#include "simulator_farm/slurm.hpp"
+#include "simulator_farm/spool.hpp"
+#include "store/simulation_cache.hpp"
+
+namespace nacre::simulator_farm {
+
+struct SlurmSettings {
+  std::filesystem::path spool;            ///< RUN/slurm, seen by every machine of the cluster under the same path
+  std::filesystem::path films;            ///< RUN/films
+  std::filesystem::path program;          ///< of the tasks: this one
+  std::vector<std::string> options = {};  ///< further options of sbatch
+  double batch_s = 20.0;
+  double gather_s = 0.2;  ///< questions that come within this time may share a batch
+  double poll_s = 5.0;    ///< between two looks at Slurm's list
+  Patience patience = {};
+  int most_attempts = 5;  ///< of one question alone, then the farm stops and says why
+};
+
+/// What has happened so far; for people.
+struct SlurmCounters {
+  int batches = 0, tasks = 0;  ///< given out: once each, and all in all
+  int lost = 0;                ///< tasks that ended without a result, or fell silent
+  int refused = 0;             ///< submissions that Slurm did not take
+  int duplicates = 0;          ///< results of batches that were over
+  int damaged = 0;             ///< results that could not be used
+};
+
+/// Executor of the kind "simulate". All files and commands are dealt with on a thread of its own.
+class SlurmExecutor : public runtime::Executor {
+ public:
+  SlurmExecutor(std::shared_ptr<store::SimulationCache> cache, SlurmSettings settings, std::function<void()> wake);
+  /// Tasks that were given out go on: whoever opens the spool next takes their results.
+  ~SlurmExecutor() override;
+  bool knows(const std::string& kind) const override { return kind == "simulate"; }
+  void start(runtime::Compute compute) override;
+  std::vector<runtime::FinishedWork> finished() override;
+  int pending() const override;
+  std::vector<runtime::LogLine> take_log() override;
+  std::string standing() const override;
+
+ private:
+  /// A question with everybody who waits for it (after a restart: nobody yet).
+  struct Question {
+    std::string spec;
+    std::optional<runtime::Compute> compute;
+    int attempts = 0;  ///< batches it was lost with
+  };
+  struct InFlight {
+    std::vector<Question> questions;
+    std::vector<Task> tasks;  ///< that it was given to
+    BatchWatch watch;
+  };
+  struct Submission {
+    std::string wave;
+    std::vector<std::string> batches;
+    RunningCommand command;
+  };
+
+  void run();
+  void turn();
+  void adopt_spool();
+  void take_new();
+  void sort_question(Question question);
+  void answer(const runtime::Compute& compute);
+  void take_results();
+  void take_result(const std::string& batch);
+  void look_at_slurm();
+  void take_listing(const Listing& listing);
+  void give_again(const std::string& batch);
+  void cut_batches();
+  void put_batch(std::vector<Question> questions);
+  void submit();
+  void take_submission(const runtime::ProgramAnswer& answer);
+  void say(runtime::LogLevel level, std::string text);
+  void finish(runtime::FinishedWork work);
+  void give_up(const std::string& reason);
+  double now_s() const;
+
+  // Shared with the shell's thread.
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<runtime::Compute> new_;
+  std::vector<runtime::FinishedWork> finished_;
+  std::vector<runtime::LogLine> log_;
+  std::string standing_;
+  int pending_ = 0;
+  bool stopping_ = false;
+
+  // Of the executor's own thread.
+  std::shared_ptr<store::SimulationCache> cache_;
+  SlurmSettings settings_;
+  std::function<void()> wake_;
+  Spool spool_;
+  std::string job_prefix_;
+  CostEstimate costs_;
+  std::deque<Question> waiting_;
+  double waiting_since_s_ = 0.0;
+  std::map<std::string, InFlight> in_flight_;  ///< by batch
+  std::map<std::string, std::string> batch_of_spec_;
+  std::deque<std::string> to_submit_;
+  std::optional<Submission> submission_;
+  std::optional<RunningCommand> listing_;
+  std::set<std::string> asked_batches_;  ///< whose tasks the listing on its way tells
+  int refusals_ = 0;                     ///< in a row
+  double next_submission_s_ = 0.0, next_listing_s_ = 0.0;
+  int next_wave_ = 1;
+  int silent_listings_ = 0;
+  SlurmCounters counters_;
+  std::thread thread_;
+};
+
+}  // namespace nacre::simulator_farm

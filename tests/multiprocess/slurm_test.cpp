@@ -1,0 +1,317 @@
+// The farm on a Slurm cluster: a loopback one, started for the test. Whatever happens to tasks, controller, node and
+// farm, every question is answered as threads of this machine answer it, to the last bit.
+
+#include <csignal>
+#include <fstream>
+#include <map>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include "base/files.hpp"
+#include "loopback_slurm.hpp"
+#include "material/parameters.hpp"
+#include "played_game.hpp"
+#include "program_test.hpp"
+#include "simulator_farm/question.hpp"
+#include "simulator_farm/simulate_work.hpp"
+#include "simulator_farm/slurm_executor.hpp"
+
+namespace nacre {
+namespace {
+
+using runtime::Compute;
+using simulator_farm::SlurmExecutor;
+using simulator_farm::SlurmSettings;
+
+constexpr double kPatienceS = 90.0;
+
+/// Questions of different kinds: two tests, with and without curve, crack, film.
+std::vector<Compute> questions(int designs) {
+  wire::SimulateRequest request;
+  request.request_id = "test/1";
+  request.fidelity = tester::Fidelity::tiny;
+  request.parameters = material::default_parameters();
+  std::vector<Compute> computes;
+  for (int i = 0; i < designs; ++i) {
+    const pattern::Design design = pattern::Mixture{(i + 1.0) / (designs + 1.0)};
+    for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness}) {
+      const bool is_toughness = test == tester::TestKind::toughness;
+      const simulator_farm::Extras extras{
+          .curve = is_toughness && i % 2 == 0, .crack = is_toughness && i % 3 == 0, .film = is_toughness && i % 4 == 0};
+      computes.push_back({fmt::format("q{}", computes.size()), "simulate",
+                          wire::write(simulator_farm::question_of(request, design, test, extras))});
+    }
+  }
+  return computes;
+}
+
+using Answers = std::map<std::string, std::string>;  ///< by id
+
+/// What threads of this machine say.
+Answers local_answers(const std::vector<Compute>& computes, const fs::path& folder) {
+  store::SimulationCache cache(folder / "simulations.db");
+  Answers answers;
+  for (const Compute& compute : computes) {
+    answers[compute.id] = simulator_farm::simulate_work(cache, folder / "films", compute.spec);
+  }
+  return answers;
+}
+
+/// Every value of every row of a table, as SQL writes it.
+std::vector<std::string> rows(const fs::path& database, const std::string& columns, const std::string& table) {
+  SQLite::Database db(database.string(), SQLite::OPEN_READONLY);
+  SQLite::Statement query(db, fmt::format("SELECT key, {} FROM {} ORDER BY key", columns, table));
+  std::vector<std::string> all;
+  while (query.executeStep()) all.push_back(query.getColumn(0).getString() + query.getColumn(1).getString());
+  return all;
+}
+
+class Cluster : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { slurm_ = std::make_unique<test::LoopbackSlurm>(fresh_folder("slurm")); }
+  static void TearDownTestSuite() { slurm_.reset(); }
+  void SetUp() override {
+    if (!slurm_->works()) GTEST_SKIP() << "NO SLURM HERE, NOTHING IS TESTED: " << slurm_->reason();
+    ASSERT_TRUE(slurm_->becomes_ready(30.0));
+    folder_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
+    open_cache();
+  }
+  void TearDown() override { executor_.reset(); }
+
+  void open_cache() { cache_ = std::make_shared<store::SimulationCache>(folder_ / "simulations.db"); }
+  /// Tasks that take `delay_s` longer than the simulations.
+  void open_executor(double delay_s = 0.0, double batch_s = 0.05) {
+    const fs::path program = folder_ / "slow_task";
+    std::ofstream(program) << fmt::format("#!/bin/sh\nsleep {}\nexec {} \"$@\"\n", delay_s,
+                                          nacre::program("nacre_simulator_farm"));
+    fs::permissions(program, fs::perms::owner_all);
+    executor_ = std::make_unique<SlurmExecutor>(cache_,
+                                                SlurmSettings{.spool = folder_ / "slurm",
+                                                              .films = folder_ / "films",
+                                                              .program = program,
+                                                              .batch_s = batch_s,
+                                                              .gather_s = 0.1,
+                                                              .poll_s = 0.5,
+                                                              .patience = {.listing_s = 1.0, .sign_s = 8.0}},
+                                                [] {});
+  }
+  void start(const std::vector<Compute>& computes) {
+    for (const Compute& compute : computes) executor_->start(compute);
+  }
+  /// Collects until `count` answers have come; `every_turn` is called meanwhile.
+  void collect(
+      std::size_t count, const std::function<void()>& every_turn = [] {}) {
+    EXPECT_TRUE(becomes_true(
+        [&] {
+          slurm_->mend_node();
+          every_turn();
+          take();
+          return answers_.size() >= count;
+        },
+        kPatienceS))
+        << answers_.size() << " of " << count << " answers; " << executor_->standing() << "\n"
+        << log_ << slurm_->standing();
+  }
+  bool stands(const std::string& words) const {
+    return becomes_true([&] { return executor_->standing().find(words) != std::string::npos; }, 5.0);
+  }
+  void take() {
+    for (runtime::FinishedWork& work : executor_->finished()) {
+      ASSERT_TRUE(work.result) << work.result.error().message;
+      EXPECT_TRUE(answers_.emplace(work.compute.id, *work.result).second) << work.compute.id << " is answered twice";
+    }
+    for (const runtime::LogLine& line : executor_->take_log()) log_ += line.text + "\n";
+  }
+  /// The tasks' processes at this moment.
+  std::vector<int> tasks() const {
+    std::vector<int> found = processes_with("/slow_task work --spool " + (folder_ / "slurm").string());
+    const auto working = processes_with("nacre_simulator_farm work --spool " + (folder_ / "slurm").string());
+    found.insert(found.end(), working.begin(), working.end());
+    return found;
+  }
+  void expect_answers_of_threads(const std::vector<Compute>& computes) {
+    const fs::path local = fresh_folder("local_" + folder_.filename().string());
+    EXPECT_EQ(answers_, local_answers(computes, local));
+    const std::string columns =
+        "failure || printf('|%!.17g|%!.17g|%!.17g|%!.17g|', modulus_pa, toughness_pa, peak_stress_pa, failure_strain) "
+        "|| hex(curve)";
+    EXPECT_EQ(rows(folder_ / "simulations.db", columns, "simulation"),
+              rows(local / "simulations.db", columns, "simulation"));
+    EXPECT_EQ(rows(folder_ / "simulations.db", "hex(pairs)", "breaks"),
+              rows(local / "simulations.db", "hex(pairs)", "breaks"));
+    for (const auto& film : fs::directory_iterator(local / "films")) {
+      EXPECT_EQ(read_file(film), read_file(folder_ / "films" / film.path().filename()));
+    }
+  }
+
+  static std::unique_ptr<test::LoopbackSlurm> slurm_;
+  fs::path folder_;
+  std::shared_ptr<store::SimulationCache> cache_;
+  std::unique_ptr<SlurmExecutor> executor_;
+  Answers answers_;
+  std::string log_;
+};
+
+std::unique_ptr<test::LoopbackSlurm> Cluster::slurm_;
+
+TEST_F(Cluster, AnswersAsThreadsDoToTheLastBit) {
+  const auto computes = questions(12);
+  open_executor();
+  start(computes);
+  collect(computes.size());
+  expect_answers_of_threads(computes);
+  EXPECT_TRUE(becomes_true([&] { return simulator_farm::Spool(folder_ / "slurm").batches().empty(); }, 5.0));
+}
+
+TEST_F(Cluster, WhatTheCacheKnowsNeedsNoTask) {
+  const auto computes = questions(4);
+  for (const Compute& compute : computes) simulator_farm::simulate_work(*cache_, folder_ / "films", compute.spec);
+  open_executor();
+  start(computes);
+  collect(computes.size());
+  EXPECT_TRUE(stands(" 0 tasks so far")) << executor_->standing();
+  expect_answers_of_threads(computes);
+}
+
+TEST_F(Cluster, KilledTasksAreGivenOutAgain) {
+  const auto computes = questions(4);
+  open_executor(1.0);
+  start(computes);
+  int killed = 0;
+  collect(computes.size(), [&] {
+    for (const int task : tasks()) {
+      if (killed < 4 && ::kill(task, SIGKILL) == 0) ++killed;
+    }
+  });
+  EXPECT_EQ(killed, 4);
+  EXPECT_THAT(log_, HasSubstr("it is given out again"));
+  expect_answers_of_threads(computes);
+}
+
+TEST_F(Cluster, AKilledControllerIsWaitedForAndTakesTasksWhenItIsBack) {
+  const auto computes = questions(6);
+  open_executor(0.5);
+  start({computes.begin(), computes.begin() + 6});
+  ASSERT_TRUE(becomes_true([&] { return !tasks().empty(); }, 20.0));
+  slurm_->kill_controller();
+  start({computes.begin() + 6, computes.end()});
+  ASSERT_TRUE(becomes_true([&] { return take(), log_.find("Slurm does not") != std::string::npos; }, 60.0)) << log_;
+  slurm_->start_controller();
+  EXPECT_TRUE(slurm_->becomes_ready(60.0));
+  collect(computes.size());
+  expect_answers_of_threads(computes);
+}
+
+TEST_F(Cluster, ANodeThatIsGoneIsWaitedForWithItsTasks) {
+  const auto computes = questions(4);
+  open_executor(1.0);
+  start(computes);
+  ASSERT_TRUE(becomes_true([&] { return !tasks().empty(); }, 20.0));
+  slurm_->kill_node();
+  for (const int task : tasks()) ::kill(task, SIGKILL);
+  for (const int step : processes_with("slurmstepd")) ::kill(step, SIGKILL);
+  ::usleep(2'000'000);
+  slurm_->start_node();
+  EXPECT_TRUE(slurm_->becomes_ready(60.0));
+  collect(computes.size());
+  expect_answers_of_threads(computes);
+}
+
+TEST_F(Cluster, ATaskThatStandsStillIsDoneByAnotherAndItsLateResultIsNotNeeded) {
+  const auto computes = questions(2);
+  open_executor(1.0, 10.0);
+  start(computes);
+  ASSERT_TRUE(becomes_true([&] { return !tasks().empty(); }, 20.0));
+  const std::vector<int> stopped = tasks();
+  for (const int task : stopped) ::kill(task, SIGSTOP);
+  collect(computes.size());
+  EXPECT_THAT(log_, HasSubstr("it is given out again"));
+  for (const int task : stopped) ::kill(task, SIGCONT);
+  EXPECT_TRUE(becomes_true([&] { return tasks().empty(); }, 20.0));
+  take();
+  EXPECT_EQ(answers_.size(), computes.size());
+  expect_answers_of_threads(computes);
+}
+
+TEST_F(Cluster, AResultThatComesTwiceOrDamagedChangesNothing) {
+  const auto computes = questions(2);
+  open_executor(2.0, 10.0);
+  start(computes);
+  const simulator_farm::Spool spool(folder_ / "slurm");
+  ASSERT_TRUE(becomes_true([&] { return !spool.batches().empty(); }, 20.0));
+  const std::string batch = spool.batches().front();
+  std::ofstream(spool.result(batch)) << "torn in two";
+  std::ofstream(spool.result("00000000000000000000000000000000")) << "nobody asked for this";
+  collect(computes.size());
+  EXPECT_THAT(log_, HasSubstr("it is asked for again"));
+  expect_answers_of_threads(computes);
+  EXPECT_TRUE(becomes_true([&] { return spool.results().empty(); }, 20.0));
+}
+
+TEST_F(Cluster, AFarmThatIsStartedAgainTakesTheTasksOfTheOneBefore) {
+  const auto computes = questions(4);
+  open_executor(2.0);
+  start(computes);
+  ASSERT_TRUE(becomes_true([&] { return tasks().size() >= 1; }, 20.0));
+  executor_.reset();
+  open_cache();
+  open_executor(2.0);
+  start(computes);  // what the journal calls open
+  collect(computes.size());
+  EXPECT_TRUE(stands(" 0 tasks so far")) << executor_->standing();
+  expect_answers_of_threads(computes);
+}
+
+TEST_F(Cluster, AQuestionThatKillsItsTasksStopsTheFarmWithTheReason) {
+  open_executor();
+  const fs::path program = folder_ / "slow_task";
+  std::ofstream(program) << "#!/bin/sh\necho cannot load this library >&2\nexit 1\n";
+  start({questions(1).front()});
+  std::string said;
+  EXPECT_TRUE(becomes_true(
+      [&] {
+        for (const auto& work : executor_->finished()) said = work.result ? "answered" : work.result.error().message;
+        return !said.empty();
+      },
+      kPatienceS));
+  EXPECT_THAT(said, AllOf(HasSubstr("never came back"), HasSubstr("cannot load this library")));
+}
+
+constexpr const char* kGame = R"(
+name = "cluster"
+rounds = 1
+fidelity = "tiny"
+[proposal]
+samples = 10
+seeds = 1
+population = 5
+designs = 1
+[validation]
+random_patterns = 2
+replicates = 2
+calibration_evaluations = 3
+modulus_evaluations = 6
+mixtures = [0.5]
+[diagnosis]
+discrimination_orders = 0
+bootstraps = 1000
+)";
+
+TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
+  std::ofstream(folder_ / "threads.toml") << kGame;
+  std::ofstream(folder_ / "slurm.toml") << kGame << "[farm]\nexecutor = \"slurm\"\nbatch_s = 1\n";
+  std::map<std::string, SaidInGame> said;
+  for (const std::string executor : {"threads", "slurm"}) {
+    PlayedGame game(folder_ / (executor + ".toml"), folder_ / executor, "game");
+    ASSERT_TRUE(game.play_to_end(200.0)) << game.said();
+    ASSERT_EQ(game.status(), 0) << game.said();
+    said[executor] = on_channels(said_in_game(game.folder()), {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
+                                                               "MEASUREMENT", "DIAGNOSIS", "ROUND"});
+    EXPECT_FALSE(said[executor].empty());
+  }
+  EXPECT_THAT(differences(said["threads"], said["slurm"]), IsEmpty());
+}
+
+}  // namespace
+}  // namespace nacre
