@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "store/database_care.hpp"
 #include "store/run_schema.hpp"
 #include "wire/convert.hpp"
 
@@ -12,7 +13,7 @@ namespace nacre::store {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError::format("{} cannot be used: {}. It is made from the analyser's journal: move it away and start the run again with --resume", path.string(), reason);
+  throw InputError::format("{} cannot be used: {}. It is made from the analyser's journal: `nacre rebuild` makes it anew", path.string(), reason);
 }
 
 /// Binds values in order and runs the statement.
@@ -163,6 +164,7 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
 RunDatabase::RunDatabase(const std::filesystem::path& path) : path_(path) {
   try {
     database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 30'000);
+    distrust(*database_);
     database_->exec("PRAGMA journal_mode = WAL");
     const int version = database_->execAndGet("PRAGMA user_version").getInt();
     if (version == 0) {

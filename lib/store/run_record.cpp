@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/result.hpp"
+#include "store/database_care.hpp"
 
 namespace nacre::store {
 namespace {
@@ -169,6 +170,7 @@ void read_specimens(SQLite::Database& db, RunRecord& run) {
 RunRecord read_run_record(const std::filesystem::path& path) {
   try {
     SQLite::Database db(path.string(), SQLite::OPEN_READONLY, 10'000);
+    distrust(db);
     RunRecord run;
     read_summaries(db, run);
     read_model(db, run);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analyser/report.hpp"
+#include "analyser/run_tables.hpp"
 #include "base/files.hpp"
 #include "runtime/journal.hpp"
 #include "store/run_database.hpp"
@@ -18,7 +19,8 @@ std::string store_spec(const std::string& channel, const std::string& payload) {
 }
 
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir) {
-  const auto database = std::make_shared<store::RunDatabase>(run_dir / "run.db");
+  const std::shared_ptr<store::RunDatabase> database =
+      open_run_database(run_dir, [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); });
   return {
       {"store",
        [database](const std::string& spec) -> std::string {

@@ -44,5 +44,7 @@ void add_printed(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);
+void add_rebuild(CLI::App& app, Action& action);
+void add_backup(CLI::App& app, Action& action);
 
 }  // namespace nacre::cli

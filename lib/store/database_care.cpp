@@ -1,0 +1,151 @@
+#include "store/database_care.hpp"
+
+#include <functional>
+
+#include <SQLiteCpp/Backup.h>
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include "store/simulation_cache.hpp"
+
+namespace nacre::store {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kBusyTimeoutMs = 30'000;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw InputError::format("{}: cannot be used as a database: {}", path.string(), reason);
+}
+
+SQLite::Database opened(const fs::path& path) {
+  SQLite::Database database(path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+  distrust(database);
+  return database;
+}
+
+/// Rows of a query until they end or cannot be read.
+std::int64_t take_rows(SQLite::Database& from, const std::string& sql,
+                       const std::function<void(SQLite::Statement&)>& take) {
+  std::int64_t rows = 0;
+  try {
+    SQLite::Statement query(from, sql);
+    for (; query.executeStep(); ++rows) take(query);
+  } catch (const SQLite::Exception&) {
+    // A page that cannot be read: what lies on its other side is reached from the other end.
+  }
+  return rows;
+}
+
+/// Copies a table row by row, first from one end, then from the other.
+void salvage_table(SQLite::Database& from, SQLite::Database& to, const std::string& table, int columns) {
+  std::string places = "?";
+  for (int i = 1; i < columns; ++i) places += ",?";
+  SQLite::Statement insertion(to, "INSERT OR IGNORE INTO " + table + " VALUES (" + places + ")");
+  for (const char* direction : {"ASC", "DESC"}) {
+    take_rows(from, fmt::format("SELECT * FROM {} ORDER BY key {}", table, direction), [&](SQLite::Statement& row) {
+      insertion.reset();
+      for (int i = 0; i < columns; ++i) {
+        const SQLite::Column value = row.getColumn(i);
+        if (value.isFloat()) insertion.bind(i + 1, value.getDouble());
+        if (value.isText()) insertion.bind(i + 1, value.getString());
+        // A null pointer would be stored as NULL, not as an empty blob.
+        if (value.isBlob()) insertion.bind(i + 1, value.getBytes() > 0 ? value.getBlob() : "", value.getBytes());
+      }
+      try {
+        insertion.exec();
+      } catch (const SQLite::Exception&) {
+        // A row whose values are not what the schema asks for.
+      }
+    });
+  }
+}
+
+}  // namespace
+
+void distrust(SQLite::Database& database) {
+  constexpr int kLongestValue = 64 << 20;
+  sqlite3_limit(database.getHandle(), SQLITE_LIMIT_LENGTH, kLongestValue);
+  database.exec("PRAGMA trusted_schema = OFF");
+  database.exec("PRAGMA cell_size_check = ON");
+  const int strange = database
+                          .execAndGet(
+                              "SELECT count(*) FROM sqlite_schema WHERE type NOT IN ('table', 'index') OR "
+                              "sql LIKE '%VIRTUAL%' OR sql LIKE '%GENERATED%' OR sql LIKE '% AS (%'")
+                          .getInt();
+  if (strange != 0) throw SQLite::Exception("it holds views, triggers or computed columns, expected plain tables");
+}
+
+Result<void> check_database(const fs::path& path) {
+  if (!fs::exists(path)) return fail("{}: there is no such file", path.string());
+  try {
+    SQLite::Database database = opened(path);
+    const std::string verdict = database.execAndGet("PRAGMA integrity_check(1)").getString();
+    if (verdict != "ok") return fail("{}: is damaged: {}", path.string(), verdict);
+    return {};
+  } catch (const SQLite::Exception& error) {
+    return fail("{}: is damaged or no database: {}", path.string(), error.what());
+  }
+}
+
+int schema_version(const fs::path& path) {
+  try {
+    return opened(path).execAndGet("PRAGMA user_version").getInt();
+  } catch (const SQLite::Exception& error) {
+    refuse(path, error.what());
+  }
+}
+
+void copy_database(const fs::path& from, const fs::path& to) {
+  const fs::path aside = to.string() + ".part";
+  std::error_code ignored;
+  fs::remove(aside, ignored);
+  try {
+    SQLite::Database source = opened(from);
+    {
+      SQLite::Database copy(aside.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+      SQLite::Backup backup(copy, source);
+      // All pages in one step: a copy in several begins anew whenever somebody writes between.
+      backup.executeStep(-1);
+    }
+    // The copy says WAL like its source; alone it is whole without a -wal file.
+    if (const auto whole = check_database(aside); !whole) refuse(from, whole.error().message);
+  } catch (const SQLite::Exception& error) {
+    fs::remove(aside, ignored);
+    refuse(from, error.what());
+  }
+  fs::rename(aside, to);
+  for (const char* companion : {"-wal", "-shm"}) fs::remove(aside.string() + companion, ignored);
+}
+
+fs::path move_aside(const fs::path& path) {
+  fs::path aside = path.string() + ".damaged";
+  for (int i = 2; fs::exists(aside); ++i) aside = fmt::format("{}.damaged-{}", path.string(), i);
+  std::error_code problem;
+  fs::rename(path, aside, problem);
+  if (problem) throw InputError::format("{}: cannot be moved aside: {}", path.string(), problem.message());
+  for (const char* companion : {"-wal", "-shm"})
+    fs::rename(path.string() + companion, aside.string() + companion, problem);
+  return aside;
+}
+
+Salvage salvage_simulations(const fs::path& from, const fs::path& to) {
+  if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new file", to.string());
+  { const SimulationCache makes_the_tables(to); }
+  try {
+    SQLite::Database damaged = opened(from);
+    SQLite::Database saved(to.string(), SQLite::OPEN_READWRITE);
+    SQLite::Transaction transaction(saved);
+    salvage_table(damaged, saved, "simulation", 7);
+    salvage_table(damaged, saved, "breaks", 2);
+    transaction.commit();
+    return {saved.execAndGet("SELECT count(*) FROM simulation").getInt64(),
+            saved.execAndGet("SELECT count(*) FROM breaks").getInt64()};
+  } catch (const SQLite::Exception& error) {
+    refuse(from, error.what());
+  }
+}
+
+}  // namespace nacre::store

@@ -1,0 +1,47 @@
+#pragma once
+// What every SQLite file of nacre needs: is it whole, a copy of it while others write, and what can still be read of a
+// damaged one.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "base/result.hpp"
+
+namespace SQLite {
+class Database;
+}
+
+namespace nacre::store {
+
+/// To be called on every file that is opened: it may come from elsewhere. Its schema is not trusted to call functions,
+/// values are at most 64 MiB, and views, triggers, virtual tables and generated columns, which ours never have and
+/// which could run for ever, are refused. Throws SQLite::Exception.
+void distrust(SQLite::Database& database);
+
+/// Reads every page of a database and every entry of its indices, without changing it. The error says what is wrong: no
+/// such file, no database, damaged.
+Result<void> check_database(const std::filesystem::path& path);
+
+/// PRAGMA user_version: which of our schemas the file has. Throws InputError when it cannot be read.
+int schema_version(const std::filesystem::path& path);
+
+/// Writes the database as it is at one moment to `to` (a new file, replaced whole), while others go on using it. Throws
+/// InputError.
+void copy_database(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Renames a damaged file, with its -wal and -shm, to FILE.damaged, FILE.damaged-2 ... and returns the new name. Throws
+/// InputError.
+std::filesystem::path move_aside(const std::filesystem::path& path);
+
+/// What was saved of a damaged cache of simulations.
+struct Salvage {
+  std::int64_t simulations = 0;
+  std::int64_t breaks = 0;
+};
+
+/// Copies every row that can still be read of a cache of simulations to a new cache. Throws InputError when `from` is
+/// no database at all or `to` exists.
+Salvage salvage_simulations(const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace nacre::store

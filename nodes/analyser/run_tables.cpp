@@ -1,0 +1,70 @@
+#include "analyser/run_tables.hpp"
+
+#include "base/result.hpp"
+#include "runtime/journal.hpp"
+#include "store/database_care.hpp"
+#include "store/run_schema.hpp"
+
+namespace nacre::analyser {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path journal_of(const fs::path& run_dir) { return run_dir / "nodes" / "analyser" / "journal.lcm"; }
+
+/// Projects every message that the journal says was to be kept, in its order.
+std::int64_t project_journal(const fs::path& journal, store::RunDatabase& database) {
+  std::int64_t messages = 0;
+  runtime::LogReader reader(journal);
+  while (const auto record = reader.next()) {
+    if (record->channel != runtime::kComputeChannel) continue;
+    const auto compute = runtime::unpack(record->data);
+    if (!compute || compute->size() != 3 || (*compute)[1] != "store") continue;
+    const auto message = runtime::unpack((*compute)[2]);
+    if (!message || message->size() != 2) continue;
+    database.project((*message)[0], (*message)[1]);
+    ++messages;
+  }
+  return messages;
+}
+
+/// Why the file cannot go on; empty when it can.
+std::string fault_of(const fs::path& file) {
+  if (!fs::exists(file)) return "it is missing";
+  if (const auto whole = store::check_database(file); !whole) return whole.error().message;
+  const int version = store::schema_version(file);
+  if (version == store::kRunSchemaVersion) return "";
+  return fmt::format("it has schema version {}, this program writes {}", version, store::kRunSchemaVersion);
+}
+
+}  // namespace
+
+std::int64_t rebuild_run_database(const fs::path& run_dir) {
+  const fs::path file = run_dir / "run.db", anew = run_dir / "run.db.part";
+  std::error_code ignored;
+  for (const char* companion : {"", "-wal", "-shm"}) fs::remove(anew.string() + companion, ignored);
+  std::int64_t messages = 0;
+  {
+    store::RunDatabase database(anew);
+    messages = project_journal(journal_of(run_dir), database);
+    database.checkpoint();
+  }
+  if (fs::exists(file)) store::move_aside(file);
+  fs::rename(anew, file);
+  return messages;
+}
+
+std::unique_ptr<store::RunDatabase> open_run_database(const fs::path& run_dir,
+                                                      const std::function<void(const std::string&)>& report) {
+  const fs::path file = run_dir / "run.db", journal = journal_of(run_dir);
+  if (fs::exists(journal) && fs::file_size(journal) > 0) {
+    if (const std::string fault = fault_of(file); !fault.empty()) {
+      const std::int64_t messages = rebuild_run_database(run_dir);
+      report(fmt::format("{}: {}; made anew from {} messages of the journal", file.string(), fault, messages));
+    }
+  }
+  return std::make_unique<store::RunDatabase>(file);
+}
+
+}  // namespace nacre::analyser

@@ -1,0 +1,23 @@
+#pragma once
+// run.db and the analyser's journal: the tables can always be made anew.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "store/run_database.hpp"
+
+namespace nacre::analyser {
+
+/// Makes RUN/run.db anew from RUN/nodes/analyser/journal.lcm; what stood there before is renamed first (to
+/// run.db.damaged). Nobody may be writing it. Returns the number of messages in it. Throws InputError.
+std::int64_t rebuild_run_database(const std::filesystem::path& run_dir);
+
+/// Opens RUN/run.db. Where a journal tells that messages were kept before and the file is missing, damaged or of
+/// another version, it is made anew first, which `report` is told. Throws InputError.
+std::unique_ptr<store::RunDatabase> open_run_database(const std::filesystem::path& run_dir,
+                                                      const std::function<void(const std::string&)>& report);
+
+}  // namespace nacre::analyser

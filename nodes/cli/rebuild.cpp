@@ -1,0 +1,112 @@
+// nacre rebuild: databases made anew. nacre backup: a copy of a run that plays.
+
+#include <filesystem>
+#include <string>
+
+#include "analyser/run_tables.hpp"
+#include "base/result.hpp"
+#include "command.hpp"
+#include "output.hpp"
+#include "run_access.hpp"
+#include "runtime/run_copy.hpp"
+#include "store/database_care.hpp"
+
+namespace nacre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RebuildOptions {
+  std::string run = "logs/latest";
+  std::string cache;
+  bool json = false;
+};
+
+/// The rows of a damaged cache that can be read, in a new file in its place.
+int rebuild_cache(const RebuildOptions& options) {
+  const fs::path file = options.cache;
+  if (store::check_database(file)) {
+    remark(fmt::format("{}: is whole; nothing to do", file.string()));
+    return 0;
+  }
+  const fs::path anew = file.string() + ".part";
+  std::error_code ignored;
+  fs::remove(anew, ignored);
+  const store::Salvage saved = store::salvage_simulations(file, anew);
+  const fs::path aside = store::move_aside(file);
+  fs::rename(anew, file);
+  if (options.json) {
+    print_json({{"database", file.string()},
+                {"simulations", saved.simulations},
+                {"breaks", saved.breaks},
+                {"damaged", aside.string()}});
+  } else {
+    fmt::print("{}: {} answers and {} cracks saved; the damaged file is {}\n", file.string(), saved.simulations,
+               saved.breaks, aside.string());
+  }
+  return 0;
+}
+
+int rebuild(const RebuildOptions& options) {
+  if (!options.cache.empty()) return rebuild_cache(options);
+  const RunAccess run = open_run(options.run);
+  if (runtime::node_runs(run.folder / "nodes" / "analyser")) {
+    throw InputError::format("{}: its analyser is at work; expected a run that does not play", run.folder.string());
+  }
+  const std::int64_t messages = analyser::rebuild_run_database(run.folder);
+  if (options.json) {
+    print_json({{"database", (run.folder / "run.db").string()}, {"messages", messages}});
+  } else {
+    fmt::print("{}: made anew from {} messages of the analyser's journal\n", (run.folder / "run.db").string(),
+               messages);
+  }
+  return 0;
+}
+
+struct BackupOptions {
+  std::string run = "logs/latest";
+  std::string to;
+  bool json = false;
+};
+
+int backup(const BackupOptions& options) {
+  const RunAccess run = open_run(options.run);
+  const fs::path to = fs::path(options.to) / run.manifest.run_id;
+  const runtime::RunCopy copy = runtime::copy_run(run.folder, to, store::copy_database);
+  const fs::path cache = run.folder.parent_path() / "simulations.db";
+  const bool has_cache = fs::exists(cache);
+  if (has_cache) store::copy_database(cache, fs::path(options.to) / "simulations.db");
+  if (options.json) {
+    print_json({{"run", to.string()},
+                {"files", copy.files},
+                {"journals", copy.journals},
+                {"bytes", copy.bytes},
+                {"simulations", has_cache}});
+  } else {
+    fmt::print("{}: {} files, {:.1f} MB; `nacre launch --resume {}` plays on from here\n", to.string(), copy.files,
+               1e-6 * static_cast<double>(copy.bytes), to.string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_rebuild(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RebuildOptions>();
+  CLI::App& command =
+      add_command(app, action, "rebuild",
+                  "Make a run's database anew from its journal, or save what a damaged cache holds", options, rebuild);
+  add_run_option(command, options->run);
+  command.add_option("--cache", options->cache, "A damaged simulations.db, instead of a run");
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+void add_backup(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<BackupOptions>();
+  CLI::App& command = add_command(app, action, "backup", "Copy a run, also while it plays", options, backup);
+  add_run_option(command, options->run);
+  command.add_option("--to", options->to, "Folder that gets RUN and simulations.db")->required();
+  command.add_flag("--json", options->json, "One JSON document on standard output");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,163 @@
+// Databases and journals of a run: copied while it plays, damaged, lost, made anew.
+
+#include <fstream>
+#include <memory>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analyser/run_tables.hpp"
+#include "played_game.hpp"
+#include "program_test.hpp"
+#include "runtime/run_copy.hpp"
+#include "store/database_care.hpp"
+#include "store/run_schema.hpp"
+
+namespace nacre {
+namespace {
+
+constexpr double kPatienceS = 240.0;
+constexpr const char* kGame = R"(
+name = "durable"
+rounds = 1
+fidelity = "tiny"
+[proposal]
+samples = 10
+seeds = 1
+population = 5
+designs = 1
+[validation]
+random_patterns = 2
+replicates = 2
+calibration_evaluations = 3
+modulus_evaluations = 6
+mixtures = [0.5]
+[diagnosis]
+discrimination_orders = 0
+bootstraps = 1000
+)";
+
+/// The whole content of a database as SQL.
+std::string content(const fs::path& database) {
+  SQLite::Database db(database.string(), SQLite::OPEN_READONLY, 10'000);
+  SQLite::Statement tables(db, "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name");
+  std::string all;
+  while (tables.executeStep()) {
+    SQLite::Statement rows(db, fmt::format("SELECT * FROM {} ORDER BY 1, 2", tables.getColumn(0).getString()));
+    while (rows.executeStep()) {
+      all += tables.getColumn(0).getString();
+      for (int i = 0; i < rows.getColumnCount(); ++i) {
+        const SQLite::Column value = rows.getColumn(i);
+        all += "|" + std::string(static_cast<const char*>(value.getBlob()), static_cast<std::size_t>(value.getBytes()));
+      }
+      all += "\n";
+    }
+  }
+  return all;
+}
+
+/// One game is played while a backup is taken of it; everything else is done to copies.
+class Durability : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fresh_folder("durability");
+    std::ofstream(folder_ / "durable.toml") << kGame;
+    game_ = std::make_unique<PlayedGame>(folder_ / "durable.toml", folder_ / "logs", "game");
+    game_->play_until([] { return journal_bytes(game_->folder(), "validation_agent") > 20'000; }, kPatienceS);
+    is_playing_at_backup_ = !game_->is_over();
+    backup_ = run_nacre({"backup", "--run", game_->folder().string(), "--to", (folder_ / "backup").string(), "--json"});
+    game_->play_to_end(kPatienceS);
+  }
+  static void TearDownTestSuite() { game_.reset(); }
+  void SetUp() override {
+    ASSERT_EQ(game_->status(), 0) << game_->said();
+    copy_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name()) / "game";
+    fs::copy(game_->folder(), copy_, fs::copy_options::recursive);
+  }
+
+  static fs::path folder_;
+  static std::unique_ptr<PlayedGame> game_;
+  static Outcome backup_;
+  static bool is_playing_at_backup_;
+  fs::path copy_;
+};
+
+fs::path Durability::folder_;
+std::unique_ptr<PlayedGame> Durability::game_;
+Outcome Durability::backup_;
+bool Durability::is_playing_at_backup_ = false;
+
+TEST_F(Durability, ABackupOfAPlayingGamePlaysOnToTheSameEnd) {
+  EXPECT_TRUE(is_playing_at_backup_);
+  ASSERT_EQ(backup_.status, 0) << backup_.err;
+  const auto said = nlohmann::json::parse(backup_.out);
+  EXPECT_EQ(said["journals"], 5);
+  const fs::path run = folder_ / "backup" / "game";
+  EXPECT_TRUE(store::check_database(run / "run.db"));
+  EXPECT_TRUE(store::check_database(folder_ / "backup" / "simulations.db"));
+  PlayedGame resumed(run);
+  ASSERT_TRUE(resumed.play_to_end(kPatienceS)) << resumed.said();
+  ASSERT_EQ(resumed.status(), 0) << resumed.said();
+  EXPECT_THAT(differences(said_in_game(game_->folder()), said_in_game(run)), IsEmpty());
+  EXPECT_EQ(content(run / "run.db"), content(game_->folder() / "run.db"));
+}
+
+TEST_F(Durability, ABackupNeedsANewFolder) {
+  const Outcome again = run_nacre({"backup", "--run", game_->folder().string(), "--to", (folder_ / "backup").string()});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("exists already"));
+}
+
+TEST_F(Durability, TheDatabaseIsAProjectionOfTheJournal) {
+  const std::string before = content(copy_ / "run.db");
+  ASSERT_GT(before.size(), 1000U);
+  fs::remove(copy_ / "run.db");
+  const Outcome rebuilt = run_nacre({"rebuild", "--run", copy_.string()});
+  ASSERT_EQ(rebuilt.status, 0) << rebuilt.err;
+  EXPECT_EQ(content(copy_ / "run.db"), before);
+}
+
+TEST_F(Durability, ADamagedDatabaseIsSaidAndMadeAnewWhenTheAnalyserStarts) {
+  const std::string before = content(copy_ / "run.db");
+  {
+    std::fstream bytes(copy_ / "run.db", std::ios::in | std::ios::out | std::ios::binary);
+    bytes.seekp(6000);
+    bytes << std::string(8000, '\x5a');
+  }
+  ASSERT_FALSE(store::check_database(copy_ / "run.db"));
+  std::string said;
+  {
+    const auto database = analyser::open_run_database(copy_, [&](const std::string& text) { said += text; });
+  }
+  EXPECT_THAT(said, AllOf(HasSubstr("run.db: is damaged"), HasSubstr("made anew")));
+  EXPECT_TRUE(store::check_database(copy_ / "run.db"));
+  EXPECT_EQ(content(copy_ / "run.db"), before);
+  EXPECT_TRUE(fs::exists(copy_ / "run.db.damaged"));
+}
+
+TEST_F(Durability, ADatabaseOfAnotherVersionIsMigratedByMakingItAnew) {
+  const std::string before = content(copy_ / "run.db");
+  SQLite::Database(((copy_ / "run.db").string()), SQLite::OPEN_READWRITE)
+      .exec("DROP TABLE crack; PRAGMA user_version = 1");
+  std::string said;
+  {
+    const auto database = analyser::open_run_database(copy_, [&](const std::string& text) { said += text; });
+  }
+  EXPECT_THAT(said, HasSubstr("schema version 1"));
+  EXPECT_EQ(store::schema_version(copy_ / "run.db"), store::kRunSchemaVersion);
+  EXPECT_EQ(content(copy_ / "run.db"), before);
+}
+
+TEST_F(Durability, AWholeDatabaseIsLeftAlone) {
+  const auto written = fs::last_write_time(copy_ / "run.db");
+  bool is_silent = true;
+  {
+    const auto database = analyser::open_run_database(copy_, [&](const std::string&) { is_silent = false; });
+  }
+  EXPECT_TRUE(is_silent);
+  EXPECT_EQ(fs::last_write_time(copy_ / "run.db"), written);
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,116 @@
+#include "store/database_care.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <vector>
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "store/run_record.hpp"
+#include "store/simulation_cache.hpp"
+
+namespace nacre::store {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class DatabaseFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / fmt::format("nacre-care-{}-{}", ::getpid(),
+                                                         testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    file_ = folder_ / "simulations.db";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void fill(int answers) const {
+    SimulationCache cache(file_);
+    for (int i = 0; i < answers; ++i) {
+      CachedSimulation answer;
+      answer.modulus_pa = 1.0 + i;
+      answer.curve = {{0.0, 0.5}, {1.0, 2.0}};
+      cache.insert(fmt::format("key{:05}", i), answer);
+      cache.insert_breaks(fmt::format("key{:05}", i), {{i, 0.25}});
+    }
+  }
+  void damage(double from, std::size_t bytes) const {
+    std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(from * static_cast<double>(fs::file_size(file_))));
+    file << std::string(bytes, '\x5a');
+  }
+  fs::path folder_, file_;
+};
+
+TEST_F(DatabaseFile, WholeDamagedMissingAndForeignFilesAreToldApart) {
+  EXPECT_THAT(check_database(file_).error().message, HasSubstr("no such file"));
+  fill(2000);
+  EXPECT_TRUE(check_database(file_));
+  damage(0.5, 6000);
+  EXPECT_THAT(check_database(file_).error().message, HasSubstr("damaged"));
+  std::ofstream(file_) << std::string(5000, 'x');
+  EXPECT_THAT(check_database(file_).error().message, HasSubstr("no database"));
+}
+
+TEST_F(DatabaseFile, ACopyHoldsWhatWasCommittedAndNotWhatIsBeingWritten) {
+  fill(50);
+  SQLite::Database writer(file_.string(), SQLite::OPEN_READWRITE);
+  writer.exec("BEGIN IMMEDIATE");
+  writer.exec("DELETE FROM simulation");
+  copy_database(file_, folder_ / "copy.db");
+  writer.exec("ROLLBACK");
+  EXPECT_TRUE(check_database(folder_ / "copy.db"));
+  EXPECT_EQ(SimulationCache(folder_ / "copy.db").size(), 50);
+  EXPECT_FALSE(fs::exists(folder_ / "copy.db.part"));
+}
+
+TEST_F(DatabaseFile, SalvageKeepsWhatCanBeReadAndInventsNothing) {
+  constexpr int kAnswers = 3000;
+  RandomStream random(5, "damage");
+  for (int round = 0; round < 5; ++round) {
+    for (const char* companion : {"", "-wal", "-shm"}) fs::remove(file_.string() + companion);
+    fs::remove(folder_ / "saved.db");
+    fill(kAnswers);
+    damage(random.uniform(0.1, 0.9), 4096);
+    const Salvage saved = salvage_simulations(file_, folder_ / "saved.db");
+    EXPECT_GT(saved.simulations, kAnswers / 3);
+    const SimulationCache cache(folder_ / "saved.db");
+    EXPECT_EQ(cache.size(), saved.simulations);
+    for (int i = 0; i < kAnswers; ++i) {
+      const auto answer = cache.find(fmt::format("key{:05}", i));
+      if (!answer) continue;
+      EXPECT_EQ(answer->modulus_pa, 1.0 + i);
+      EXPECT_EQ(answer->curve.stress_pa, (std::vector<double>{1.0, 2.0}));
+    }
+  }
+}
+
+TEST_F(DatabaseFile, DamagedFilesAreKeptUnderNamesOfTheirOwn) {
+  for (const char* expected : {"simulations.db.damaged", "simulations.db.damaged-2"}) {
+    std::ofstream(file_) << "x";
+    EXPECT_EQ(move_aside(file_).filename(), expected);
+    EXPECT_FALSE(fs::exists(file_));
+  }
+}
+
+TEST_F(DatabaseFile, ViewsTriggersAndComputedColumnsOfStrangersAreRefused) {
+  const std::vector<std::string> traps = {
+      "CREATE VIEW round AS WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x FROM n) SELECT x FROM n",
+      "CREATE TABLE t(a); CREATE TRIGGER trap AFTER INSERT ON t BEGIN DELETE FROM t; END",
+      "CREATE TABLE round(a, b AS (a || zeroblob(1000000)))"};
+  for (const std::string& trap : traps) {
+    fs::remove(file_);
+    SQLite::Database(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec(trap);
+    EXPECT_THROW(read_run_record(file_), InputError) << trap;
+    EXPECT_THROW(SimulationCache cache(file_), InputError) << trap;
+    EXPECT_FALSE(check_database(file_)) << trap;
+  }
+}
+
+}  // namespace
+}  // namespace nacre::store
