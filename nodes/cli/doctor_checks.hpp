@@ -1,0 +1,51 @@
+#pragma once
+// What `nacre doctor` looks at: each check finds something and says what to type to mend it.
+
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sys/timex.h>
+
+namespace nacre::cli {
+
+/// A remark costs time or comfort; a fault keeps a game from running.
+enum class Verdict { good, remark, fault };
+
+/// What one check found.
+struct Finding {
+  std::string check;
+  Verdict verdict = Verdict::good;
+  std::string found;
+  std::string remedy = {};  ///< what to type; empty when all is well
+};
+
+// The programs.
+Finding check_programs();
+Finding check_versions();
+
+// The network. `lan`: the run spans machines.
+Finding check_route(int port, bool lan);
+/// A message that this process sends to itself: route, firewall and port together.
+Finding check_loopback(int port, bool lan);
+Finding check_receive_buffer();
+
+// The machine.
+/// Room in the folder, and whether it can be written.
+Finding check_disk(const std::filesystem::path& logs);
+/// How long the folder's disk takes to keep something for certain, which every measurement waits for.
+Finding check_sync(const std::filesystem::path& logs);
+/// `now` as the clock says, `status` as ntp_adjtime() says.
+Finding judge_clock(std::time_t now, int status);
+Finding check_clock();
+
+// The databases.
+Finding check_cache(const std::filesystem::path& logs);
+/// run.db of LOGS/latest; good where there is none.
+Finding check_latest_run(const std::filesystem::path& logs);
+
+// The cluster. `wanted`: the scenario asks for it.
+Finding check_slurm(bool wanted);
+
+}  // namespace nacre::cli
