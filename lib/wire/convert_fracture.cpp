@@ -54,6 +54,16 @@ void add_path(fracture_t& message, const crack::Path& path) {
   message.n_path = static_cast<std::int32_t>(kept);
 }
 
+/// Whoever opens the file looks in RUN/films and nowhere else.
+Result<void> expect_file_of_films(std::string_view name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  };
+  const bool is_name = name.size() <= 200 && !name.starts_with('.') && std::ranges::all_of(name, is_plain);
+  if (name.empty() || (is_name && name.ends_with(".film"))) return {};
+  return fail("film: \"{}\" is no name of a file in RUN/films", name);
+}
+
 }  // namespace
 
 fracture_t to_wire(const Fracture& fracture) {
@@ -95,7 +105,7 @@ Result<Fracture> from_wire(const fracture_t& message) {
                                     expect_range("broken", message.broken, message.n_order, element_count),
                                     expect_range("n_order", message.n_order, 0, static_cast<double>(kMaximumBreaks)),
                                     expect_elements("element", message.element, element_count),
-                                    expect_range("length of film", static_cast<double>(message.film.size()), 0, 200));
+                                    expect_file_of_films(message.film));
   if (!sound) return fail("{}: {}", type, sound.error().message);
   Fracture fracture{.request_id = message.request_id,
                     .design_index = message.design_index,

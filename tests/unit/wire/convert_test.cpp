@@ -82,6 +82,14 @@ TEST(Convert, ImpossibleCracksAreRefused) {
   EXPECT_TRUE(refused([](fracture_t& m) { m.columns = 0; }));
 }
 
+TEST(Convert, AFilmIsAPlainFileNameAndNoPath) {
+  for (const char* name : {"../../../etc/passwd", "/etc/passwd.film", "a/b.film", ".hidden.film", "film", "a b.film"}) {
+    Fracture fracture = samples::fracture();
+    fracture.film = name;
+    EXPECT_FALSE(read<Fracture>(write(fracture))) << name;
+  }
+}
+
 TEST(Convert, TheLongestFractureFitsOneMessage) {
   Fracture fracture = samples::fracture();
   fracture.crack.columns = fracture.crack.rows = 200;
