@@ -210,6 +210,14 @@ Result<std::unique_ptr<Bus>> Bus::open(BusOptions options) {
 }
 
 Result<void> Bus::subscribe(const std::vector<std::string>& channels) {
+  // Before the first subscription: this starts LCM's receive thread and its self-test. A subscription that fails because of
+  // it comes back as an object around a null pointer, which the next call on it would follow.
+  if (state_->lcm->getFileno() < 0) {
+    // What the library has left of itself then cannot even be destroyed.
+    [[maybe_unused]] const lcm::LCM* const broken = state_->lcm.release();
+    return fail("cannot listen on {}: multicast does not come back to this host (filtered by a firewall?)",
+                state_->options.url);
+  }
   std::vector<std::string> patterns;
   for (const std::string& channel : channels) patterns.push_back(escaped(channel));
   if (patterns.empty()) patterns.push_back(".*");
@@ -217,14 +225,9 @@ Result<void> Bus::subscribe(const std::vector<std::string>& channels) {
     // Not subscribe(&State::on_datagram): g++ 12 miscompiles LCM's call through a member pointer under
     // -fsanitize=undefined.
     lcm::Subscription* subscription = state_->lcm->subscribeFunction(pattern, State::take, state_.get());
-    if (!subscription) {
-      return fail("cannot listen on {}: multicast does not come back to this host (filtered by a firewall?)",
-                  state_->options.url);
-    }
+    if (!subscription) return fail("cannot listen on {}: LCM refuses the channel {}", state_->options.url, pattern);
     subscription->setQueueCapacity(0);  // unlimited: the default of 30 drops silently
   }
-  // The first subscription starts LCM's receive thread and its self-test; a descriptor below 0 means that it failed.
-  if (state_->lcm->getFileno() < 0) return fail("cannot listen on {}: LCM's self-test failed", state_->options.url);
   return {};
 }
 
