@@ -6,6 +6,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include "store/row_checksum.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre::store {
@@ -39,26 +40,26 @@ std::int64_t take_rows(SQLite::Database& from, const std::string& sql,
   return rows;
 }
 
-/// Copies a table row by row, first from one end, then from the other.
-void salvage_table(SQLite::Database& from, SQLite::Database& to, const std::string& table, int columns) {
+/// Copies the rows that fit their checksum (the last column), first from one end, then from the other.
+void salvage_table(SQLite::Database& from, SQLite::Database& to, const std::string& table,
+                   const std::function<std::int64_t(SQLite::Statement&)>& checksum_of) {
+  const int columns = table == "simulation" ? 8 : 3;
   std::string places = "?";
   for (int i = 1; i < columns; ++i) places += ",?";
   SQLite::Statement insertion(to, "INSERT OR IGNORE INTO " + table + " VALUES (" + places + ")");
   for (const char* direction : {"ASC", "DESC"}) {
     take_rows(from, fmt::format("SELECT * FROM {} ORDER BY key {}", table, direction), [&](SQLite::Statement& row) {
+      if (checksum_of(row) != row.getColumn(columns - 1).getInt64()) return;
       insertion.reset();
       for (int i = 0; i < columns; ++i) {
         const SQLite::Column value = row.getColumn(i);
         if (value.isFloat()) insertion.bind(i + 1, value.getDouble());
+        if (value.isInteger()) insertion.bind(i + 1, value.getInt64());
         if (value.isText()) insertion.bind(i + 1, value.getString());
         // A null pointer would be stored as NULL, not as an empty blob.
         if (value.isBlob()) insertion.bind(i + 1, value.getBytes() > 0 ? value.getBlob() : "", value.getBytes());
       }
-      try {
-        insertion.exec();
-      } catch (const SQLite::Exception&) {
-        // A row whose values are not what the schema asks for.
-      }
+      insertion.exec();
     });
   }
 }
@@ -133,13 +134,22 @@ fs::path move_aside(const fs::path& path) {
 
 Salvage salvage_simulations(const fs::path& from, const fs::path& to) {
   if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new file", to.string());
+  constexpr int kFirstWithChecksums = 3;
+  if (const int version = schema_version(from); version < kFirstWithChecksums) {
+    throw InputError::format(
+        "{}: its rows carry no checksums (schema version {}): what can be read might be wrong. Move it "
+        "away: the farm begins a new one",
+        from.string(), version);
+  }
   { const SimulationCache makes_the_tables(to); }
   try {
     SQLite::Database damaged = opened(from);
     SQLite::Database saved(to.string(), SQLite::OPEN_READWRITE);
     SQLite::Transaction transaction(saved);
-    salvage_table(damaged, saved, "simulation", 7);
-    salvage_table(damaged, saved, "breaks", 2);
+    salvage_table(damaged, saved, "simulation", checksum_of_simulation);
+    salvage_table(damaged, saved, "breaks", [](SQLite::Statement& row) {
+      return breaks_checksum(row.getColumn(0).getString(), bytes_in(row.getColumn(1)));
+    });
     transaction.commit();
     return {saved.execAndGet("SELECT count(*) FROM simulation").getInt64(),
             saved.execAndGet("SELECT count(*) FROM breaks").getInt64()};

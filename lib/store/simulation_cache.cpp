@@ -7,11 +7,12 @@
 
 #include "base/result.hpp"
 #include "store/database_care.hpp"
+#include "store/row_checksum.hpp"
 
 namespace nacre::store {
 namespace {
 
-constexpr int kSchemaVersion = 2;
+constexpr int kSchemaVersion = 3;
 constexpr int kBusyTimeoutMs = 30'000;  // another run may be writing
 constexpr const char* kSchema = R"sql(
   CREATE TABLE simulation (
@@ -21,19 +22,23 @@ constexpr const char* kSchema = R"sql(
     toughness_pa   REAL NOT NULL,
     peak_stress_pa REAL NOT NULL,
     failure_strain REAL NOT NULL,
-    curve          BLOB NOT NULL
+    curve          BLOB NOT NULL,
+    checksum       INTEGER NOT NULL
   ) STRICT, WITHOUT ROWID;
 )sql";
 // Version 2: elements that failed, for simulations whose crack was asked for; pairs of int32 and float32.
 constexpr const char* kBreakSchema = R"sql(
+  CREATE TABLE breaks (key TEXT PRIMARY KEY, pairs BLOB NOT NULL, checksum INTEGER NOT NULL) STRICT, WITHOUT ROWID;
+)sql";
+// Version 3: a checksum per row (row_checksum.hpp).
+constexpr const char* kBreakSchemaOfVersion2 = R"sql(
   CREATE TABLE breaks (key TEXT PRIMARY KEY, pairs BLOB NOT NULL) STRICT, WITHOUT ROWID;
 )sql";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError::format(
-      "the simulation cache {} cannot be used: {}. Nothing else depends on it: move the file (and its -wal and -shm "
-      "companions) "
-      "away and start again, and the simulations are done anew",
+      "the simulation cache {0} cannot be used: {1}. `nacre rebuild --cache {0}` saves what is sound. Nothing else depends "
+      "on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations are done anew",
       path.string(), reason);
 }
 
@@ -47,6 +52,28 @@ auto guarded(const std::filesystem::path& path, const Body& body) {
   }
 }
 
+void add_checksums(SQLite::Database& database) {
+  for (const char* table : {"simulation", "breaks"}) {
+    database.exec(fmt::format("ALTER TABLE {} ADD COLUMN checksum INTEGER NOT NULL DEFAULT 0", table));
+  }
+  const auto each = [&](const char* select, const char* update, const auto& checksum) {
+    SQLite::Statement rows(database, select), change(database, update);
+    std::vector<std::pair<std::string, std::int64_t>> checksums;
+    while (rows.executeStep()) checksums.emplace_back(rows.getColumn(0).getString(), checksum(rows));
+    for (const auto& [key, value] : checksums) {
+      change.reset();
+      change.bind(1, value);
+      change.bind(2, key);
+      change.exec();
+    }
+  };
+  each("SELECT key, failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve FROM simulation",
+       "UPDATE simulation SET checksum = ? WHERE key = ?", checksum_of_simulation);
+  each("SELECT key, pairs FROM breaks", "UPDATE breaks SET checksum = ? WHERE key = ?", [](SQLite::Statement& row) {
+    return breaks_checksum(row.getColumn(0).getString(), bytes_in(row.getColumn(1)));
+  });
+}
+
 void prepare_schema(SQLite::Database& database, const std::filesystem::path& path) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   const int version = database.execAndGet("PRAGMA user_version").getInt();
@@ -54,8 +81,9 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& pat
     database.exec(kSchema);
     database.exec(kBreakSchema);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  } else if (version == 1) {  // nothing that was simulated is lost
-    database.exec(kBreakSchema);
+  } else if (version == 1 || version == 2) {  // nothing that was simulated is lost
+    if (version == 1) database.exec(kBreakSchemaOfVersion2);
+    add_checksums(database);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   } else if (version != kSchemaVersion) {
     refuse(path, "it has schema version " + std::to_string(version) + ", this program expects " +
@@ -117,17 +145,20 @@ std::optional<CachedSimulation> SimulationCache::find(const std::string& key) co
   return guarded(path_, [&]() -> std::optional<CachedSimulation> {
     SQLite::Statement query(
         *database_,
-        "SELECT failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve FROM simulation "
+        "SELECT key, failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve, checksum FROM simulation "
         "WHERE key = ?");
     query.bind(1, key);
     if (!query.executeStep()) return std::nullopt;
+    if (checksum_of_simulation(query) != query.getColumn(7).getInt64()) {
+      refuse(path_, fmt::format("it is damaged (the row {} does not fit its checksum)", key));
+    }
     CachedSimulation answer;
-    answer.failure = query.getColumn(0).getString();
-    answer.modulus_pa = query.getColumn(1).getDouble();
-    answer.toughness_pa = query.getColumn(2).getDouble();
-    answer.peak_stress_pa = query.getColumn(3).getDouble();
-    answer.failure_strain = query.getColumn(4).getDouble();
-    const SQLite::Column curve = query.getColumn(5);
+    answer.failure = query.getColumn(1).getString();
+    answer.modulus_pa = query.getColumn(2).getDouble();
+    answer.toughness_pa = query.getColumn(3).getDouble();
+    answer.peak_stress_pa = query.getColumn(4).getDouble();
+    answer.failure_strain = query.getColumn(5).getDouble();
+    const SQLite::Column curve = query.getColumn(6);
     answer.curve = unpack_curve(curve.getBlob(), curve.getBytes());
     return answer;
   });
@@ -138,7 +169,7 @@ bool SimulationCache::insert(const std::string& key, const CachedSimulation& ans
   const std::lock_guard lock(mutex_);
   return guarded(path_, [&] {
     SQLite::Statement insertion(*database_,
-                                "INSERT INTO simulation VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO NOTHING");
+                                "INSERT INTO simulation VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO NOTHING");
     insertion.bind(1, key);
     insertion.bind(2, answer.failure);
     insertion.bind(3, answer.modulus_pa);
@@ -148,6 +179,9 @@ bool SimulationCache::insert(const std::string& key, const CachedSimulation& ans
     // A null pointer would be stored as NULL, not as an empty curve.
     const void* bytes = curve.empty() ? "" : static_cast<const void*>(curve.data());
     insertion.bind(7, bytes, static_cast<int>(curve.size() * sizeof(float)));
+    const double numbers[4] = {answer.modulus_pa, answer.toughness_pa, answer.peak_stress_pa, answer.failure_strain};
+    const std::string_view points(static_cast<const char*>(bytes), curve.size() * sizeof(float));
+    insertion.bind(8, simulation_checksum(key, answer.failure, numbers, points));
     return insertion.exec() == 1;
   });
 }
@@ -155,9 +189,12 @@ bool SimulationCache::insert(const std::string& key, const CachedSimulation& ans
 std::optional<std::vector<tester::Break>> SimulationCache::find_breaks(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   return guarded(path_, [&]() -> std::optional<std::vector<tester::Break>> {
-    SQLite::Statement query(*database_, "SELECT pairs FROM breaks WHERE key = ?");
+    SQLite::Statement query(*database_, "SELECT pairs, checksum FROM breaks WHERE key = ?");
     query.bind(1, key);
     if (!query.executeStep()) return std::nullopt;
+    if (breaks_checksum(key, bytes_in(query.getColumn(0))) != query.getColumn(1).getInt64()) {
+      refuse(path_, fmt::format("it is damaged (the cracks of {} do not fit their checksum)", key));
+    }
     const SQLite::Column pairs = query.getColumn(0);
     std::vector<PackedBreak> packed(static_cast<std::size_t>(pairs.getBytes()) / sizeof(PackedBreak));
     if (!packed.empty()) std::memcpy(packed.data(), pairs.getBlob(), packed.size() * sizeof(PackedBreak));
@@ -172,10 +209,12 @@ void SimulationCache::insert_breaks(const std::string& key, const std::vector<te
   for (const tester::Break& broken : breaks) packed.push_back({broken.element, static_cast<float>(broken.strain)});
   const std::lock_guard lock(mutex_);
   guarded(path_, [&] {
-    SQLite::Statement insertion(*database_, "INSERT INTO breaks VALUES (?, ?) ON CONFLICT (key) DO NOTHING");
+    SQLite::Statement insertion(*database_, "INSERT INTO breaks VALUES (?, ?, ?) ON CONFLICT (key) DO NOTHING");
     insertion.bind(1, key);
     const void* bytes = packed.empty() ? "" : static_cast<const void*>(packed.data());
     insertion.bind(2, bytes, static_cast<int>(packed.size() * sizeof(PackedBreak)));
+    const std::string_view pairs(static_cast<const char*>(bytes), packed.size() * sizeof(PackedBreak));
+    insertion.bind(3, breaks_checksum(key, pairs));
     insertion.exec();
   });
 }

@@ -100,12 +100,38 @@ TEST_F(SimulationCacheFile, AnOlderFileKeepsItsAnswers) {
   {
     SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
     database.exec("DROP TABLE breaks");
+    database.exec("ALTER TABLE simulation DROP COLUMN checksum");
     database.exec("PRAGMA user_version = 1");
   }
   SimulationCache cache(path_);
   EXPECT_EQ(cache.find("key"), kAnswer);
   cache.insert_breaks("key", {{1, 0.5}});
   EXPECT_TRUE(cache.find_breaks("key"));
+}
+
+TEST_F(SimulationCacheFile, AFileOfVersionTwoKeepsItsAnswersAndCracks) {
+  {
+    SimulationCache cache(path_);
+    cache.insert("key", kAnswer);
+    cache.insert_breaks("key", {{1, 0.5}});
+  }
+  {
+    SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+    for (const char* table : {"simulation", "breaks"}) {
+      database.exec(std::string("ALTER TABLE ") + table + " DROP COLUMN checksum");
+    }
+    database.exec("PRAGMA user_version = 2");
+  }
+  const SimulationCache cache(path_);
+  EXPECT_EQ(cache.find("key"), kAnswer);
+  EXPECT_EQ(cache.find_breaks("key"), (std::vector<tester::Break>{{1, 0.5}}));
+}
+
+TEST_F(SimulationCacheFile, AValueThatWasAlteredIsNotBelieved) {
+  SimulationCache cache(path_);
+  cache.insert("key", kAnswer);
+  SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec("UPDATE simulation SET modulus_pa = modulus_pa + 1");
+  EXPECT_THROW(cache.find("key"), InputError);
 }
 
 TEST_F(SimulationCacheFile, AFileThatIsNoDatabaseIsRefusedByNameWithARemedy) {
