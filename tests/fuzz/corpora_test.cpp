@@ -99,7 +99,7 @@ TEST_P(Corpora, HoldNothingThatBreaksAReader) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fuzz, Corpora, testing::ValuesIn(kTargets), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Fuzz, Corpora, testing::ValuesIn(kTargets), [](const auto& of) { return of.param.name; });
 
 }  // namespace
 }  // namespace nacre

@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestPauseS = 1.5;  // between two faults
+// Then the game is left alone: on a machine that is slow to start processes, faults without end would leave no time to play.
+constexpr int kMostFaults = 25;
 
 std::string drawn_settings(RandomStream& random, std::uint64_t seed) {
   const auto share = [&](double most) { return random.uniform() < 0.7 ? random.uniform(0.0, most) : 0.0; };
@@ -53,7 +55,8 @@ void Disturber::disturb(PlayedGame& game) {
     fs::remove(run_.parent_path() / "ballast");
     disk_is_full_ = false;
   }
-  if (now < next_) return;
+  if (now < next_ || faults_ == kMostFaults) return;
+  ++faults_;
   begin_fault(game);
   next_ = after(0.1, kLongestPauseS);
 }

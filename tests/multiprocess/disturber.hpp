@@ -55,6 +55,7 @@ class Disturber {
   bool disk_can_fill_;
   std::string settings_;
   FaultCounts counts_;
+  int faults_ = 0;  ///< begun, or tried
   Clock::time_point next_;
   bool kill_everything_ = false;
   std::vector<std::pair<int, Clock::time_point>> stopped_;  ///< process, until when
