@@ -19,6 +19,8 @@ void add_effect(virtual_laboratory::Truth& truth, const std::string& effect) {
     if (kind.name != effect.substr(0, equals)) continue;
     truth.effects.*kind.value = equals == std::string::npos ? virtual_laboratory::draw_effect_value(truth.seed, kind)
                                                             : std::stod(effect.substr(equals + 1));
+    if (kind.second.value != nullptr)
+      truth.effects.*kind.second.value = virtual_laboratory::draw_second_value(truth.seed, kind);
     return;
   }
   throw InputError::format("--effect {}: expected NAME or NAME=VALUE with a name that the laboratory knows", effect);

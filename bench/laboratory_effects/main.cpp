@@ -79,7 +79,7 @@ std::vector<Signature> signatures(const Truth& truth, const Patterns& patterns, 
                                   const Eigen::VectorXd& base, const Eigen::MatrixXd& tangents) {
   std::vector<Signature> result;
   for (const EffectKind& kind : virtual_laboratory::effect_kinds()) {
-    if (kind.drawn_maximum == 0.0) continue;
+    if (!kind.drawn_unasked) continue;
     std::vector<double> values = {kind.drawn_minimum, kind.drawn_maximum};
     if (kind.either_sign) values = {-kind.drawn_maximum, -kind.drawn_minimum, kind.drawn_minimum, kind.drawn_maximum};
     for (const double value : values) {

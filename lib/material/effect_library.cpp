@@ -84,7 +84,7 @@ constexpr std::array kLibrary = {
     effect("blunt_notch", "geometry", EffectSide::material, kBluntNotch, kFracture,
            "The root of the notch is round instead of sharp; changes toughness alone, and a twin without notch not at "
            "all."),
-    effect("residual_strain", "residual", EffectSide::material, kResidualStrain, kLayouts,
+    effect("residual_strain", "residual", EffectSide::material, kResidualStrain, kFracture,
            "The rigid phase shrank when it cured and stands under stress before any load: stress that is there from "
            "the start adds to what the pull brings."),
     effect("plane_strain", "stress state", EffectSide::material, kPlaneStrain, kEverything,

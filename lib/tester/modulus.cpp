@@ -17,18 +17,6 @@ double homogeneous_modulus(const pattern::Mixture& mixture, const Simulation& si
   return material::uniaxial_stress(thesis::kModulusStrain, lame).nominal_stress_pa / thesis::kModulusStrain;
 }
 
-/// Static secant modulus of a grid, from rest where its elements hold eigenstrains.
-Result<double> static_modulus(const fem::Grid& grid) {
-  const auto over_strain = [](double stress_pa) { return stress_pa / thesis::kModulusStrain; };
-  if (grid.laws.eigenstrain.empty())
-    return fem::pull(grid, thesis::kModulusStrain).transform([&](const fem::StaticSolution& solution) {
-      return over_strain(solution.top_stress_pa);
-    });
-  return fem::pull_from_rest(grid, thesis::kModulusStrain).transform([&](const fem::RestingSolution& solution) {
-    return over_strain(solution.stress_pa);
-  });
-}
-
 }  // namespace
 
 Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics& numerics) {
@@ -44,13 +32,13 @@ Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics&
   const SpecimenUnits units = modulus_units(simulation.fidelity);
   const fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions,
                                   AssemblyTarget::modulus, units.x, units.y, numerics.refinement);
-  if (numerics.explicit_modulus && !grid.laws.eigenstrain.empty())
-    return fail("modulus tester: residual strains need the static solver");
-  const Result<double> modulus_pa = numerics.explicit_modulus
-                                        ? explicit_modulus(grid, simulation.parameters.modulus.gamma_per_s)
-                                        : static_modulus(grid);
-  if (!modulus_pa) return fail("modulus tester: {}", modulus_pa.error().message);
-  return ModulusResult{*modulus_pa * at_rate};
+  if (numerics.explicit_modulus)
+    return explicit_modulus(grid, simulation.parameters.modulus.gamma_per_s).transform([&](double modulus_pa) {
+      return ModulusResult{modulus_pa * at_rate};
+    });
+  const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
+  if (!solution) return fail("modulus tester: {}", solution.error().message);
+  return ModulusResult{solution->top_stress_pa / thesis::kModulusStrain * at_rate};
 }
 
 }  // namespace nacre::tester

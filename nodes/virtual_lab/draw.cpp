@@ -1,7 +1,6 @@
 // How a laboratory's truth is drawn. Every constant has a random stream of its own, so that adding one changes no
 // other.
 
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -10,63 +9,6 @@
 
 namespace nacre::virtual_laboratory {
 namespace {
-
-constexpr std::array kEffectKinds = {
-    EffectKind{.name = "machine_compliance",
-               .unit = "1/Pa",
-               .meaning = "a spring in series: strain recorded per stress",
-               .minimum = 0.0,
-               .maximum = 1e-8,
-               .drawn_minimum = 1e-10,
-               .drawn_maximum = 4e-10,
-               .value = &HiddenEffects::machine_compliance_per_pa},
-    EffectKind{.name = "droplet_mixing",
-               .unit = "pixels",
-               .meaning = "length over which droplets of both materials mix",
-               .minimum = 0.0,
-               .maximum = 5.0,
-               .drawn_minimum = 0.4,
-               .drawn_maximum = 1.2,
-               .value = &HiddenEffects::droplet_mixing_pixels},
-    EffectKind{.name = "interface_anisotropy",
-               .unit = "(x - y)/(x + y)",
-               .meaning = "stiffness and strength of interfaces between x- and y-neighbours differ",
-               .minimum = -0.95,
-               .maximum = 0.95,
-               .drawn_minimum = 0.25,
-               .drawn_maximum = 0.6,
-               .either_sign = true,
-               .value = &HiddenEffects::interface_anisotropy},
-    EffectKind{.name = "corner_debonding",
-               .unit = "share",
-               .meaning = "loss of stiffness and strength where four pixels meet",
-               .minimum = 0.0,
-               .maximum = 0.99,
-               .drawn_minimum = 0.6,
-               .drawn_maximum = 0.95,
-               .in_library = false,
-               .value = &HiddenEffects::corner_debonding},
-    EffectKind{.name = "diagonal_debonding",
-               .unit = "share",
-               .meaning = "loss of stiffness and strength where like pixels touch only across a corner",
-               .minimum = 0.0,
-               .maximum = 0.99,
-               .drawn_minimum = 0.6,
-               .drawn_maximum = 0.95,
-               .in_library = false,
-               .value = &HiddenEffects::diagonal_debonding},
-    EffectKind{.name = "load_cell_gain",
-               .unit = "relative",
-               .meaning = "a factor 1 + value on the recorded force",
-               .minimum = -0.5,
-               .maximum = 1.0,
-               .value = &HiddenEffects::load_cell_gain},
-    EffectKind{.name = "toe_slack",
-               .unit = "strain",
-               .meaning = "strain recorded before the specimen carries load",
-               .minimum = 0.0,
-               .maximum = 0.05,
-               .value = &HiddenEffects::toe_slack}};
 
 double log_uniform(RandomStream& stream, double low, double high) {
   return std::exp(stream.uniform(std::log(low), std::log(high)));
@@ -79,8 +21,6 @@ double drawn(std::uint64_t seed, std::string_view name, double low, double high)
 }
 
 }  // namespace
-
-std::span<const EffectKind> effect_kinds() { return kEffectKinds; }
 
 material::ModulusParameters draw_modulus_parameters(std::uint64_t seed) {
   // Around the bulk values of Table 3.4; printed microstructures came out stiffer than those say (Table A.3).
@@ -109,18 +49,20 @@ material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed) {
 
 double draw_effect_value(std::uint64_t seed, const EffectKind& kind) {
   RandomStream stream(seed, std::string("truth/effect/") + std::string(kind.name));
-  const bool has_range = kind.drawn_maximum > 0.0;
-  const double low = has_range ? kind.drawn_minimum : 0.02 * kind.maximum;
-  const double high = has_range ? kind.drawn_maximum : 0.2 * kind.maximum;
-  const double magnitude = log_uniform(stream, low, high);
+  const double magnitude = log_uniform(stream, kind.drawn_minimum, kind.drawn_maximum);
   return kind.either_sign && stream.index(2) == 1 ? -magnitude : magnitude;
+}
+
+double draw_second_value(std::uint64_t seed, const EffectKind& kind) {
+  return drawn(seed, "effect/" + std::string(kind.name) + "/second", kind.second.drawn_minimum,
+               kind.second.drawn_maximum);
 }
 
 HiddenEffects draw_effects(std::uint64_t seed) {
   RandomStream stream(seed, "truth/effects");
   std::vector<const EffectKind*> kinds;
-  for (const EffectKind& kind : kEffectKinds) {
-    if (kind.drawn_maximum > 0.0) kinds.push_back(&kind);
+  for (const EffectKind& kind : effect_kinds()) {
+    if (kind.drawn_unasked) kinds.push_back(&kind);
   }
   const double chance = stream.uniform();
   const int count = chance < 0.3 ? 0 : chance < 0.8 ? 1 : 2;

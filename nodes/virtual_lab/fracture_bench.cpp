@@ -6,8 +6,9 @@
 #include <deque>
 #include <limits>
 #include <numeric>
+#include <optional>
 
-#include "virtual_lab/fracture_kernel.hpp"
+#include "virtual_lab/hidden_specimen.hpp"
 
 namespace nacre::virtual_laboratory {
 namespace {
@@ -20,12 +21,14 @@ constexpr double kSeparation = 0.2;           // of the peak stress
 constexpr double kEarliestSeparation = 2e-3;  // before it, ringing of the start may not end a test
 /// Largest damping ratio of the grid's fastest mode; beyond it the step would shrink for nothing.
 constexpr double kDampingRatioLimit = 1.0;
+/// Time in which shrunk material comes to rest, in transits of its fastest wave, and how fast the grips give way.
+constexpr double kRestTransits = 40.0, kGripYielding = 0.5;
 
 /// Fastest wave and what it allows: sqrt((lambda + 2 mu) / rho) of the stiffest element.
 double fastest_wave(const Raster& raster) {
   double stiffest = 0.0;
   for (std::size_t e = 0; e < raster.mu_pa.size(); ++e) {
-    stiffest = std::max(stiffest, raster.lambda_pa[e] + 2.0 * raster.mu_pa[e]);
+    stiffest = std::max(stiffest, hidden_stiffening(raster, e) * (raster.lambda_pa[e] + 2.0 * raster.mu_pa[e]));
   }
   return std::sqrt(stiffest / kDensity);
 }
@@ -54,7 +57,8 @@ class Specimen {
       : columns_(raster.columns),
         rows_(raster.rows),
         stride_(static_cast<std::size_t>(raster.columns) + 32),
-        step_(step) {
+        step_(step),
+        grips_(raster.grips) {
     const std::size_t nodes = stride_ * static_cast<std::size_t>(rows_ + 1);
     for (std::vector<float>* field : {&wx_, &wy_, &vx_, &vy_, &mu_, &lambda_, &threshold_}) field->assign(nodes, 0.0f);
     for (std::vector<float>& row : force_) row.assign(stride_, 0.0f);
@@ -73,6 +77,14 @@ class Specimen {
     }
   }
 
+  /// Takes up what the material hides; `state` must outlive the specimen's steps.
+  void hide(HiddenSpecimen* state) { hidden_ = state; }
+  /// Slows all motion down, to come to rest.
+  void brake(float share) {
+    for (std::vector<float>* velocity : {&vx_, &vy_})
+      for (float& value : *velocity) value *= 1.0f - share;
+  }
+
   /// One time step at grip strain `strain`. Returns the mean nominal stress of both grips, Pa. Error: blow-up, with the
   /// row.
   Result<double> advance(double strain) {
@@ -85,7 +97,8 @@ class Specimen {
     std::ranges::fill(force_[kCarryY], 0.0f);
     double bottom = 0.0;
     for (int row = 0; row < rows_; ++row) {
-      const int outcome = advance_elements(element_row(row), elements);
+      const int outcome = hidden_ == nullptr ? advance_elements(element_row(row), elements)
+                                             : hidden_->advance(row, element_row(row), elements);
       if (outcome < 0) return fail("an element of row {} turned inside out", row);
       const bool grip = row == 0;
       advance_nodes(node_row(row), grip ? 2.0f * scale : scale, grip ? 0.0f : scale, dt, force_[kTotalY].data());
@@ -93,6 +106,7 @@ class Specimen {
     }
     for (std::size_t k = 0; k < kCarryX; ++k) std::ranges::fill(force_[k], 0.0f);  // no elements above the top grip
     advance_nodes(node_row(rows_), 2.0f * scale, 0.0f, dt, force_[kTotalY].data());
+    hold_in_grips(strain);
     // Forces are in units of h/8; the width is columns h.
     return 0.5 * (grip_force() - bottom) / (8.0 * columns_);
   }
@@ -107,6 +121,25 @@ class Specimen {
   double grip_force() const {
     const auto& total = force_[kTotalY];
     return std::accumulate(total.begin(), total.begin() + columns_ + 1, 0.0);
+  }
+
+  /// What the grips do beyond moving apart: hold sideways, and tilt.
+  void hold_in_grips(double strain) {
+    if (grips_.side_stiffness_pa > 0.0) {
+      const auto pull_back =
+          static_cast<float>(2.0 * step_.dt_s * grips_.side_stiffness_pa / (kDensity * kElementM * kElementM));
+      for (const int row : {0, rows_})
+        for (int column = 0; column <= columns_; ++column) {
+          const std::size_t n = at(row) + static_cast<std::size_t>(column);
+          vx_[n] -= pull_back * wx_[n];
+        }
+    }
+    if (grips_.tilt == 0.0) return;
+    for (int column = 0; column <= columns_; ++column) {
+      const double from_middle = static_cast<double>(column) / columns_ - 0.5;
+      wy_[at(rows_) + static_cast<std::size_t>(column)] =
+          static_cast<float>(grips_.tilt * from_middle * strain * rows_ * kElementM);
+    }
   }
 
   ElementRow element_row(int row) {
@@ -152,6 +185,8 @@ class Specimen {
   int columns_, rows_;
   std::size_t stride_;
   TimeStep step_;
+  Grips grips_;
+  HiddenSpecimen* hidden_ = nullptr;
   std::vector<float> wx_, wy_, vx_, vy_, mu_, lambda_, threshold_, inverse_mass_;
   std::array<std::vector<float>, kForces> force_;
 };
@@ -177,17 +212,45 @@ class Recorder {
   double smooth_ = 0.0, peak_ = 0.0;
 };
 
+/// Lets a specimen of shrunk material come to rest between grips that give way to its force; returns their strain.
+Result<double> come_to_rest(Specimen& specimen, HiddenSpecimen& hidden, const Raster& raster, double gamma_per_s) {
+  if (raster.law.eigenstrain.empty()) return 0.0;
+  const double wave = fastest_wave(raster),
+               transit_steps = raster.rows * kElementM / wave / time_step(wave, gamma_per_s).dt_s;
+  const double stiffness_pa = mean_modulus(raster);
+  const auto steps = static_cast<std::int64_t>(kRestTransits * transit_steps);
+  double strain = 0.0;
+  for (std::int64_t n = 1; n <= steps; ++n) {
+    hidden.shrink(std::min(1.0, 2.0 * static_cast<double>(n) / static_cast<double>(steps)));
+    const Result<double> stress_pa = specimen.advance(strain);
+    if (!stress_pa) return stress_pa;
+    strain -= kGripYielding / transit_steps * *stress_pa / stiffness_pa;
+    specimen.brake(static_cast<float>(1.0 / transit_steps));
+  }
+  specimen.brake(1.0f);
+  return strain;
+}
+
 }  // namespace
 
 Result<PulledSpecimen> pull_to_separation(const Raster& raster, const Pull& pull) {
   const TimeStep step = time_step(fastest_wave(raster), pull.gamma_per_s);
   Specimen specimen(raster, step);
+  std::optional<HiddenSpecimen> hidden;
+  if (raster.law.any()) specimen.hide(&hidden.emplace(raster, step.dt_s));
+  double rest_strain = 0.0;
+  if (hidden) {
+    const Result<double> rest = come_to_rest(specimen, *hidden, raster, pull.gamma_per_s);
+    if (!rest) return fail("before it was mounted: {}", rest.error().message);
+    rest_strain = *rest;
+  }
   const double strain_step = pull.strain_rate_per_s * step.dt_s;
   const auto window = std::max<std::int64_t>(1, std::llround(kWindowStrain / strain_step));
   Recorder recorder;
   double sum_pa = 0.0;
   for (std::int64_t n = 1; n <= pull.step_limit; ++n) {
-    const Result<double> stress_pa = specimen.advance(strain_step * static_cast<double>(n));
+    const Result<double> stress_pa =
+        specimen.advance(rest_strain + (1.0 + rest_strain) * strain_step * static_cast<double>(n));
     if (!stress_pa) return fail("step {}: {}", n, stress_pa.error().message);
     sum_pa += *stress_pa;
     if (n % window != 0) continue;

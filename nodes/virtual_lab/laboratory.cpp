@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "tester/fidelity.hpp"
 #include "thesis/constants.hpp"
 #include "virtual_lab/fracture_bench.hpp"
+#include "virtual_lab/hidden_coupon.hpp"
 #include "virtual_lab/modulus_bench.hpp"
 #include "virtual_lab/specimen_raster.hpp"
 
@@ -24,36 +26,68 @@ using tester::TestKind;
 constexpr int kCurvePoints = 200;
 constexpr double kCouponStrain = 0.02;  // unnotched coupons are pulled to here, well before they break
 
+Making making_of(const Question& question, int specimen = 0) {
+  return {.orientation_deg = question.conditions.orientation_deg,
+          .thickness_mm = question.conditions.thickness_mm,
+          .strain_rate_per_s = question.conditions.strain_rate_per_s,
+          .pull_rate_per_s = thesis::kSimulatedStrainRate * tester::loading_rate_scale(question.fidelity),
+          .specimen = specimen};
+}
+
 Result<Response> respond_modulus(const Truth& truth, const Question& question) {
   if (const pattern::Mixture* mixture = question.design.mixture()) {
-    return Response{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction), .curve = {}, .remark = {}};
+    return Response{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(question)),
+                    .curve = {},
+                    .remark = {}};
   }
   const SpecimenSize size = specimen_size(TestKind::modulus, question.fidelity);
-  const Result<double> modulus_pa =
-      pull_elastically(modulus_raster(truth, question.design, question.conditions.orientation_deg, size));
+  const Result<double> modulus_pa = pull_elastically(modulus_raster(truth, question.design, making_of(question), size));
   if (!modulus_pa) return tl::unexpected(modulus_pa.error());
   return Response{.modulus_pa = *modulus_pa, .curve = {}, .remark = {}};
 }
 
-Result<Response> respond_toughness(const Truth& truth, const Question& question) {
-  const SpecimenSize size = specimen_size(TestKind::toughness, question.fidelity);
-  const Raster raster = fracture_raster(truth, question.design, question.conditions.orientation_deg, size);
-  const Result<PulledSpecimen> pulled = pull_to_separation(
+Result<PulledSpecimen> pulled(const Truth& truth, const Question& question, int specimen) {
+  const SpecimenSize size = specimen_size(TestKind::toughness, question.fidelity, truth.effects);
+  const Making making = making_of(question, specimen);
+  const Raster raster = fracture_raster(truth, question.design, making, size);
+  return pull_to_separation(
       raster, {.gamma_per_s = truth.toughness.gamma_per_s,
-               .strain_rate_per_s = thesis::kSimulatedStrainRate * tester::loading_rate_scale(question.fidelity),
+               .strain_rate_per_s = making.pull_rate_per_s,
                .strain_limit = raster.all_soft ? thesis::kSoftStrainLimit.value : thesis::kStrainLimit.value});
-  if (!pulled) return fail("fracture bench: {}", pulled.error().message);
-  return Response{
-      .modulus_pa = 0.0,
-      .curve = tester::resampled(pulled->curve, kCurvePoints),
-      .remark = pulled->separated ? "" : fmt::format("not separated at strain {:.2f}", pulled->curve.strain.back())};
+}
+
+Result<Response> respond_toughness(const Truth& truth, const Question& question) {
+  Response response;
+  const int specimens = truth.effects.strength_scatter > 0.0 ? truth.replicates : 1;
+  for (int specimen = 0; specimen < specimens; ++specimen) {
+    const Result<PulledSpecimen> one = pulled(truth, question, specimen);
+    if (!one) return fail("fracture bench: {}", one.error().message);
+    const tester::Curve curve = tester::resampled(one->curve, kCurvePoints);
+    if (specimen > 0) {
+      response.other_curves.push_back(curve);
+      continue;
+    }
+    response.curve = curve;
+    if (!one->separated) response.remark = fmt::format("not separated at strain {:.2f}", one->curve.strain.back());
+  }
+  return response;
+}
+
+/// Whether a coupon's curve is more than the closed form of its elastic law.
+bool hides_a_curve(const HiddenEffects& effects) {
+  return effects.rigid_yield_pa > 0.0 || effects.soft_stiffening_limit > 0.0 || effects.rate_overstress > 0.0 ||
+         effects.soft_overstress > 0.0 || effects.progressive_damage > 0.0 || effects.drawn_out_damage > 0.0;
 }
 
 Result<Response> respond_tensile(const Truth& truth, const Question& question) {
   const pattern::Mixture* mixture = question.design.mixture();
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
-  const material::Lame lame = homogeneous_lame(truth, mixture->rigid_fraction);
   Response response;
+  if (hides_a_curve(truth.effects)) {
+    response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(question), kCouponStrain, kCurvePoints);
+    return response;
+  }
+  const material::Lame lame = homogeneous_lame(truth, mixture->rigid_fraction, making_of(question));
   for (int i = 0; i < kCurvePoints; ++i) {
     const double strain = kCouponStrain * i / (kCurvePoints - 1);
     response.curve.strain.push_back(strain);
@@ -105,14 +139,37 @@ tester::Curve shown_curve(const HiddenEffects& effects, const tester::Curve& cur
   return shown;
 }
 
-void fill_in(SpecimenRecord& record, const Truth& truth, const Response& response) {
-  const Scatter scatter = scatter_of(truth, record.specimen);
+/// The number at the end of a batch's name, from 0; 0 without one.
+int batch_step(const std::string& batch) {
+  const std::size_t digits = batch.find_last_not_of("0123456789") + 1;
+  return digits < batch.size() ? std::max(0, std::atoi(batch.c_str() + digits) - 1) : 0;
+}
+
+/// How far stiffness and stress have drifted where a specimen was printed.
+double drift_of(const HiddenEffects& effects, const SpecimenRecord& record) {
+  double drift = 1.0;
+  if (effects.batch_drift != 0.0) drift *= std::pow(1.0 + effects.batch_drift, batch_step(record.batch));
+  if (effects.order_drift != 0.0) drift *= std::pow(1.0 + effects.order_drift, record.print_order / 100.0);
+  return drift;
+}
+
+/// The curve of replicate `number` among those that were pulled.
+const tester::Curve& curve_of(const Response& response, int number) {
+  const auto which = static_cast<std::size_t>(std::max(0, number - 1)) % (response.other_curves.size() + 1);
+  return which == 0 ? response.curve : response.other_curves[which - 1];
+}
+
+void fill_in(SpecimenRecord& record, const Truth& truth, const Response& response, int number) {
+  Scatter scatter = scatter_of(truth, record.specimen);
+  const double drift = drift_of(truth.effects, record);
+  scatter.modulus *= drift;
+  scatter.stress *= drift;
   if (record.test == TestKind::modulus) {
     record.modulus_pa = shown_modulus(truth.effects, scatter.modulus * response.modulus_pa);
     return;
   }
   const double stress = record.test == TestKind::tensile ? scatter.modulus : scatter.stress;
-  tester::Curve curve = response.curve;
+  tester::Curve curve = curve_of(response, number);
   for (double& value : curve.strain) value *= scatter.strain;
   for (double& value : curve.stress_pa) value *= stress;
   record.curve = shown_curve(truth.effects, curve);
@@ -146,7 +203,7 @@ SpecimenRecord record_specimen(const Truth& truth, const Question& question, con
   record.print_order = replicate.print_order;
   record.valid = response.has_value();
   record.note = response ? response->remark : response.error().message;
-  if (response) fill_in(record, truth, *response);
+  if (response) fill_in(record, truth, *response, replicate.number);
   return record;
 }
 

@@ -27,6 +27,8 @@ struct Response {
   double modulus_pa = 0.0;  ///< test `modulus`
   tester::Curve curve;      ///< `toughness` and `tensile`
   std::string remark;       ///< what a lab book would note, or empty
+  /// Where every specimen's voxels have strengths of their own: curves of further specimens beside `curve`.
+  std::vector<tester::Curve> other_curves = {};
 };
 
 /// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; a question that makes no sense
@@ -38,6 +40,7 @@ struct Replicate {
   std::string specimen;  ///< names the streams of its scatter
   std::string batch;
   int print_order = 0;
+  int number = 1;  ///< among the replicates, from 1: which specimen of a Response with several it is
 };
 
 /// The record of one specimen: the response with this specimen's scatter, seen through the machine, its curve in at

@@ -115,6 +115,20 @@ std::string effect_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// The numbers of an effect that has two.
+void read_numbers(const toml::array& numbers, std::string_view source, const EffectKind& kind, HiddenEffects& effects) {
+  const auto number = [&](std::size_t i, double minimum, double maximum) {
+    const auto value = numbers.get(i) ? numbers.get(i)->value<double>() : std::nullopt;
+    if (!value || !(*value >= minimum && *value <= maximum))
+      throw fault_at(source, numbers, "effect.value", fmt::format("a number from {} to {}", minimum, maximum));
+    return *value;
+  };
+  if (kind.second.value == nullptr || numbers.size() != 2)
+    throw fault_at(source, numbers, "effect.value", kind.second.value ? "two numbers" : "one number");
+  effects.*kind.value = number(0, kind.minimum, kind.maximum);
+  effects.*kind.second.value = number(1, kind.second.minimum, kind.second.maximum);
+}
+
 /// One [[effect]]: a name, and a value, which is drawn when absent or "draw".
 void read_effect(const toml::table& table, std::string_view source, std::uint64_t seed, HiddenEffects& effects) {
   Section section(table, source, "effect.");
@@ -132,8 +146,13 @@ void read_effect(const toml::table& table, std::string_view source, std::uint64_
                    name == kDraw ? "no value beside the name \"draw\"" : "one of " + effect_names());
   }
   const bool drawn = !value || value->value_exact<std::string_view>() == kDraw;
-  effects.*kind->value =
-      drawn ? draw_effect_value(seed, *kind) : section.number("value", kind->minimum, kind->maximum, 0.0);
+  if (kind->second.value != nullptr) effects.*kind->second.value = draw_second_value(seed, *kind);
+  if (const toml::array* numbers = value ? value->as_array() : nullptr) {
+    read_numbers(*numbers, source, *kind, effects);
+  } else {
+    effects.*kind->value =
+        drawn ? draw_effect_value(seed, *kind) : section.number("value", kind->minimum, kind->maximum, 0.0);
+  }
 }
 
 HiddenEffects read_effects(const toml::node* node, std::string_view source, std::uint64_t seed) {
@@ -201,10 +220,16 @@ std::string to_toml(const Truth& truth) {
   text += fmt::format("\n[noise]  # relative standard deviations\nmodulus = {}\ntoughness = {}\nstrain = {}\n",
                       truth.noise.modulus, truth.noise.toughness, truth.noise.strain);
   for (const EffectKind& kind : effect_kinds()) {
-    const double value = truth.effects.*kind.value;
-    if (value == 0.0) continue;
-    text += fmt::format("\n[[effect]]  # {}{}\nname = \"{}\"\nvalue = {}  # {}\n", kind.meaning,
-                        kind.in_library ? "" : "; outside the library of the diagnosis", kind.name, value, kind.unit);
+    if (truth.effects.*kind.value == 0.0) continue;
+    const std::string value = kind.second.value
+                                  ? fmt::format("[{}, {}]  # {}, {}", truth.effects.*kind.value,
+                                                truth.effects.*kind.second.value, kind.unit, kind.second.unit)
+                                  : fmt::format("{}  # {}", truth.effects.*kind.value, kind.unit);
+    text += fmt::format("\n[[effect]]  # {}{}\nname = \"{}\"\nvalue = {}\n", kind.meaning,
+                        kind.in_library       ? ""
+                        : kind.family.empty() ? "; outside the library of the diagnosis"
+                                              : "; another form of an effect of the library",
+                        kind.name, value);
   }
   text += constants_toml("modulus", material::modulus_parameter_names(), material::to_vector(truth.modulus));
   text += constants_toml("toughness", material::toughness_parameter_names(), material::to_vector(truth.toughness));

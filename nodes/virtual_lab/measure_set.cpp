@@ -57,17 +57,24 @@ std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector
   return all;
 }
 
+/// A specimen to be recorded: which question it answers, and which replicate it is.
+struct Planned {
+  std::size_t question = 0;
+  Replicate replicate;
+};
+
 /// Numbers the specimens of each batch 1, 2, ... in an order drawn from the seed.
-void shuffle_print_order(std::vector<SpecimenRecord>& records, std::uint64_t seed) {
-  std::map<std::string, std::vector<std::pair<std::uint64_t, SpecimenRecord*>>> batches;
-  for (SpecimenRecord& record : records) {
-    RandomStream stream(seed, fmt::format("print/{}/{}", record.batch, record.specimen));
-    batches[record.batch].emplace_back(stream.bits(), &record);
+void shuffle_print_order(std::vector<Planned>& plan, std::uint64_t seed) {
+  std::map<std::string, std::vector<std::pair<std::uint64_t, Replicate*>>> batches;
+  for (Planned& planned : plan) {
+    const Replicate& replicate = planned.replicate;
+    RandomStream stream(seed, fmt::format("print/{}/{}", replicate.batch, replicate.specimen));
+    batches[replicate.batch].emplace_back(stream.bits(), &planned.replicate);
   }
   for (auto& [batch, specimens] : batches) {
-    std::ranges::sort(specimens, {}, &std::pair<std::uint64_t, SpecimenRecord*>::first);
+    std::ranges::sort(specimens, {}, &std::pair<std::uint64_t, Replicate*>::first);
     int position = 0;
-    for (auto& [draw, record] : specimens) record->print_order = ++position;
+    for (auto& [draw, replicate] : specimens) replicate->print_order = ++position;
   }
 }
 
@@ -82,18 +89,20 @@ std::filesystem::path truth_file(std::filesystem::path folder) {
 std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
   const std::vector<Question> questions = questions_of(truth, campaign);
   const std::vector<Result<Response>> responses = responses_to(truth, questions, progress);
-  std::vector<SpecimenRecord> records;
+  std::vector<Planned> plan;
   for (std::size_t q = 0; q < questions.size(); ++q) {
     const Question& question = questions[q];
     const char* turned = question.conditions.orientation_deg == kTurnedDeg ? "turned-" : "";
     for (int k = 1; k <= truth.replicates; ++k) {
       const std::string name =
           fmt::format("{}-{}-{}{}", question.design.name(), tester::to_string(question.test), turned, k);
-      records.push_back(record_specimen(truth, question, responses[q],
-                                        {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0}));
+      plan.push_back({q, {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0, .number = k}});
     }
   }
-  shuffle_print_order(records, truth.seed);
+  shuffle_print_order(plan, truth.seed);
+  std::vector<SpecimenRecord> records;
+  for (const Planned& each : plan)
+    records.push_back(record_specimen(truth, questions[each.question], responses[each.question], each.replicate));
   return records;
 }
 

@@ -75,10 +75,16 @@ struct Unknowns {
   }
 };
 
-/// Displacement of an element's unknowns where the top grip has moved by one element edge and all else is at rest.
-Eigen::Matrix<double, 8, 1> grip_displacement(int row, int rows) {
+/// Displacement of an element's unknowns where the top grip has moved by one element edge, tilted about its middle, and
+/// all else is at rest.
+Eigen::Matrix<double, 8, 1> grip_displacement(const Raster& raster, int row, int column) {
   Eigen::Matrix<double, 8, 1> displacement = Eigen::Matrix<double, 8, 1>::Zero();
-  if (row == rows - 1) displacement(5) = displacement(7) = 1.0;
+  if (row != raster.rows - 1) return displacement;
+  const auto moved = [&](int node) {
+    return 1.0 + raster.grips.tilt * (static_cast<double>(node) / raster.columns - 0.5);
+  };
+  displacement(5) = moved(column);
+  displacement(7) = moved(column + 1);
   return displacement;
 }
 
@@ -111,7 +117,7 @@ Equations equations(const Raster& raster, const Elements& elements, const Unknow
     for (int column = 0; column < raster.columns; ++column) {
       const ElementMatrix stiffness = elements.stiffness(row, column);
       const std::array<int, 8> number = unknowns.of_element(row, column);
-      const Eigen::Matrix<double, 8, 1> reaction = stiffness * grip_displacement(row, raster.rows);
+      const Eigen::Matrix<double, 8, 1> reaction = stiffness * grip_displacement(raster, row, column);
       for (std::size_t i = 0; i < 8; ++i) {
         if (number[i] < 0) continue;
         result.load(number[i]) -= reaction(static_cast<int>(i));
@@ -122,6 +128,12 @@ Equations equations(const Raster& raster, const Elements& elements, const Unknow
       }
     }
   }
+  if (raster.grips.side_stiffness_pa > 0.0)
+    for (const int row : {0, raster.rows})
+      for (int column = 0; column <= raster.columns; ++column) {
+        const int sideways = unknowns.number[static_cast<std::size_t>(2 * unknowns.node(row, column))];
+        if (sideways >= 0) entries.emplace_back(sideways, sideways, raster.grips.side_stiffness_pa);
+      }
   result.matrix.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
@@ -131,7 +143,7 @@ double bottom_force(const Raster& raster, const Elements& elements, const Unknow
                     const Eigen::VectorXd& solution) {
   double force = 0.0;
   for (int column = 0; column < raster.columns; ++column) {
-    Eigen::Matrix<double, 8, 1> displacement = grip_displacement(0, raster.rows);
+    Eigen::Matrix<double, 8, 1> displacement = grip_displacement(raster, 0, column);
     const std::array<int, 8> number = unknowns.of_element(0, column);
     for (std::size_t i = 0; i < 8; ++i) {
       if (number[i] >= 0) displacement(static_cast<int>(i)) = solution(number[i]);

@@ -36,11 +36,13 @@ Result<Question> question_from_spec(std::string_view spec) try {
 
 std::string to_text(const Result<Response>& response) {
   if (!response) return json{{"failure", response.error().message}}.dump();
-  return json{{"modulus_pa", response->modulus_pa},
+  json fields{{"modulus_pa", response->modulus_pa},
               {"strain", response->curve.strain},
               {"stress_pa", response->curve.stress_pa},
-              {"remark", response->remark}}
-      .dump();
+              {"remark", response->remark}};
+  for (const tester::Curve& curve : response->other_curves)
+    fields["others"].push_back({{"strain", curve.strain}, {"stress_pa", curve.stress_pa}});
+  return fields.dump();
 }
 
 Result<Response> response_from_text(std::string_view text) try {
@@ -51,6 +53,10 @@ Result<Response> response_from_text(std::string_view text) try {
   response.curve.strain = fields.at("strain").get<std::vector<double>>();
   response.curve.stress_pa = fields.at("stress_pa").get<std::vector<double>>();
   response.remark = fields.at("remark").get<std::string>();
+  if (fields.contains("others"))
+    for (const json& other : fields["others"])
+      response.other_curves.push_back({.strain = other.at("strain").get<std::vector<double>>(),
+                                       .stress_pa = other.at("stress_pa").get<std::vector<double>>()});
   if (response.curve.strain.size() != response.curve.stress_pa.size())
     return fail("response of the virtual laboratory: lengths differ");
   return response;

@@ -1,27 +1,24 @@
 #include "virtual_lab/specimen_raster.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
+#include "base/random.hpp"
 #include "material/neo_hookean.hpp"
 #include "tester/fidelity.hpp"
+#include "virtual_lab/laid_unit.hpp"
 
 namespace nacre::virtual_laboratory {
 namespace {
 
-/// Lengths in pixels. Pixel k of a row of pixels is centred half a tester element from the specimen's edge plus k
-/// pixels.
-constexpr double kFirstCentre = 0.5 * kTesterElementM / kPixelM;
-constexpr double kInterfaceReach = 0.25;
-/// Elements of the laboratory along one side of a repeated unit.
-constexpr int kUnitElements = static_cast<int>(pattern::kSide * kPixelM / kElementM + 0.5);
 /// Thresholds are meant at the testers' element size; deletion of smaller elements dissipates W h per area.
 constexpr double kThresholdScale = kTesterElementM / kElementM;
-
-int wrapped(int index) { return (index % pattern::kSide + pattern::kSide) % pattern::kSide; }
 
 /// Which pixels, counted along one axis, lie within reach of a coordinate: one, or the two on both sides of a boundary.
 struct Neighbours {
@@ -35,73 +32,6 @@ Neighbours neighbours(double coordinate_m) {
   const int own = static_cast<int>(std::floor(along));
   if (std::abs(along - nearest_boundary) >= kInterfaceReach) return {own, own};
   return {static_cast<int>(nearest_boundary) - 1, static_cast<int>(nearest_boundary)};
-}
-
-/// Pixel (column, row) counted from the lower left, the unit repeated without end.
-bool rigid_at(const pattern::Layout& layout, int column, int row) {
-  return layout.rigid(pattern::kSide - 1 - wrapped(row), wrapped(column));
-}
-
-double rigid_fraction_of(Site site) { return site == Site::rigid ? 1.0 : site == Site::soft ? 0.0 : 0.5; }
-
-/// One periodic unit at the laboratory's resolution.
-struct Unit {
-  std::vector<Site> site;
-  std::vector<double> rigid_fraction;
-};
-std::size_t unit_index(int row, int column) { return static_cast<std::size_t>(row * kUnitElements + column); }
-
-/// Integral up to t of the hat function of width two around 0: how much of an element a window of its size has passed.
-double hat_integral(double t) {
-  if (t <= -1.0) return 0.0;
-  if (t >= 1.0) return 1.0;
-  return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 1.0 - 0.5 * (1.0 - t) * (1.0 - t);
-}
-
-/// Share of the element at distance k = -reach .. reach in the mean over an element of the moving average of width
-/// `width`, both in elements.
-std::vector<double> window_shares(double width) {
-  const int reach = static_cast<int>(std::ceil(0.5 * width));
-  std::vector<double> shares;
-  for (int k = -reach; k <= reach; ++k) {
-    shares.push_back((hat_integral(k + 0.5 * width) - hat_integral(k - 0.5 * width)) / width);
-  }
-  return shares;
-}
-
-/// Mean of `field` over a square window of `shares` around each element, the unit repeated without end.
-std::vector<double> averaged(const std::vector<double>& field, const std::vector<double>& shares, bool along_rows) {
-  const int reach = static_cast<int>(shares.size() / 2);
-  std::vector<double> result(field.size());
-  for (int row = 0; row < kUnitElements; ++row) {
-    for (int column = 0; column < kUnitElements; ++column) {
-      double sum = 0.0;
-      for (int k = -reach; k <= reach; ++k) {
-        const int r = along_rows ? (row + k + kUnitElements) % kUnitElements : row;
-        const int c = along_rows ? column : (column + k + kUnitElements) % kUnitElements;
-        sum += shares[static_cast<std::size_t>(k + reach)] * field[unit_index(r, c)];
-      }
-      result[unit_index(row, column)] = sum;
-    }
-  }
-  return result;
-}
-
-Unit unit_of(const pattern::Layout& layout, double mixing_pixels) {
-  Unit unit;
-  for (int row = 0; row < kUnitElements; ++row) {
-    for (int column = 0; column < kUnitElements; ++column) {
-      const Site site = site_at(layout, (column + 0.5) * kElementM, (row + 0.5) * kElementM);
-      unit.site.push_back(site);
-      unit.rigid_fraction.push_back(rigid_fraction_of(site));
-    }
-  }
-  const double window_elements = mixing_pixels * kPixelM / kElementM;
-  if (window_elements > 0.0) {
-    const std::vector<double> shares = window_shares(window_elements);
-    unit.rigid_fraction = averaged(averaged(unit.rigid_fraction, shares, false), shares, true);
-  }
-  return unit;
 }
 
 /// Constants of soft, interface and rigid material, in this order.
@@ -149,14 +79,110 @@ double site_factor(Site site, const HiddenEffects& effects, double orientation_d
   }
 }
 
+/// How far a rigid fraction is soft, or rigid, beyond the interface.
+double soft_part(double rigid_fraction) { return std::max(0.0, 1.0 - 2.0 * rigid_fraction); }
+double rigid_part(double rigid_fraction) { return std::max(0.0, 2.0 * rigid_fraction - 1.0); }
+
+/// Stress through the thickness keeps the sheet from contracting; thicker sheets more.
+material::Lame held_in_thickness(material::Lame lame, double poisson, const HiddenEffects& effects,
+                                 const Making& making) {
+  if (effects.plane_strain == 0.0) return lame;
+  const double odds = effects.plane_strain * making.thickness_mm / 3.2,
+               share = odds / (odds + 1.0 - effects.plane_strain);
+  const double nu = std::min(poisson, 0.49);
+  const double full_pa = 2.0 * lame.mu_pa * nu / (1.0 - 2.0 * nu);
+  lame.lambda_pa += share * std::max(0.0, full_pa - lame.lambda_pa);
+  return lame;
+}
+
 struct ElementConstants {
   double mu_pa, lambda_pa, threshold;
 };
 
-ElementConstants element_constants(const Constants& constants, double rigid_fraction, double factor) {
+ElementConstants element_constants(const Constants& constants, double rigid_fraction, double factor,
+                                   const HiddenEffects& effects, const Making& making) {
   const double young = mixed_in_log(constants.young_pa, rigid_fraction) * factor;
-  const material::Lame lame = material::lame_from_engineering(young, mixed(constants.poisson, rigid_fraction));
+  const double poisson = mixed(constants.poisson, rigid_fraction);
+  const material::Lame lame =
+      held_in_thickness(material::lame_from_engineering(young, poisson), poisson, effects, making);
   return {lame.mu_pa, lame.lambda_pa, mixed_in_log(constants.threshold, rigid_fraction) * factor * kThresholdScale};
+}
+
+/// A rigid pixel that stands nearly alone.
+bool is_thin_feature(const pattern::Layout& layout, int row, int column) {
+  const auto pixel = [](int element) {
+    return static_cast<int>(std::floor((element + 0.5) * kElementM / kPixelM - kFirstCentre + 0.5));
+  };
+  const int y = pixel(row), x = pixel(column);
+  if (!rigid_at(layout, x, y)) return false;
+  const int neighbours =
+      rigid_at(layout, x - 1, y) + rigid_at(layout, x + 1, y) + rigid_at(layout, x, y - 1) + rigid_at(layout, x, y + 1);
+  return neighbours < 3;
+}
+
+/// A place of the specimen, for what does not repeat with the unit; 0 to 1 along each axis, pixels along the printer's.
+struct Place {
+  double x = 0.0, y = 0.0, side_pixels = 0.0;
+  int printer_row = 0;
+  double printed = 0.0;  ///< 0 first, 1 last
+};
+
+/// Factors on stiffness and strength of what hidden effects do at a place.
+struct PlaceFactors {
+  double stiffness = 1.0, strength = 1.0;
+};
+
+PlaceFactors place_factors(const HiddenEffects& effects, const Place& place, double rigid_fraction) {
+  constexpr double kEdgePixels = 2.0;
+  constexpr int kRowsPerLayer = 10;
+  PlaceFactors factors;
+  const auto lose = [&](double share) {
+    factors.stiffness *= 1.0 - share;
+    factors.strength *= 1.0 - share;
+  };
+  lose(effects.void_gradient * place.printed * soft_part(rigid_fraction));
+  if (place.side_pixels < kEdgePixels) lose(effects.edge_layer);
+  if (place.printer_row % kRowsPerLayer == kRowsPerLayer / 2) factors.strength *= 1.0 - effects.weak_layers;
+  return factors;
+}
+
+Place place_of(const SpecimenSize& size, int row, int column, double orientation_deg) {
+  const double x = (column + 0.5) * kElementM, y = (row + 0.5) * kElementM;
+  const double width = size.columns * kTesterElementM, height = size.rows * kTesterElementM;
+  const bool turned = orientation_deg == 90.0;
+  return {.x = x / width,
+          .y = y / height,
+          .side_pixels = std::min(x, width - x) / kPixelM,
+          .printer_row = static_cast<int>((turned ? x : y) / kPixelM),
+          .printed = turned ? x / width : y / height};
+}
+
+/// Share of an element that was not cut away.
+double remaining_share(const SpecimenSize& size, int row, int column) {
+  if (size.root_radius_columns == 0.0)
+    return is_cut_away(size, (column + 0.5) * kElementM, (row + 0.5) * kElementM) ? 0.0 : 1.0;
+  constexpr int kPoints = 6;
+  int left = 0;
+  for (int i = 0; i < kPoints * kPoints; ++i) {
+    const double x = (column + (i % kPoints + 0.5) / kPoints) * kElementM,
+                 y = (row + (i / kPoints + 0.5) / kPoints) * kElementM;
+    left += is_cut_away(size, x, y) ? 0 : 1;
+  }
+  return left < 3 ? 0.0 : static_cast<double>(left) / (kPoints * kPoints);
+}
+
+/// Weibull factors of mean 1, one for each voxel of a tester element's size.
+std::vector<double> voxel_strengths(const Truth& truth, const pattern::Design& design, const Making& making,
+                                    const SpecimenSize& size) {
+  if (truth.effects.strength_scatter == 0.0) return {};
+  RandomStream stream(truth.seed,
+                      fmt::format("voxels/{}/{}/{}", design.name(), making.orientation_deg, making.specimen));
+  // Justus' approximation of the shape is right within 1 % from 5 to 60 %.
+  const double shape = std::pow(truth.effects.strength_scatter, -1.086);
+  std::vector<double> factors(static_cast<std::size_t>(size.columns * size.rows));
+  for (double& factor : factors)
+    factor = std::pow(-std::log(1.0 - stream.uniform()), 1.0 / shape) / std::tgamma(1.0 + 1.0 / shape);
+  return factors;
 }
 
 Raster empty_raster(const SpecimenSize& size) {
@@ -171,34 +197,105 @@ Raster empty_raster(const SpecimenSize& size) {
   return raster;
 }
 
-Raster rasterised(const Constants& constants, const HiddenEffects& effects, const pattern::Design& design,
-                  double orientation_deg, const SpecimenSize& size) {
-  Raster raster = empty_raster(size);
-  const bool homogeneous = design.mixture() != nullptr;
-  raster.all_soft = design.rigid_fraction() == 0.0;
-  std::vector<ElementConstants> unit;
-  if (homogeneous) {
-    unit.assign(kUnitElements * kUnitElements, element_constants(constants, design.mixture()->rigid_fraction, 1.0));
-  } else {
-    // Orientation 90: the design lies in the printer's axes, the specimen is pulled along the printer's x.
-    const pattern::Layout layout = orientation_deg == 90.0 ? design.layout()->rotated() : *design.layout();
-    const Unit printed = unit_of(layout, effects.droplet_mixing_pixels);
-    for (std::size_t i = 0; i < printed.site.size(); ++i) {
-      const double factor = site_factor(printed.site[i], effects, orientation_deg);
-      unit.push_back(element_constants(constants, printed.rigid_fraction[i], factor));
+/// What the repeated unit is made of.
+struct UnitElements {
+  std::vector<ElementConstants> constants;
+  std::vector<double> rigid_fraction;
+};
+
+UnitElements unit_elements(const Constants& constants, const Truth& truth, const pattern::Design& design,
+                           const Making& making) {
+  UnitElements unit;
+  const HiddenEffects& effects = truth.effects;
+  if (const pattern::Mixture* mixture = design.mixture()) {
+    unit.rigid_fraction.assign(kUnitElements * kUnitElements, mixture->rigid_fraction);
+    unit.constants.assign(kUnitElements * kUnitElements,
+                          element_constants(constants, mixture->rigid_fraction, 1.0, effects, making));
+    return unit;
+  }
+  // Orientation 90: the design lies in the printer's axes, the specimen is pulled along the printer's x.
+  const pattern::Layout layout = making.orientation_deg == 90.0 ? design.layout()->rotated() : *design.layout();
+  const Unit printed = unit_of(layout, effects);
+  unit.rigid_fraction = printed.rigid_fraction;
+  for (int row = 0; row < kUnitElements; ++row) {
+    for (int column = 0; column < kUnitElements; ++column) {
+      const std::size_t i = unit_index(row, column);
+      double factor = site_factor(printed.site[i], effects, making.orientation_deg);
+      if (effects.undercured_features > 0.0 && is_thin_feature(layout, row, column))
+        factor *= 1.0 - effects.undercured_features;
+      unit.constants.push_back(element_constants(constants, printed.rigid_fraction[i], factor, effects, making));
     }
   }
+  return unit;
+}
+
+/// The hidden laws of element `e` of a fracture specimen.
+void set_laws(HiddenLaw& law, std::size_t e, std::size_t count, const HiddenEffects& effects, double rigid_fraction,
+              bool homogeneous) {
+  const auto put = [&](std::vector<double>& field, bool acts, double otherwise, double value) {
+    if (!acts) return;
+    if (field.empty()) field.assign(count, otherwise);
+    field[e] = value;
+  };
+  const double never = std::numeric_limits<double>::infinity(), rigid = rigid_part(rigid_fraction);
+  put(law.yield_pa, effects.rigid_yield_pa > 0.0, never, rigid > 0.0 ? effects.rigid_yield_pa / rigid : never);
+  put(law.inverse_limit, effects.soft_stiffening_limit > 0.0, 0.0,
+      soft_part(rigid_fraction) / std::max(effects.soft_stiffening_limit, 1e-9));
+  put(law.eigenstrain, effects.residual_strain != 0.0 && !homogeneous, 0.0, -effects.residual_strain * rigid_fraction);
+  put(law.overstress, effects.rate_overstress > 0.0, 0.0, effects.rate_overstress);
+  put(law.overstress, effects.soft_overstress > 0.0, 0.0, effects.soft_overstress * soft_part(rigid_fraction));
+}
+
+Raster rasterised(const Constants& constants, const Truth& truth, const pattern::Design& design, const Making& making,
+                  const SpecimenSize& size) {
+  Raster raster = empty_raster(size);
+  const HiddenEffects& effects = truth.effects;
+  raster.all_soft = design.rigid_fraction() == 0.0;
+  raster.grips.tilt = effects.grip_tilt;
+  if (effects.grip_friction > 0.0)
+    raster.grips.side_stiffness_pa =
+        effects.grip_friction / (1.0 - effects.grip_friction) * mixed_in_log(constants.young_pa, 0.5);
+  const UnitElements unit = unit_elements(constants, truth, design, making);
+  const std::vector<double> strengths =
+      size.notched ? voxel_strengths(truth, design, making, size) : std::vector<double>{};
   for (int row = 0; row < raster.rows; ++row) {
     for (int column = 0; column < raster.columns; ++column) {
-      if (is_cut_away(size, (column + 0.5) * kElementM, (row + 0.5) * kElementM)) continue;
-      const ElementConstants& element = unit[unit_index(row % kUnitElements, column % kUnitElements)];
+      const double remaining = remaining_share(size, row, column);
+      if (remaining == 0.0) continue;
+      const std::size_t in_unit = unit_index(row % kUnitElements, column % kUnitElements);
+      const ElementConstants& element = unit.constants[in_unit];
+      const double rigid_fraction = unit.rigid_fraction[in_unit];
+      const PlaceFactors factors =
+          place_factors(effects, place_of(size, row, column, making.orientation_deg), rigid_fraction);
       const auto e = static_cast<std::size_t>(row * raster.columns + column);
-      raster.mu_pa[e] = element.mu_pa;
-      raster.lambda_pa[e] = element.lambda_pa;
-      raster.threshold_j_per_m3[e] = element.threshold;
+      raster.mu_pa[e] = element.mu_pa * factors.stiffness * remaining;
+      raster.lambda_pa[e] = element.lambda_pa * factors.stiffness * remaining;
+      raster.threshold_j_per_m3[e] = element.threshold * factors.strength * remaining;
+      if (!strengths.empty())
+        raster.threshold_j_per_m3[e] *= strengths[static_cast<std::size_t>(row / 2 * size.columns + column / 2)];
+      if (size.notched)
+        set_laws(raster.law, e, raster.mu_pa.size(), effects, rigid_fraction, design.mixture() != nullptr);
     }
   }
   return raster;
+}
+
+/// E of a tensile test over its relaxed value: means of the branch's stress rate between 0.05 and 0.25 % strain.
+double branch_stiffness(double overstress, double relaxation_s, double rate_per_s) {
+  if (overstress == 0.0) return 1.0;
+  const double first = 0.0005 / rate_per_s, last = 0.0025 / rate_per_s;
+  return 1.0 + overstress * relaxation_s * (std::exp(-first / relaxation_s) - std::exp(-last / relaxation_s)) /
+                   (last - first);
+}
+
+/// The constants of theta at the rate of a modulus test.
+Constants constants_at_rate(const Truth& truth, double rate_per_s) {
+  Constants constants = constants_of(truth.modulus);
+  const HiddenEffects& effects = truth.effects;
+  const double all = branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, rate_per_s);
+  for (double& young_pa : constants.young_pa) young_pa *= all;
+  constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, rate_per_s);
+  return constants;
 }
 
 }  // namespace
@@ -219,6 +316,8 @@ bool is_cut_away(const SpecimenSize& size, double x_m, double y_m) {
   if (!size.notched) return false;
   const double x = x_m / kTesterElementM, above_axis = y_m / kTesterElementM - (size.notch_row + 0.5);
   const bool in_notch = x < size.notch_columns && std::abs(above_axis) < 0.5;
+  const double radius = size.root_radius_columns;
+  if (std::hypot(x - (size.notch_columns - radius), above_axis) < radius) return true;
   const double half_opening = std::tan(std::numbers::pi / 6.0);  // of 60 degrees
   return in_notch || std::abs(above_axis) < (size.cut_columns - x) * half_opening;
 }
@@ -239,23 +338,44 @@ SpecimenSize specimen_size(tester::TestKind test, tester::Fidelity fidelity) {
   return size;
 }
 
-Raster modulus_raster(const Truth& truth, const pattern::Design& design, double orientation_deg,
+SpecimenSize specimen_size(tester::TestKind test, tester::Fidelity fidelity, const HiddenEffects& effects) {
+  SpecimenSize size = specimen_size(test, fidelity);
+  if (!size.notched) return size;
+  size.root_radius_columns = effects.blunt_notch * size.columns;
+  size.notch_columns += static_cast<int>(std::lround(effects.longer_notch * size.columns));
+  return size;
+}
+
+Raster modulus_raster(const Truth& truth, const pattern::Design& design, const Making& making,
                       const SpecimenSize& size) {
-  return rasterised(constants_of(truth.modulus), truth.effects, design, orientation_deg, size);
+  return rasterised(constants_at_rate(truth, making.strain_rate_per_s), truth, design, making, size);
 }
 
-Raster fracture_raster(const Truth& truth, const pattern::Design& design, double orientation_deg,
+Raster fracture_raster(const Truth& truth, const pattern::Design& design, const Making& making,
                        const SpecimenSize& size) {
-  return rasterised(constants_of(truth.toughness), truth.effects, design, orientation_deg, size);
+  Raster raster = rasterised(constants_of(truth.toughness), truth, design, making, size);
+  const HiddenEffects& effects = truth.effects;
+  // The machine pulls slowly, the bench fast: what relaxes does so at the same strain.
+  raster.law.relaxation_s = (effects.rate_overstress > 0.0 ? effects.rate_relaxation_s : effects.soft_relaxation_s) *
+                            making.strain_rate_per_s / making.pull_rate_per_s;
+  raster.law.linear_softening = effects.progressive_damage;
+  raster.law.drawn_out_softening = effects.drawn_out_damage;
+  raster.law.tension_only = effects.tension_only_failure;
+  return raster;
 }
 
-double homogeneous_modulus(const Truth& truth, double rigid_fraction) {
-  return mixed_in_log(constants_of(truth.modulus).young_pa, rigid_fraction);
+double homogeneous_modulus(const Truth& truth, double rigid_fraction, const Making& making) {
+  if (truth.effects.plane_strain == 0.0)
+    return mixed_in_log(constants_at_rate(truth, making.strain_rate_per_s).young_pa, rigid_fraction);
+  const material::Lame lame = homogeneous_lame(truth, rigid_fraction, making);
+  return 4.0 * lame.mu_pa * (lame.lambda_pa + lame.mu_pa) / (lame.lambda_pa + 2.0 * lame.mu_pa);
 }
 
-material::Lame homogeneous_lame(const Truth& truth, double rigid_fraction) {
-  return material::lame_from_engineering(homogeneous_modulus(truth, rigid_fraction),
-                                         mixed(constants_of(truth.modulus).poisson, rigid_fraction));
+material::Lame homogeneous_lame(const Truth& truth, double rigid_fraction, const Making& making) {
+  const Constants constants = constants_at_rate(truth, making.strain_rate_per_s);
+  const double poisson = mixed(constants.poisson, rigid_fraction);
+  return held_in_thickness(material::lame_from_engineering(mixed_in_log(constants.young_pa, rigid_fraction), poisson),
+                           poisson, truth.effects, making);
 }
 
 }  // namespace nacre::virtual_laboratory

@@ -33,7 +33,40 @@ struct HiddenEffects {
   double diagonal_debonding = 0.0;
   double load_cell_gain = 0.0;
   double toe_slack = 0.0;
+  double rigid_overprint_pixels = 0.0;
+  double rigid_yield_pa = 0.0;
+  double soft_stiffening_limit = 0.0;
+  double rate_overstress = 0.0, rate_relaxation_s = 0.0;
+  double progressive_damage = 0.0;
+  double tension_only_failure = 0.0;
+  double strength_scatter = 0.0;
+  double blunt_notch = 0.0;
+  double residual_strain = 0.0;
+  double plane_strain = 0.0;
+  double batch_drift = 0.0;
+  // Other forms of effects that the diagnosis knows.
+  double smooth_mixing_pixels = 0.0;
+  double longer_notch = 0.0;
+  double soft_overstress = 0.0, soft_relaxation_s = 0.0;
+  double drawn_out_damage = 0.0;
+  double order_drift = 0.0;
+  // Effects that it does not know.
+  double void_gradient = 0.0;
+  double edge_layer = 0.0;
+  double weak_layers = 0.0;
+  double undercured_features = 0.0;
+  double grip_friction = 0.0;
+  double grip_tilt = 0.0;
   bool operator==(const HiddenEffects&) const = default;
+};
+
+/// One number of an effect: what it means, which values are allowed in a file and which are drawn.
+struct EffectNumber {
+  std::string_view unit;
+  std::string_view meaning;
+  double minimum = 0.0, maximum = 0.0;
+  double drawn_minimum = 0.0, drawn_maximum = 0.0;  ///< magnitudes drawn, log-uniform
+  double HiddenEffects::*value = nullptr;
 };
 
 /// One sort of hidden effect: its name in LAB.toml, what its value means, which values are allowed and which are drawn.
@@ -42,10 +75,13 @@ struct EffectKind {
   std::string_view unit;
   std::string_view meaning;
   double minimum = 0.0, maximum = 0.0;              ///< allowed in a file
-  double drawn_minimum = 0.0, drawn_maximum = 0.0;  ///< magnitudes drawn, log-uniform; 0, 0: never drawn unasked
+  double drawn_minimum = 0.0, drawn_maximum = 0.0;  ///< magnitudes drawn, log-uniform
   bool either_sign = false;                         ///< the drawn value takes a sign by the toss of a coin
+  bool drawn_unasked = false;                       ///< a laboratory without file may hide it
   bool in_library = true;                           ///< false: the diagnosis has no name for it
+  std::string_view family = {};                     ///< of the library that it belongs to all the same, or empty
   double HiddenEffects::*value = nullptr;
+  EffectNumber second = {};  ///< its second number, where it has one (second.value not null)
 };
 std::span<const EffectKind> effect_kinds();
 
@@ -67,8 +103,9 @@ material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed);
 
 /// None, one or two effects (30, 50, 20 %) with magnitudes that matter.
 HiddenEffects draw_effects(std::uint64_t seed);
-/// The magnitude that this seed gives to one effect.
+/// The magnitude that this seed gives to one effect, and to its second number.
 double draw_effect_value(std::uint64_t seed, const EffectKind& kind);
+double draw_second_value(std::uint64_t seed, const EffectKind& kind);
 
 /// The truth of a laboratory that has no file: everything drawn from the seed.
 Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity);

@@ -103,8 +103,10 @@ void VirtualLabCore::report(const wire::TestOrder& order, const Question& questi
   }
   for (int k = 1; k <= order.replicates; ++k) {
     const std::string specimen = fmt::format("{}/{}", order.order_id, k);
-    const Replicate replicate{
-        .specimen = specimen, .batch = order.batch, .print_order = print_position(truth_.seed, order.batch, specimen)};
+    const Replicate replicate{.specimen = specimen,
+                              .batch = order.batch,
+                              .print_order = print_position(truth_.seed, order.batch, specimen),
+                              .number = k};
     const wire::Measurement measurement{.round = order.round,
                                         .order_id = order.order_id,
                                         .fidelity = order.fidelity,

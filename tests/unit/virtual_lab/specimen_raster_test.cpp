@@ -60,7 +60,7 @@ TEST(SpecimenRaster, SitesAtTheCentresOfTesterElementsAreTheTestersAssignment) {
 void expect_same_constants(const Truth& truth, const material::ParameterSet& parameters, double orientation_deg) {
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
   for (const pattern::Layout& layout : sample_layouts()) {
-    const Raster raster = fracture_raster(truth, layout, orientation_deg, size);
+    const Raster raster = fracture_raster(truth, layout, {.orientation_deg = orientation_deg}, size);
     const fem::Grid grid = tester::assemble(layout, parameters, {.orientation_deg = orientation_deg},
                                             tester::AssemblyTarget::toughness, 2, 1, 2);
     ASSERT_EQ(raster.columns, grid.columns);
@@ -104,8 +104,8 @@ void expect_weakened(const HiddenEffects& effects, const std::vector<Site>& site
   weak.effects = effects;
   const pattern::Layout layout = sample_layouts().back();
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
-  const Raster before = fracture_raster(plain_truth(), layout, 0.0, size);
-  const Raster after = fracture_raster(weak, layout, 0.0, size);
+  const Raster before = fracture_raster(plain_truth(), layout, {.orientation_deg = 0.0}, size);
+  const Raster after = fracture_raster(weak, layout, {.orientation_deg = 0.0}, size);
   int weakened = 0;
   for (int row = 0; row < after.rows; ++row) {
     for (int column = 0; column < after.columns; ++column) {
@@ -167,7 +167,8 @@ TEST(SpecimenRaster, EffectsOfZeroAreExactlyNothing) {
                   .toe_slack = 0.0};
   const SpecimenSize size = specimen_size(tester::TestKind::modulus, tester::Fidelity::full);
   const pattern::Layout layout = sample_layouts().back();
-  const Raster a = modulus_raster(plain_truth(), layout, 0.0, size), b = modulus_raster(zero, layout, 0.0, size);
+  const Raster a = modulus_raster(plain_truth(), layout, {.orientation_deg = 0.0}, size),
+               b = modulus_raster(zero, layout, {.orientation_deg = 0.0}, size);
   EXPECT_EQ(a.mu_pa, b.mu_pa);
   EXPECT_EQ(a.lambda_pa, b.lambda_pa);
 }

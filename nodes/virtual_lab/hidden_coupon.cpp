@@ -1,0 +1,90 @@
+#include "virtual_lab/hidden_coupon.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::virtual_laboratory {
+namespace {
+
+/// Uniaxial response by true (logarithmic) strain: a spring with a yield stress, a Maxwell branch, stiffening chains
+/// and softening, in one dimension.
+class Strand {
+ public:
+  Strand(const Truth& truth, double rigid_fraction, const Making& making) : effects_(truth.effects) {
+    // The branch is integrated here, so that the relaxed modulus is wanted.
+    Truth relaxed = truth;
+    relaxed.effects.rate_overstress = relaxed.effects.soft_overstress = 0.0;
+    lame_ = homogeneous_lame(relaxed, rigid_fraction, making);
+    const double rigid = std::max(0.0, 2.0 * rigid_fraction - 1.0), soft = std::max(0.0, 1.0 - 2.0 * rigid_fraction);
+    if (effects_.rigid_yield_pa > 0.0 && rigid > 0.0) yield_pa_ = effects_.rigid_yield_pa / rigid;
+    if (effects_.soft_stiffening_limit > 0.0) inverse_limit_ = soft / effects_.soft_stiffening_limit;
+    overstress_ = effects_.rate_overstress > 0.0 ? effects_.rate_overstress : effects_.soft_overstress * soft;
+    relaxation_s_ = effects_.rate_overstress > 0.0 ? effects_.rate_relaxation_s : effects_.soft_relaxation_s;
+    const auto& eta = truth.toughness;
+    const double low = std::log(rigid_fraction < 0.5 ? eta.w_tb_j_per_m3 : eta.w_if_j_per_m3),
+                 high = std::log(rigid_fraction < 0.5 ? eta.w_if_j_per_m3 : eta.w_vw_j_per_m3);
+    threshold_ =
+        std::exp(low + (high - low) * (rigid_fraction < 0.5 ? 2.0 * rigid_fraction : 2.0 * rigid_fraction - 1.0));
+  }
+
+  /// Nominal stress after a further step to `strain` within `dt_s`.
+  double pull(double strain, double dt_s) {
+    const double elastic = std::log1p(strain) - flow_;
+    double kirchhoff = elastic_stress(elastic);
+    if (std::abs(kirchhoff) > yield_pa_) {
+      const double modulus = (elastic_stress(elastic + 1e-6) - kirchhoff) / 1e-6;
+      const double more = (std::abs(kirchhoff) - yield_pa_) / modulus;
+      flow_ += std::copysign(more, kirchhoff);
+      kirchhoff = std::copysign(yield_pa_, kirchhoff);
+    }
+    work_ += 0.5 * (kirchhoff + last_) * (std::log1p(strain) - last_log_);
+    if (overstress_ > 0.0) {
+      const double kept = std::exp(-dt_s / relaxation_s_);
+      branch_ = kept * (branch_ + overstress_ * (kirchhoff - last_));
+    }
+    last_ = kirchhoff;
+    last_log_ = std::log1p(strain);
+    integrity_ = std::min(integrity_, left());
+    return integrity_ * (kirchhoff + branch_) / (1.0 + strain);
+  }
+
+ private:
+  /// Kirchhoff stress of the law at a logarithmic strain with no sideways stress.
+  double elastic_stress(double log_strain) const {
+    const double strain = std::expm1(log_strain);
+    const double base = material::uniaxial_stress(strain, lame_).nominal_stress_pa * (1.0 + strain);
+    const double filled = inverse_limit_ * (strain * (2.0 + strain) - 2.0 * log_strain);
+    return base / (1.0 - std::min(filled, 0.98));
+  }
+  double left() const {
+    const double s = std::sqrt(std::max(0.0, work_) / threshold_), v = effects_.progressive_damage,
+                 w = effects_.drawn_out_damage;
+    if (s <= 1.0) return 1.0;
+    if (w > 0.0) return std::pow(1.0 + (s - 1.0) / w, -3.0) / s;
+    return v > 0.0 ? std::max(0.0, (1.0 + v - s) / (s * v)) : 1.0;
+  }
+
+  const HiddenEffects& effects_;
+  material::Lame lame_;
+  double yield_pa_ = 1e30, inverse_limit_ = 0.0, overstress_ = 0.0, relaxation_s_ = 1.0, threshold_ = 1e30;
+  double flow_ = 0.0, branch_ = 0.0, last_ = 0.0, last_log_ = 0.0, work_ = 0.0, integrity_ = 1.0;
+};
+
+}  // namespace
+
+tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making, double strain, int points) {
+  constexpr int kSubsteps = 20;
+  Strand strand(truth, rigid_fraction, making);
+  tester::Curve curve{.strain = {0.0}, .stress_pa = {0.0}};
+  const int steps = (points - 1) * kSubsteps;
+  for (int i = 1; i <= steps; ++i) {
+    const double at = strain * i / steps;
+    const double stress_pa = strand.pull(at, strain / steps / making.strain_rate_per_s);
+    if (i % kSubsteps != 0) continue;
+    curve.strain.push_back(at);
+    curve.stress_pa.push_back(stress_pa);
+  }
+  return curve;
+}
+
+}  // namespace nacre::virtual_laboratory

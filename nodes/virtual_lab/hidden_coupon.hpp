@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tester/curve.hpp"
+#include "virtual_lab/specimen_raster.hpp"
+
+namespace nacre::virtual_laboratory {
+
+/// Curve of an unnotched homogeneous coupon at the machine's rate, in `points` equally spaced strains up to `strain`,
+/// with what the truth hides in its material. Stress of the softened coupon is the mean over its cross-section.
+tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making, double strain, int points);
+
+}  // namespace nacre::virtual_laboratory
