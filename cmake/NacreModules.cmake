@@ -1,7 +1,6 @@
 # The modules of lib/, lowest first: a module may include only modules that stand before it in this list.
-# (surrogate joins when it is built.)
-set(NACRE_MODULES base thesis pattern material fem tester crack film animation measurement optimize sysid explore select diagnosis families fabricate game wire store
-                  runtime)
+set(NACRE_MODULES base thesis pattern material fem tester crack film animation measurement optimize surrogate sysid explore select diagnosis families fabricate game wire
+                  store runtime)
 
 add_library(nacre_flags INTERFACE)
 # -ffp-contract=off: the agents' decisions are the same under every compiler; the simulation kernel fuses explicitly.

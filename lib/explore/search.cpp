@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/ranges.h>
+
 #include "base/result.hpp"
+#include "explore/dgemo.hpp"
 #include "explore/evolution.hpp"
+#include "explore/learned.hpp"
+#include "explore/model_search.hpp"
 #include "explore/random_search.hpp"
+#include "explore/tsemo.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -14,27 +20,55 @@ void check(bool within, std::string_view key, int value, std::string_view expect
   if (!within) throw InputError::format("search: {} = {}, expected {}", key, value, expected);
 }
 
-void check_settings(const SearchSettings& settings) {
-  check(settings.budget >= 1, "budget", settings.budget, "at least 1 simulation");
-  check(settings.population >= 2, "population", settings.population, "at least 2 patterns");
-  check(settings.batch >= 1, "batch", settings.batch, "at least 1 pattern");
-  for (const Evaluated& sample : settings.known) {
+void check_finite(const std::vector<Evaluated>& samples, std::string_view kind) {
+  for (const Evaluated& sample : samples) {
     if (!std::isfinite(sample.performance.modulus_pa) || !std::isfinite(sample.performance.toughness_pa)) {
-      throw InputError::format("search: known pattern {} has no finite performance", sample.pattern.key());
+      throw InputError::format("search: {} pattern {} has no finite performance", kind, sample.pattern.key());
     }
   }
 }
 
+void check_settings(const SearchSettings& settings) {
+  check(settings.budget >= 1, "budget", settings.budget, "at least 1 simulation");
+  check(settings.population >= 2, "population", settings.population, "at least 2 patterns");
+  check(settings.batch >= 1, "batch", settings.batch, "at least 1 pattern");
+  check_finite(settings.known, "known");
+  check_finite(settings.former, "former");
+  if (settings.algorithm == "learned") check_learned(settings.learned);
+}
+
 }  // namespace
+
+std::vector<pattern::Pattern> Search::ask_with(std::span<const pattern::Pattern> answer) {
+  std::vector<pattern::Pattern> batch = ask();
+  if (!std::equal(batch.begin(), batch.end(), answer.begin(), answer.end()))
+    throw InputError("search: a batch to go on with is that of another search");
+  return batch;
+}
+
+const std::vector<std::string>& algorithms() {
+  static const std::vector<std::string> kNames = {
+      "nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo"};
+  return kNames;
+}
+
+std::vector<pattern::Pattern> answer_to(const Question& question) {
+  const std::string& algorithm = question.settings.algorithm;
+  if (algorithm == "learned") return learned_batch(question);
+  if (algorithm == "tsemo") return tsemo_batch(question);
+  if (algorithm == "dgemo") return dgemo_batch(question);
+  throw InputError::format("search: algorithm \"{}\" asks no questions", algorithm);
+}
 
 std::unique_ptr<Search> make_search(const SearchSettings& settings) {
   check_settings(settings);
-  if (settings.algorithm == "random") return make_random_search(settings);
-  if (settings.algorithm == "nsga2") return make_evolution(settings, Variation::three_way);
-  if (settings.algorithm == "nsga2-single-pixel") return make_evolution(settings, Variation::single_pixel);
-  if (settings.algorithm == "nsga2-rollback") return make_evolution(settings, Variation::single_pixel_rolled_back);
-  throw InputError::format("search: algorithm \"{}\", expected nsga2, nsga2-single-pixel, nsga2-rollback or random",
-                           settings.algorithm);
+  const std::string& algorithm = settings.algorithm;
+  if (algorithm == "random") return make_random_search(settings);
+  if (algorithm == "nsga2") return make_evolution(settings, Variation::three_way);
+  if (algorithm == "nsga2-single-pixel") return make_evolution(settings, Variation::single_pixel);
+  if (algorithm == "nsga2-rollback") return make_evolution(settings, Variation::single_pixel_rolled_back);
+  if (algorithm == "learned" || algorithm == "tsemo" || algorithm == "dgemo") return make_model_search(settings);
+  throw InputError::format("search: algorithm \"{}\", expected one of {}", algorithm, fmt::join(algorithms(), ", "));
 }
 
 }  // namespace nacre::explore

@@ -20,13 +20,44 @@ struct Evaluated {
   bool operator==(const Evaluated&) const = default;
 };
 
+/// How `learned` learns and chooses. The defaults are what docs/studies/search.md found best; `thesis_learning()` is
+/// the form of 2.3.3.
+struct LearnedSettings {
+  std::string predictor = "patches";   ///< patches: Gaussian process on neighbourhoods; networks: residual networks
+  std::string choice = "improvement";  ///< improvement: expected hypervolume improvement; rank: non-dominated sorting
+  int generations = 60;                ///< of the search on the predictor
+  int population = 100;                ///< of that search
+  double optimism = 0.0;               ///< deviations added to predictions while searching on the predictor
+  int members = 3;                     ///< networks per property; their disagreement is the uncertainty
+  bool warm_start = true;              ///< networks go on from those of fewer samples; else from nothing every time
+  double weight_decay = 1e-2;          ///< of the networks for toughness
+  double dropout = 0.2;                ///< of the networks for toughness
+  int most_samples = 1500;             ///< samples learnt from; the best by rank when there are more
+  bool operator==(const LearnedSettings&) const = default;
+};
+
+/// `key=value` of all of them, separated by spaces.
+std::string to_text(const LearnedSettings& settings);
+
 struct SearchSettings {
-  std::string algorithm = "nsga2";  ///< nsga2, nsga2-single-pixel, nsga2-rollback, random
+  std::string algorithm = "nsga2";  ///< one of algorithms()
   int budget = 300;                 ///< simulations
-  int population = 20;
-  int batch = 10;  ///< patterns asked for at once (one generation's offspring in NSGA-II)
+  int population = 20;              ///< random patterns to begin with, and NSGA-II's population
+  int batch = 10;                   ///< patterns asked for at once (one generation's offspring in NSGA-II)
   std::uint64_t seed = 1;
-  std::vector<Evaluated> known;  ///< already simulated with the same parameters: part of the start, not asked again
+  std::vector<Evaluated> known =
+      {};  ///< already simulated with the same parameters: part of the start, not asked again
+  std::vector<Evaluated> former =
+      {};                        ///< simulated with other parameters or at another fidelity; `learned` learns from them
+  LearnedSettings learned = {};  ///< of `learned` alone
+};
+
+/// Everything that the next batch of a model-based search depends on.
+struct Question {
+  SearchSettings settings;             ///< with `known` left empty: it stands in `evaluated`
+  std::vector<Evaluated> evaluated;    ///< in order of evaluation
+  std::vector<pattern::Pattern> lost;  ///< asked for, but the simulation failed
+  int count = 0;                       ///< patterns wanted, at most
 };
 
 /// Deterministic: patterns asked for depend on the settings and what was told only. No pattern is asked for twice.
@@ -40,12 +71,24 @@ class Search {
   /// Everything evaluated so far: settings.known first (each pattern once), then what was told, in order of evaluation;
   /// failed simulations are left out (they count towards the budget and are not asked for again).
   virtual const std::vector<Evaluated>& evaluated() const = 0;
+
+  /// What the next ask() would have to think about for longer than a moment; nothing when it would not. Who must not
+  /// wait has answer_to() worked out elsewhere and asks with the answer.
+  virtual std::optional<Question> question() const { return std::nullopt; }
+  /// ask() with the answer to question(). Also for going on: batches that were asked for before an interruption need
+  /// not be thought about again. Throws InputError when a search that asks no questions would ask otherwise.
+  virtual std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> answer);
 };
 
-/// nsga2: NSGA-II with the three-way mutation and no crossover; nsga2-single-pixel, nsga2-rollback: the baselines
-/// of 3.2.5; random: random patterns. Searches with equal seeds and populations begin with the same random patterns
-/// whatever the algorithm; `known` patterns take their places. Throws InputError for an unknown algorithm or settings
-/// out of range.
+/// The answer to a question of a search: the patterns to simulate next. A pure function; takes seconds.
+std::vector<pattern::Pattern> answer_to(const Question& question);
+
+/// Names of the algorithms: nsga2 (NSGA-II with the three-way mutation and no crossover); nsga2-single-pixel,
+/// nsga2-rollback (the baselines of 3.2.5); random; tsemo and dgemo (Bayesian optimisation); learned (2.3.3).
+const std::vector<std::string>& algorithms();
+
+/// Searches with equal seeds and populations begin with the same random patterns whatever the algorithm; `known`
+/// patterns take their places. Throws InputError for an unknown algorithm or settings out of range.
 std::unique_ptr<Search> make_search(const SearchSettings& settings);
 
 }  // namespace nacre::explore

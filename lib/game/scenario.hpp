@@ -11,7 +11,7 @@
 namespace nacre::game {
 
 struct ProposalSettings {
-  std::string algorithm = "nsga2";  ///< nsga2, nsga2-single-pixel, nsga2-rollback or random
+  std::string algorithm = "nsga2";  ///< one of explore::algorithms()
   int samples = 300;                ///< simulations per gamut, all seeds together
   int seeds = 2;                    ///< independent searches merged into one gamut
   int population = 20;              ///< of each search

@@ -239,7 +239,7 @@ std::vector<ScenarioKey> make_proposal_keys() {
   constexpr auto table = &Scenario::proposal;
   return {
       choice("proposal", "algorithm", "how the gamut is searched",
-             {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"}, at(table, &ProposalSettings::algorithm)),
+             {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo"}, at(table, &ProposalSettings::algorithm)),
       whole_number<int>("proposal", "samples", "simulations per gamut, all searches together", 1, 1'000'000,
                         at(table, &ProposalSettings::samples)),
       whole_number<int>("proposal", "seeds", "independent searches merged into one gamut", 1, 64,

@@ -79,12 +79,21 @@ GaussianProcess::Prediction GaussianProcess::predict(const VectorXd& at) const {
   return {mean_ + k.dot(weights_), std::sqrt(std::max(0.0, signal - reduced.squaredNorm()))};
 }
 
-std::vector<GaussianProcess::Prediction> GaussianProcess::predict_all(const MatrixXd& at) const {
+MatrixXd GaussianProcess::covariances_all(const MatrixXd& at) const {
   const double signal = kernel_.signal_deviation * kernel_.signal_deviation;
   const MatrixXd from = at * kernel_.lengths.cwiseInverse().asDiagonal();
-  const MatrixXd k = squared_distances(scaled_, from).unaryExpr([signal](double square) {
+  return squared_distances(scaled_, from).unaryExpr([signal](double square) {
     return signal * matern52(std::sqrt(square));
   });
+}
+
+VectorXd GaussianProcess::means(const MatrixXd& at) const {
+  return (covariances_all(at).transpose() * weights_).array() + mean_;
+}
+
+std::vector<GaussianProcess::Prediction> GaussianProcess::predict_all(const MatrixXd& at) const {
+  const double signal = kernel_.signal_deviation * kernel_.signal_deviation;
+  const MatrixXd k = covariances_all(at);
   const VectorXd means = k.transpose() * weights_;
   const MatrixXd reduced = factor_.matrixL().solve(k);
   std::vector<Prediction> predictions;

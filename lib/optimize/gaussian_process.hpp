@@ -35,6 +35,8 @@ class GaussianProcess {
   Prediction predict(const Eigen::VectorXd& at) const;
   /// Rows of `at` are points; one triangular solve for all of them.
   std::vector<Prediction> predict_all(const Eigen::MatrixXd& at) const;
+  /// Means alone, without the cost of deviations.
+  Eigen::VectorXd means(const Eigen::MatrixXd& at) const;
   Eigen::VectorXd mean_gradient(const Eigen::VectorXd& at) const;
   double log_marginal_likelihood() const;
   /// With respect to log s, log l_1 ... log l_d, log s_n.
@@ -47,6 +49,7 @@ class GaussianProcess {
  private:
   void factorise();
   Eigen::VectorXd covariances(const Eigen::VectorXd& at) const;
+  Eigen::MatrixXd covariances_all(const Eigen::MatrixXd& at) const;  ///< observations x points
 
   Observations observations_;
   MaternKernel kernel_;

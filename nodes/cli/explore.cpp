@@ -1,19 +1,24 @@
 // nacre explore: the search for the gamut in this process.
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <fmt/ranges.h>
+
 #include "base/parallel.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "explore/batch_log.hpp"
 #include "explore/gamut_csv.hpp"
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "runtime/interrupts.hpp"
+#include "store/kept_simulation.hpp"
 #include "tester/tester.hpp"
 
 namespace nacre::cli {
@@ -24,6 +29,8 @@ struct Options {
   std::string algorithm = "nsga2";
   int budget = 300;
   std::string out;
+  std::string cache;
+  std::string former;
   std::string fidelity = "full";
   std::uint64_t seed = 1;
   int population = 20;
@@ -31,11 +38,10 @@ struct Options {
   bool json = false;
 };
 
-/// Both tests of one pattern; nothing when one of them has no result.
-std::optional<optimize::Performance> performance_of(const pattern::Pattern& pattern,
-                                                    const material::ParameterSet& parameters,
-                                                    tester::Fidelity fidelity) {
-  const tester::Simulation simulation{pattern, parameters, {}, fidelity};
+/// Both tests of one pattern, looked up where there is a cache; nothing when one of them has no result.
+std::optional<optimize::Performance> performance_of(const tester::Simulation& simulation,
+                                                    store::SimulationCache* cache) {
+  if (cache) return store::kept_performance(*cache, simulation);
   const auto modulus = tester::test_modulus(simulation);
   if (!modulus) return std::nullopt;
   const auto toughness = tester::test_toughness(simulation);
@@ -60,28 +66,42 @@ void print_summary(const std::vector<explore::Evaluated>& gamut, const Options& 
   }
 }
 
+explore::SearchSettings search_settings(const Options& options) {
+  explore::SearchSettings settings;
+  settings.algorithm = options.algorithm;
+  settings.budget = options.budget;
+  settings.population = options.population;
+  settings.batch = options.batch;
+  settings.seed = options.seed;
+  if (!options.former.empty()) settings.former = explore::read_gamut_csv(options.former);
+  return settings;
+}
+
 int explore_gamut(const Options& options) {
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
   const material::ParameterSet defaults = material::default_parameters();
   const auto parameters = options.params.empty() ? defaults : material::read_parameters(options.params, defaults);
-  const auto search = explore::make_search({.algorithm = options.algorithm,
-                                            .budget = options.budget,
-                                            .population = options.population,
-                                            .batch = options.batch,
-                                            .seed = options.seed,
-                                            .known = {}});
+  const explore::SearchSettings settings = search_settings(options);
+  const auto search = explore::make_search(settings);
+  std::unique_ptr<store::SimulationCache> cache;
+  std::optional<explore::BatchLog> log;
+  if (!options.cache.empty()) {
+    cache = std::make_unique<store::SimulationCache>(options.cache);
+    log.emplace(options.out + ".batches", settings);
+  }
+  const auto ask = [&] { return log ? log->ask(*search) : search->ask(); };
   const runtime::Interrupts interrupts;
   Progress progress("explore: patterns", options.budget);
   constexpr auto kSaveEvery = std::chrono::seconds(5);
   auto saved = std::chrono::steady_clock::time_point{};  // long ago: the first batch already shows whether the file can
                                                          // be written
   int failed = 0;
-  for (auto batch = search->ask(); !batch.empty(); batch = search->ask()) {
+  for (auto batch = ask(); !batch.empty(); batch = ask()) {
     std::vector<std::optional<optimize::Performance>> performances(batch.size());
     parallel_for(static_cast<int>(batch.size()), [&](int i) {
       const auto index = static_cast<std::size_t>(i);
       if (interrupts.any()) return;
-      performances[index] = performance_of(batch[index], parameters, fidelity);
+      performances[index] = performance_of({batch[index], parameters, {}, fidelity}, cache.get());
       progress.advance();
     });
     if (interrupts.any()) break;  // what is missing of this batch was not simulated: it must not count as failed
@@ -104,12 +124,16 @@ void add_explore(CLI::App& app, Action& action) {
   CLI::App& command =
       add_command(app, action, "explore", "Search for the gamut of modulus and toughness", options, explore_gamut);
   command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");
-  command.add_option("--algorithm", options->algorithm, "nsga2, nsga2-single-pixel, nsga2-rollback, random")
+  command.add_option("--algorithm", options->algorithm, fmt::format("{}", fmt::join(explore::algorithms(), ", ")))
       ->capture_default_str();
   command.add_option("--budget", options->budget, "Simulations")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   command.add_option("--out", options->out, "gamut.csv")->required();
+  command.add_option("--cache", options->cache,
+                     "Database of simulations, read and continued; with it an interrupted search goes on where it was");
+  command.add_option("--former", options->former,
+                     "gamut.csv of other parameters or another fidelity, for `learned` to begin with");
   command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
       ->capture_default_str();
   command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();

@@ -10,8 +10,19 @@ namespace nacre::proposal_agent {
 Branch::Branch(int number, const explore::SearchSettings& settings, std::string request_prefix)
     : search_(explore::make_search(settings)), prefix_(fmt::format("{}/s{}", request_prefix, number)) {}
 
+std::string Branch::question_id() const { return fmt::format("search/{}/g{}", prefix_, generation_ + 1); }
+
 std::vector<wire::SimulateRequest> Branch::next(const wire::SimulateRequest& model) {
-  const std::vector<pattern::Pattern> patterns = search_->ask();
+  return requests_for(model, search_->ask());
+}
+
+std::vector<wire::SimulateRequest> Branch::next(const wire::SimulateRequest& model,
+                                                std::span<const pattern::Pattern> answer) {
+  return requests_for(model, search_->ask_with(answer));
+}
+
+std::vector<wire::SimulateRequest> Branch::requests_for(const wire::SimulateRequest& model,
+                                                        const std::vector<pattern::Pattern>& patterns) {
   std::vector<wire::SimulateRequest> requests;
   if (patterns.empty()) {
     finished_ = true;

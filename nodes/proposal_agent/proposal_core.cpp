@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "explore/merge.hpp"
 #include "game/model.hpp"
+#include "proposal_agent/search_work.hpp"
 #include "proposal_agent/selection_work.hpp"
 
 namespace nacre::proposal_agent {
@@ -36,9 +37,14 @@ runtime::Outputs ProposalCore::step(const runtime::Input& input) {
       if (summary && summary->last) finished_ = true;
     }
   } else if (const auto* work = std::get_if<runtime::WorkDone>(&input)) {
-    accept_proposal(*work, outputs);
+    accept_work(*work, outputs);
   }
   return outputs;
+}
+
+void ProposalCore::accept_work(const runtime::WorkDone& work, runtime::Outputs& outputs) {
+  if (work.id.starts_with("search/")) return accept_batch(work, outputs);
+  accept_proposal(work, outputs);
 }
 
 void ProposalCore::accept_model(const std::string& payload, runtime::Outputs& outputs) {
@@ -78,23 +84,46 @@ void ProposalCore::start_next_round(runtime::Outputs& outputs) {
                   same_model ? ", the model is that of the round before" : ""));
   for (int number = 0; number < scenario_.proposal.seeds; ++number) {
     explore::SearchSettings settings = search_settings(number);
-    if (same_model) settings.known = last_gamut_;
+    (same_model ? settings.known : settings.former) = last_gamut_;
     round_->branches.emplace_back(number, settings, fmt::format("proposal_agent/r{}", round_->model.round));
   }
   for (Branch& branch : round_->branches) ask_next(branch, outputs);
 }
 
-void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
+wire::SimulateRequest ProposalCore::question_to_farm() const {
   wire::SimulateRequest model;
   model.modulus = model.toughness = true;
   model.fidelity = scenario_.fidelity;
   model.parameters = game::material_side(round_->model.parameters);
-  for (const wire::SimulateRequest& request : branch.next(model)) {
-    outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  return model;
+}
+
+void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
+  if (const auto question = branch.question()) {
+    outputs.computes.push_back({.id = branch.question_id(), .kind = "search", .spec = search_spec(*question)});
+  } else {
+    send(branch.next(question_to_farm()), outputs);
   }
+}
+
+void ProposalCore::send(const std::vector<wire::SimulateRequest>& requests, runtime::Outputs& outputs) {
+  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
   const bool all_finished =
       std::all_of(round_->branches.begin(), round_->branches.end(), [](const Branch& each) { return each.finished(); });
   if (all_finished && !round_->selecting) publish_gamut(outputs);
+}
+
+void ProposalCore::accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs) {
+  const auto answer = batch_from_result(work.result);
+  Branch* branch = nullptr;
+  if (round_) {
+    for (Branch& each : round_->branches) {
+      if (each.question_id() == work.id && each.question()) branch = &each;
+    }
+  }
+  if (!branch || !answer)
+    return log(outputs, runtime::LogLevel::warning, "the result of " + work.id + " is ignored: no batch is awaited");
+  send(branch->next(question_to_farm(), *answer), outputs);
 }
 
 void ProposalCore::accept_answer(const std::string& payload, runtime::Outputs& outputs) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "optimize/pareto.hpp"
+#include "proposal_agent/search_work.hpp"
 #include "runtime/journal.hpp"
 #include "select/select.hpp"
 
@@ -83,6 +84,6 @@ std::string selection_spec(const Selection& selection) {
   return runtime::pack(fields);
 }
 
-std::map<std::string, runtime::WorkFunction> work_functions() { return {{"select", work}}; }
+std::map<std::string, runtime::WorkFunction> work_functions() { return {{"search", search_work}, {"select", work}}; }
 
 }  // namespace nacre::proposal_agent

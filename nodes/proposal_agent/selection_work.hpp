@@ -20,9 +20,10 @@ struct Selection {
 /// Spec of a Compute of kind "select".
 std::string selection_spec(const Selection& selection);
 
-/// Kind "select": the selection of 2.3.4 among the samples that are not yet measured, and the gamut's hypervolumes. The
-/// result is the payload of the round's PROPOSAL. Where too few samples lie above the homogeneous line, the rest is
-/// chosen without it, and the reason says so: a model that sees nothing better must be measured, too.
+/// The agent's long work: kind "search" (search_work.hpp) and kind "select": the selection of 2.3.4 among the samples
+/// that are not yet measured, and the gamut's hypervolumes. The result is the payload of the round's PROPOSAL. Where
+/// too few samples lie above the homogeneous line, the rest is chosen without it, and the reason says so: a model that
+/// sees nothing better must be measured, too.
 std::map<std::string, runtime::WorkFunction> work_functions();
 
 }  // namespace nacre::proposal_agent

@@ -9,12 +9,13 @@
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
 #include "simulator_farm/question.hpp"
+#include "store/kept_simulation.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {
 
 /// Points of the curves kept in memory and in the cache; requests get at most so many.
-inline constexpr int kCurvePoints = 256;
+inline constexpr int kCurvePoints = store::kKeptCurvePoints;
 
 /// SIMULATE in, one Compute (kind "simulate", see simulate_work.hpp) per question that nobody has asked yet, SIMULATED
 /// out when all questions of a request are answered, and a FRACTURE per design where crack or film was asked for. A

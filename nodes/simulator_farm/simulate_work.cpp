@@ -12,27 +12,12 @@
 #include "simulator_farm/batch_file.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/question.hpp"
+#include "store/kept_simulation.hpp"
 #include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {
 namespace {
-
-store::CachedSimulation cached(const tester::ToughnessResult& result) {
-  store::CachedSimulation answer;
-  answer.toughness_pa = result.toughness_pa;
-  answer.peak_stress_pa = result.peak_stress_pa;
-  answer.failure_strain = result.failure_strain;
-  answer.curve = tester::resampled(result.curve, kCurvePoints);
-  return answer;
-}
-
-template <class Tested>
-store::CachedSimulation failed(const Result<Tested>& result) {
-  store::CachedSimulation answer;
-  answer.failure = result.error().message;
-  return answer;
-}
 
 /// Whether the cache holds all that is asked for beside the film.
 bool has_numbers(const store::SimulationCache& cache, const std::optional<store::CachedSimulation>& known,
@@ -50,14 +35,9 @@ void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
     // Another farm with the same cache was faster; harmless, and worth knowing.
     fmt::print(stderr, "simulation {} was done twice at the same time\n", asked.key);
   };
-  if (asked.test == tester::TestKind::modulus) {
-    const auto result = tester::test_modulus(asked.simulation);
-    store::CachedSimulation answer;
-    if (result) answer.modulus_pa = result->modulus_pa;
-    return keep(result ? answer : failed(result));
-  }
+  if (asked.test == tester::TestKind::modulus) return keep(store::kept(tester::test_modulus(asked.simulation)));
   const auto result = tester::test_toughness(asked.simulation);
-  keep(result ? cached(*result) : failed(result));
+  keep(store::kept(result));
   if (result && asked.extras.fracture()) cache.insert_breaks(asked.key, result->breaks);
 }
 

@@ -186,6 +186,29 @@ TEST_F(CommandLine, InterruptedExploreKeepsTheGamutSoFar) {
   EXPECT_GT(std::count(std::istreambuf_iterator<char>(gamut), {}, '\n'), 5);
 }
 
+TEST_F(CommandLine, AKilledExploreGoesOnWhereItWas) {
+  const auto command = [&](const std::string& out, const std::string& cache) {
+    return std::vector<std::string>{"explore",  "--fidelity", "tiny",         "--algorithm", "learned",
+                                    "--budget", "25",         "--population", "10",          "--batch",
+                                    "5",        "--cache",    cache,          "--out",       out};
+  };
+  ASSERT_EQ(run_nacre(command(path("whole.csv"), path("whole.db"))).status, 0);
+  std::vector<std::string> killed = command(path("killed.csv"), path("killed.db"));
+  killed.insert(killed.begin(), program("nacre"));
+  runtime::ChildProcess process(killed);
+  ASSERT_TRUE(becomes_true([&] { return fs::exists(path("killed.csv")); }, 60.0));
+  process.signal_group(SIGKILL);
+  std::string said;
+  wait_for_end(process, said);
+  ASSERT_EQ(run_nacre(command(path("killed.csv"), path("killed.db"))).status, 0);
+  const auto contents = [](const std::string& file) {
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_EQ(contents(path("killed.csv")), contents(path("whole.csv")));
+  EXPECT_EQ(contents(path("killed.csv.batches")), contents(path("whole.csv.batches")));
+}
+
 TEST_F(CommandLine, MeasureWritesASetAndSealsTheTruthBesideIt) {
   const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n");
   const Outcome outcome = run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "577fffe9fffdef", "--json"});

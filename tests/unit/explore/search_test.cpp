@@ -14,7 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<std::string> kAlgorithms = {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"};
+/// Those that take time to think are tested with smaller budgets in model_search_test.cpp.
+const std::vector<std::string> kQuickAlgorithms = {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"};
 
 SearchSettings settings(const std::string& algorithm, std::uint64_t seed, int budget = 200) {
   return {.algorithm = algorithm, .budget = budget, .population = 20, .batch = 10, .seed = seed, .known = {}};
@@ -119,7 +120,7 @@ TEST_P(EverySearch, MisuseIsOurBugAndIsAsserted) {
   EXPECT_DEATH(search->ask(), "before the last batch was told");
 }
 
-INSTANTIATE_TEST_SUITE_P(Algorithms, EverySearch, ::testing::ValuesIn(kAlgorithms), [](const auto& algorithm) {
+INSTANTIATE_TEST_SUITE_P(Algorithms, EverySearch, ::testing::ValuesIn(kQuickAlgorithms), [](const auto& algorithm) {
   std::string name = algorithm.param;
   std::erase(name, '-');
   return name;
@@ -192,10 +193,13 @@ TEST(MakeSearch, RefusesWhatItDoesNotKnow) {
     }
     return "no error";
   };
-  EXPECT_THAT(message(settings("annealing", 1)), HasSubstr("\"annealing\", expected nsga2, nsga2-single-pixel"));
+  EXPECT_THAT(message(settings("annealing", 1)), HasSubstr("\"annealing\", expected one of nsga2, nsga2-single-pixel"));
   SearchSettings bad = settings("nsga2", 1);
   bad.population = 1;
   EXPECT_THAT(message(bad), HasSubstr("population = 1, expected at least 2"));
+  bad = settings("learned", 1);
+  bad.learned.choice = "lottery";
+  EXPECT_THAT(message(bad), HasSubstr("choice = lottery, expected improvement or rank"));
   bad = settings("nsga2", 1, 0);
   EXPECT_THAT(message(bad), HasSubstr("budget = 0"));
   bad = settings("nsga2", 1);

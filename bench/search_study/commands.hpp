@@ -1,0 +1,38 @@
+#pragma once
+// The commands of the search study (docs/studies/search.md).
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "explore/search.hpp"
+
+namespace nacre::search_study {
+
+struct Options {
+  std::string work = "logs/search-study";  ///< evaluations, batches and growth of every run
+  std::string fidelity = "tiny";
+  std::string params;                            ///< parameter file; empty: the built-in parameters
+  std::string set = "default";                   ///< name of the parameter set in file names
+  std::string variant;                           ///< name of the run; the algorithm's when empty
+  std::string reference = "nsga2-single-pixel";  ///< variant whose final hypervolume is to be reached
+  explore::SearchSettings search;
+  std::uint64_t first_seed = 1;
+  int seeds = 1;
+  double minutes = 1e6;
+  int threads = 0;
+  std::vector<int> checkpoints = {100, 200, 300, 500, 800};  ///< held out: samples learnt from
+  int next = 100;                                            ///< held out: samples predicted
+};
+
+/// Searches, seed after seed. Returns whether all came to their end before the minutes were over.
+bool run_searches(const Options& options);
+/// Learns from the first samples of finished runs and predicts those asked for next.
+void predict_held_out(const Options& options);
+/// Samples until the reference's final hypervolume, final hypervolumes, times: one line per variant.
+void summarise(const Options& options);
+
+/// "tiny-default-nsga2-1" in the work folder, for a run's files.
+std::string run_path(const Options& options, const std::string& variant, std::uint64_t seed);
+
+}  // namespace nacre::search_study

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/processor_time.hpp"
+#include "base/statistics.hpp"
+#include "commands.hpp"
+#include "explore/gamut_csv.hpp"
+#include "explore/predictors.hpp"
+
+namespace nacre::search_study {
+namespace {
+
+/// Spearman's correlation and the mean relative error of predictions.
+struct Accuracy {
+  double rank = 0.0, error = 0.0;
+};
+
+Accuracy accuracy(std::span<const explore::Evaluated> samples, std::span<const optimize::Performance> predicted,
+                  double optimize::Performance::*property) {
+  std::vector<double> truth, guess;
+  double error = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    truth.push_back(samples[i].performance.*property);
+    guess.push_back(predicted[i].*property);
+    error += std::abs(guess.back() / std::max(1.0, truth.back()) - 1.0) / static_cast<double>(samples.size());
+  }
+  return {rank_correlation(truth, guess), error};
+}
+
+}  // namespace
+
+void predict_held_out(const Options& options) {
+  fmt::print("variant,seed,learnt_from,next,E_rank,E_error,T_rank,T_error,T_rank_learnt,fit_s\n");
+  for (int s = 0; s < options.seeds; ++s) {
+    const std::uint64_t seed = options.first_seed + static_cast<std::uint64_t>(s);
+    const auto gamut = explore::read_gamut_csv(run_path(options, options.variant, seed) + "-gamut.csv");
+    for (const int count : options.checkpoints) {
+      const auto learnt = static_cast<std::size_t>(count);
+      if (learnt >= gamut.size()) break;
+      const std::span<const explore::Evaluated> all(gamut), first = all.first(learnt);
+      const auto later = all.subspan(learnt, std::min(static_cast<std::size_t>(options.next), all.size() - learnt));
+      const double begin = processor_time_s();
+      explore::SearchSettings settings = options.search;
+      settings.seed = seed;
+      const explore::Predictors predictors = explore::fit_predictors(first, settings);
+      const double fitting = processor_time_s() - begin;
+      const auto predict = [&](std::span<const explore::Evaluated> samples) {
+        std::vector<pattern::Pattern> patterns;
+        for (const auto& sample : samples) patterns.push_back(sample.pattern);
+        return explore::believed(predictors, patterns, 0.0);
+      };
+      const auto guesses = predict(later);
+      const Accuracy e = accuracy(later, guesses, &optimize::Performance::modulus_pa);
+      const Accuracy t = accuracy(later, guesses, &optimize::Performance::toughness_pa);
+      const Accuracy own = accuracy(first, predict(first), &optimize::Performance::toughness_pa);
+      fmt::print("{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f}\n", options.variant, seed, learnt, later.size(),
+                 e.rank, e.error, t.rank, t.error, own.rank, fitting);
+    }
+  }
+}
+
+}  // namespace nacre::search_study

@@ -1,0 +1,54 @@
+#include "kept_evaluations.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/processor_time.hpp"
+#include "base/result.hpp"
+#include "explore/synthetic.hpp"
+
+namespace nacre::search_study {
+namespace {
+
+std::string table_path(const Options& options) {
+  std::filesystem::create_directories(options.work);
+  return fmt::format("{}/evaluations-{}-{}-kernel{}.csv", options.work, options.fidelity, options.set,
+                     tester::kKernelVersion);
+}
+
+/// Nothing: the stand-in of the unit tests takes the testers' place.
+std::optional<tester::Fidelity> fidelity_named(const std::string& name) {
+  if (name == "stand-in") return std::nullopt;
+  const auto fidelity = tester::fidelity_from_string(name);
+  if (!fidelity) throw InputError(fidelity.error().message);
+  return *fidelity;
+}
+
+}  // namespace
+
+KeptEvaluations::KeptEvaluations(const Options& options)
+    : fidelity_(fidelity_named(options.fidelity)),
+      parameters_(options.params.empty() ? material::default_parameters()
+                                         : material::read_parameters(options.params, material::default_parameters())),
+      table_(table_path(options), {"modulus_pa", "toughness_pa"}) {}
+
+KeptEvaluations::Answer KeptEvaluations::operator()(const pattern::Pattern& pattern) {
+  const auto performance = [](double modulus_pa, double toughness_pa) {
+    return modulus_pa < 0.0 ? std::nullopt : std::optional(optimize::Performance{modulus_pa, toughness_pa});
+  };
+  if (const auto known = table_.find(pattern.key())) return {performance((*known)[0], (*known)[1]), 0.0};
+  if (!fidelity_) return {explore::synthetic_performance(pattern), 0.0};
+  const double begin = processor_time_s();
+  const tester::Simulation simulation{pattern, parameters_, {}, *fidelity_};
+  const auto modulus = tester::test_modulus(simulation);
+  const auto toughness = tester::test_toughness(simulation);
+  const bool sound = modulus && toughness;
+  table_.add(pattern.key(), {sound ? modulus->modulus_pa : -1.0, sound ? toughness->toughness_pa : -1.0});
+  // Looked up again: an answer must not depend on whether it was just simulated, and the file keeps nine digits.
+  const double spent = processor_time_s() - begin;
+  const auto kept = table_.find(pattern.key()).value();
+  return {performance(kept[0], kept[1]), spent};
+}
+
+}  // namespace nacre::search_study

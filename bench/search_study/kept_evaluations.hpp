@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "commands.hpp"
+#include "material/parameters.hpp"
+#include "study/study_table.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::search_study {
+
+/// Modulus and toughness of patterns for one parameter set and fidelity; what was simulated once stands in a CSV file
+/// (key,modulus_pa,toughness_pa; negative: the simulation failed).
+class KeptEvaluations {
+ public:
+  explicit KeptEvaluations(const Options& options);
+  struct Answer {
+    std::optional<optimize::Performance> performance;
+    double processor_s = 0.0;  ///< 0 when it was looked up
+  };
+  /// Thread-safe.
+  Answer operator()(const pattern::Pattern& pattern);
+
+ private:
+  std::optional<tester::Fidelity> fidelity_;
+  material::ParameterSet parameters_;
+  study::StudyTable table_;
+};
+
+}  // namespace nacre::search_study

@@ -1,0 +1,75 @@
+#include "explore/batch_log.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/files.hpp"
+#include "base/hash.hpp"
+#include "base/result.hpp"
+#include "explore/gamut_csv.hpp"
+
+namespace nacre::explore {
+namespace {
+
+/// Everything that batches depend on, but for the budget: a finished search may be given more.
+std::string identity_of(const SearchSettings& settings) {
+  const LearnedSettings& learned = settings.learned;
+  const std::string samples = content_hash(to_csv(settings.known) + to_csv(settings.former));
+  return fmt::format("batches of {} seed={} population={} batch={} samples={} learned={}", settings.algorithm,
+                     settings.seed, settings.population, settings.batch, samples,
+                     settings.algorithm == "learned" ? to_text(learned) : "-");
+}
+
+std::vector<pattern::Pattern> batch_from(const std::string& line, const std::filesystem::path& path,
+                                         std::size_t number) {
+  std::vector<pattern::Pattern> batch;
+  std::istringstream keys(line);
+  for (std::string key; keys >> key;) {
+    const Result<pattern::Layout> layout = pattern::layout_from_key(key);
+    const auto pattern = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+    if (!pattern)
+      throw InputError::format("{}: line {}: \"{}\", expected the key of a pattern", path.string(), number, key);
+    batch.push_back(*pattern);
+  }
+  return batch;
+}
+
+void append(const std::filesystem::path& path, const std::string& line) {
+  std::ofstream file(path, std::ios::app);
+  file << line << std::flush;
+  if (!file) throw InputError::format("{}: cannot be written", path.string());
+}
+
+}  // namespace
+
+BatchLog::BatchLog(std::filesystem::path path, const SearchSettings& settings) : path_(std::move(path)) {
+  const std::string identity = identity_of(settings);
+  std::string text = std::filesystem::exists(path_) ? read_file(path_) : "";
+  const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+  if (whole < text.size() || text.empty()) {
+    text.resize(whole);
+    if (text.empty()) text = identity + "\n";
+    write_file_atomically(path_, text);
+  }
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  if (line != identity)
+    throw InputError::format("{}: line 1: it is \"{}\", expected \"{}\"; name another file", path_.string(), line,
+                             identity);
+  for (std::size_t number = 2; std::getline(lines, line); ++number) batches_.push_back(batch_from(line, path_, number));
+}
+
+std::vector<pattern::Pattern> BatchLog::ask(Search& search) {
+  if (next_ < batches_.size()) return search.ask_with(batches_[next_++]);
+  const std::vector<pattern::Pattern> batch = search.ask();
+  std::string line;
+  for (const pattern::Pattern& pattern : batch) line += (line.empty() ? "" : " ") + pattern.key();
+  if (!batch.empty()) append(path_, line + "\n");
+  return batch;
+}
+
+}  // namespace nacre::explore

@@ -1,0 +1,101 @@
+#include "explore/learned.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/result.hpp"
+#include "explore/improvement.hpp"
+#include "explore/model_search.hpp"
+#include "explore/predictors.hpp"
+#include "explore/surrogate_search.hpp"
+#include "surrogate/network.hpp"
+
+namespace nacre::explore {
+namespace {
+
+/// Candidates whose uncertainty is looked at.
+constexpr std::size_t kShortList = 1000;
+
+std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
+                                                    std::span<const Evaluated> evaluated, int count) {
+  const std::vector<Evaluated> shortlist = best_by_rank(candidates, kShortList);
+  std::vector<pattern::Pattern> patterns;
+  for (const Evaluated& candidate : shortlist) patterns.push_back(candidate.pattern);
+  const auto modulus = predictors.modulus->predict(patterns), toughness = predictors.toughness->predict(patterns);
+  std::vector<Belief> beliefs;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    beliefs.push_back({{modulus[i].mean, modulus[i].deviation}, {toughness[i].mean, toughness[i].deviation}});
+  }
+  std::vector<pattern::Pattern> batch;
+  for (const std::size_t i : best_improvements(beliefs, optimize::pareto_front(performances_of(evaluated)), count)) {
+    batch.push_back(patterns[i]);
+  }
+  return batch;
+}
+
+}  // namespace
+
+void check_learned(const LearnedSettings& settings) {
+  const auto check = [](bool within, std::string_view key, const auto& value, std::string_view expected) {
+    if (!within) throw InputError::format("learned: {} = {}, expected {}", key, value, expected);
+  };
+  check(settings.predictor == "patches" || settings.predictor == "networks", "predictor", settings.predictor,
+        "patches or networks");
+  if (settings.predictor == "networks" && !surrogate::networks_available())
+    throw InputError("learned: predictor = networks, but this build has none: install libtorch-dev and build again");
+  check(settings.members >= 1 && settings.members <= 100, "members", settings.members, "1 to 100");
+  check(settings.weight_decay >= 0.0, "weight_decay", settings.weight_decay, "at least 0");
+  check(settings.dropout >= 0.0 && settings.dropout < 1.0, "dropout", settings.dropout, "0 to below 1");
+  check(settings.choice == "improvement" || settings.choice == "rank", "choice", settings.choice,
+        "improvement or rank");
+  check(settings.generations >= 1, "generations", settings.generations, "at least 1");
+  check(settings.population >= 2, "population", settings.population, "at least 2");
+  check(settings.optimism >= 0.0 && settings.optimism <= 10.0, "optimism", settings.optimism, "0 to 10 deviations");
+  check(settings.most_samples >= 10, "most_samples", settings.most_samples, "at least 10");
+}
+
+std::string to_text(const LearnedSettings& settings) {
+  return fmt::format(
+      "predictor={} choice={} generations={} population={} optimism={} most_samples={} members={} warm_start={} "
+      "weight_decay={} dropout={}",
+      settings.predictor, settings.choice, settings.generations, settings.population, settings.optimism,
+      settings.most_samples, settings.members, settings.warm_start, settings.weight_decay, settings.dropout);
+}
+
+LearnedSettings thesis_learning() {
+  LearnedSettings settings;
+  settings.predictor = "networks";
+  settings.members = 1;
+  settings.warm_start = false;
+  settings.choice = "rank";
+  settings.generations = 200;
+  settings.population = 100;
+  settings.most_samples = 1'000'000;
+  return settings;
+}
+
+std::vector<pattern::Pattern> learned_batch(const Question& question) {
+  const SearchSettings& settings = question.settings;
+  const LearnedSettings& learned = settings.learned;
+  Predictors base;
+  if (!settings.former.empty()) base = fit_predictors(settings.former, settings);
+  const Predictors predictors = fit_predictors(question.evaluated, settings, base);
+  const auto count = static_cast<std::size_t>(learned.population);
+  // The population of the search on the predictors begins with the best that was simulated, at its true values: a
+  // candidate has to be believed better than these, not better than what is believed of them.
+  const std::vector<Evaluated> start = best_by_rank(question.evaluated, count);
+  const std::vector<Evaluated> candidates =
+      unseen(search_believed(
+                 [&](auto patterns) { return believed(predictors, patterns, learned.optimism); }, start,
+                 {.generations = learned.generations, .population = learned.population, .seed = batch_seed(question)}),
+             question);
+  if (learned.choice == "improvement")
+    return choose_by_improvement(predictors, candidates, question.evaluated, question.count);
+  std::vector<pattern::Pattern> batch;
+  for (const Evaluated& best : best_by_rank(candidates, static_cast<std::size_t>(question.count)))
+    batch.push_back(best.pattern);
+  return batch;
+}
+
+}  // namespace nacre::explore

@@ -1,0 +1,22 @@
+#pragma once
+// The learning-accelerated search (2.3.3, Figure 2-9).
+
+#include <vector>
+
+#include "explore/search.hpp"
+
+namespace nacre::explore {
+
+/// Throws InputError for settings out of range.
+void check_learned(const LearnedSettings& settings);
+
+/// The form of 2.3.3: one residual network per property, trained from nothing every time, 200 generations of 100 on
+/// them, the first patterns by non-dominated sorting.
+LearnedSettings thesis_learning();
+
+/// The next batch: predictors of log E and log T are fitted to what was evaluated (and to `former` samples as a first
+/// guess), NSGA-II searches on them from the best samples, and among all that it visits those not yet simulated are
+/// chosen. Fewer than asked for only when the search on the predictor visits fewer.
+std::vector<pattern::Pattern> learned_batch(const Question& question);
+
+}  // namespace nacre::explore

@@ -1,0 +1,26 @@
+#pragma once
+// What `learned` believes: a predictor per property, fitted to what was simulated.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "explore/search.hpp"
+#include "surrogate/predictor.hpp"
+
+namespace nacre::explore {
+
+/// Predictors of the natural logarithms of modulus and toughness in Pa; empty when nothing was learnt.
+struct Predictors {
+  std::shared_ptr<const surrogate::Predictor> modulus, toughness;
+};
+
+/// Fitted to `samples` (at least one), on top of `base` predictors where there are such. Depends on its arguments only.
+Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings,
+                          const Predictors& base = {});
+
+/// What a search on the predictors maximises: medians, or more where `optimism` asks for so many deviations.
+std::vector<optimize::Performance> believed(const Predictors& predictors, std::span<const pattern::Pattern> at,
+                                            double optimism);
+
+}  // namespace nacre::explore

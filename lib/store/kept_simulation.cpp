@@ -1,0 +1,50 @@
+#include "store/kept_simulation.hpp"
+
+namespace nacre::store {
+namespace {
+
+CachedSimulation failed(const Error& error) {
+  CachedSimulation answer;
+  answer.failure = error.message;
+  return answer;
+}
+
+/// Looks up or simulates; `test` is tester::test_modulus or tester::test_toughness.
+template <class Test>
+CachedSimulation looked_up(SimulationCache& cache, const tester::Simulation& simulation, tester::TestKind kind,
+                           const Test& test) {
+  const std::string key = tester::simulation_key(simulation, kind);
+  if (auto known = cache.find(key)) return *std::move(known);
+  const CachedSimulation answer = kept(test(simulation, tester::Numerics{}));
+  cache.insert(key, answer);
+  return answer;
+}
+
+}  // namespace
+
+CachedSimulation kept(const Result<tester::ModulusResult>& result) {
+  if (!result) return failed(result.error());
+  CachedSimulation answer;
+  answer.modulus_pa = result->modulus_pa;
+  return answer;
+}
+
+CachedSimulation kept(const Result<tester::ToughnessResult>& result) {
+  if (!result) return failed(result.error());
+  CachedSimulation answer;
+  answer.toughness_pa = result->toughness_pa;
+  answer.peak_stress_pa = result->peak_stress_pa;
+  answer.failure_strain = result->failure_strain;
+  answer.curve = tester::resampled(result->curve, kKeptCurvePoints);
+  return answer;
+}
+
+std::optional<optimize::Performance> kept_performance(SimulationCache& cache, const tester::Simulation& simulation) {
+  const CachedSimulation modulus = looked_up(cache, simulation, tester::TestKind::modulus, tester::test_modulus);
+  if (!modulus.failure.empty()) return std::nullopt;
+  const CachedSimulation toughness = looked_up(cache, simulation, tester::TestKind::toughness, tester::test_toughness);
+  if (!toughness.failure.empty()) return std::nullopt;
+  return optimize::Performance{modulus.modulus_pa, toughness.toughness_pa};
+}
+
+}  // namespace nacre::store

@@ -1,0 +1,33 @@
+#pragma once
+// A Gaussian process over patterns with the covariance of patch_covariance.hpp.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "surrogate/patch_covariance.hpp"
+#include "surrogate/predictor.hpp"
+
+namespace nacre::surrogate {
+
+/// Samples of one quantity: values[i] at patterns[i].
+struct Samples {
+  std::span<const pattern::Pattern> patterns;
+  std::span<const double> values;
+};
+
+/// At most so many samples decide on a kernel.
+inline constexpr int kKernelSamples = 300;
+
+/// Kernel of largest marginal likelihood times a weak prior, found from at most kKernelSamples of the samples, chosen
+/// by `seed`. `base` as below. Some tenths of a second.
+PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const Predictor* base = nullptr);
+
+/// The posterior: mean of the prior is a parabola in the rigid fraction and a line in two log_conductance()s. O(n^3 /
+/// 3) to make, O(n) per mean, O(n^2) per deviation. `base`, when given, is a predictor of a kindred quantity (another
+/// model's, another fidelity's): the prior's mean then has a term b base(x), and the process learns only what that one
+/// gets wrong. Needs one sample.
+std::unique_ptr<Predictor> make_patch_process(const Samples& samples, const PatchKernel& kernel,
+                                              std::shared_ptr<const Predictor> base = nullptr);
+
+}  // namespace nacre::surrogate

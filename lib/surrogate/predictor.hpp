@@ -1,0 +1,27 @@
+#pragma once
+// What a search believes about patterns that nobody has simulated: one quantity, learnt from samples.
+
+#include <span>
+#include <vector>
+
+#include "pattern/layout.hpp"
+
+namespace nacre::surrogate {
+
+/// Belief about the quantity of one pattern.
+struct Prediction {
+  double mean = 0.0;
+  double deviation = 0.0;  ///< of the belief; 0 where the quantity is known
+};
+
+/// A regression that has been fitted. Predictions depend on what it was fitted to alone; thread-safe.
+class Predictor {
+ public:
+  virtual ~Predictor() = default;
+  /// Best guess for each pattern.
+  virtual std::vector<double> means(std::span<const pattern::Pattern> at) const = 0;
+  /// With the uncertainty of each guess; dearer than means().
+  virtual std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const = 0;
+};
+
+}  // namespace nacre::surrogate

@@ -1,0 +1,99 @@
+#include "proposal_agent/search_work.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+#include "runtime/journal.hpp"
+
+namespace nacre::proposal_agent {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "specs are written as they lie in memory");
+
+/// A sample as it lies in a spec: exact, and short, for a spec holds thousands.
+struct PackedSample {
+  std::uint64_t bits = 0;
+  double modulus_pa = 0.0, toughness_pa = 0.0;
+};
+static_assert(sizeof(PackedSample) == 24);
+
+template <class Packed>
+std::string bytes_of(const std::vector<Packed>& items) {
+  std::string bytes(items.size() * sizeof(Packed), '\0');
+  if (!items.empty()) std::memcpy(bytes.data(), items.data(), bytes.size());
+  return bytes;
+}
+
+template <class Packed>
+std::vector<Packed> items_in(const std::string& bytes) {
+  std::vector<Packed> items(bytes.size() / sizeof(Packed));
+  if (!items.empty()) std::memcpy(items.data(), bytes.data(), items.size() * sizeof(Packed));
+  return items;
+}
+
+std::string packed(const std::vector<explore::Evaluated>& samples) {
+  std::vector<PackedSample> items;
+  for (const auto& [pattern, performance] : samples)
+    items.push_back({pattern.bits(), performance.modulus_pa, performance.toughness_pa});
+  return bytes_of(items);
+}
+
+std::vector<explore::Evaluated> unpacked(const std::string& bytes) {
+  std::vector<explore::Evaluated> samples;
+  for (const PackedSample& item : items_in<PackedSample>(bytes))
+    samples.push_back({pattern::Pattern(item.bits), {item.modulus_pa, item.toughness_pa}});
+  return samples;
+}
+
+std::string packed(const std::vector<pattern::Pattern>& patterns) {
+  std::vector<std::uint64_t> items;
+  for (const pattern::Pattern& pattern : patterns) items.push_back(pattern.bits());
+  return bytes_of(items);
+}
+
+std::vector<pattern::Pattern> patterns_in(const std::string& bytes) {
+  std::vector<pattern::Pattern> patterns;
+  for (const std::uint64_t bits : items_in<std::uint64_t>(bytes)) patterns.emplace_back(bits);
+  return patterns;
+}
+
+explore::Question question_from(const std::string& spec) {
+  const auto fields = runtime::unpack(spec);
+  // A spec that this program wrote itself must read back.
+  if (!fields || fields->size() != 6) throw std::logic_error("the spec of a search is damaged");
+  explore::Question question;
+  question.settings.algorithm = fields->at(0);
+  question.settings.seed = std::stoull(fields->at(1));
+  question.count = std::stoi(fields->at(2));
+  question.evaluated = unpacked(fields->at(3));
+  question.lost = patterns_in(fields->at(4));
+  question.settings.former = unpacked(fields->at(5));
+  return question;
+}
+
+}  // namespace
+
+std::string search_spec(const explore::Question& question) {
+  return runtime::pack({question.settings.algorithm, std::to_string(question.settings.seed),
+                        std::to_string(question.count), packed(question.evaluated), packed(question.lost),
+                        packed(question.settings.former)});
+}
+
+std::string search_work(const std::string& spec) {
+  return runtime::pack({packed(explore::answer_to(question_from(spec)))});
+}
+
+Result<std::vector<pattern::Pattern>> batch_from_result(const std::string& result) {
+  const auto fields = runtime::unpack(result);
+  if (!fields) return tl::unexpected(fields.error());
+  if (fields->size() != 1) return fail("{} fields, expected 1", fields->size());
+  std::vector<pattern::Pattern> batch = patterns_in(fields->front());
+  for (const pattern::Pattern& pattern : batch) {
+    if (pattern.bits() >> pattern::kFreePixels) return fail("{:x} is no pattern", pattern.bits());
+  }
+  return batch;
+}
+
+}  // namespace nacre::proposal_agent

@@ -1,0 +1,21 @@
+#pragma once
+// The proposal agent's other long work: the next batch of a search that thinks (learned, tsemo, dgemo).
+
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "explore/search.hpp"
+
+namespace nacre::proposal_agent {
+
+/// Spec of a Compute of kind "search": the question whole, so that the answer is a function of the spec.
+std::string search_spec(const explore::Question& question);
+
+/// Kind "search": explore::answer_to() of the question.
+std::string search_work(const std::string& spec);
+
+/// The patterns in the result of a "search"; the error says what is damaged.
+Result<std::vector<pattern::Pattern>> batch_from_result(const std::string& result);
+
+}  // namespace nacre::proposal_agent

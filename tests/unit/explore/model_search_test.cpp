@@ -1,0 +1,161 @@
+// Searches that think: learned, tsemo, dgemo.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+#include "base/statistics.hpp"
+#include "explore/batch_log.hpp"
+#include "explore/learned.hpp"
+#include "explore/predictors.hpp"
+#include "explore/surrogate_search.hpp"
+#include "synthetic.hpp"
+
+namespace nacre::explore {
+namespace {
+
+using ::testing::HasSubstr;
+
+SearchSettings settings(const std::string& algorithm, std::uint64_t seed, int budget) {
+  SearchSettings settings;
+  settings.algorithm = algorithm;
+  settings.budget = budget;
+  settings.seed = seed;
+  settings.learned.generations = 15;  // little, so that tests stay fast
+  settings.learned.population = 40;
+  return settings;
+}
+
+double hypervolume_of(const std::vector<Evaluated>& samples) {
+  return optimize::hypervolume_staircase_gpa_mpa(performances_of(samples));
+}
+
+double hypervolume_after(const SearchSettings& chosen) {
+  const auto search = make_search(chosen);
+  run(*search);
+  return hypervolume_of(search->evaluated());
+}
+
+TEST(Learned, ReachesWithAFewSamplesWhatEvolutionNeedsFourTimesAsManyFor) {
+  // The stand-in's jitter, a fifth of the toughness from lowest to highest, cannot be learnt; the rest can.
+  double learned = 0.0, evolution = 0.0;
+  for (const std::uint64_t seed : {1, 3}) {
+    SearchSettings whole = settings("learned", seed, 120);
+    whole.learned = {};
+    learned += hypervolume_after(whole);
+    evolution += hypervolume_after(settings("nsga2-single-pixel", seed, 480));
+  }
+  EXPECT_GT(learned, evolution);
+}
+
+TEST(Learned, ChoosingByRankAsTheThesisDoesLearnsToo) {
+  SearchSettings by_rank = settings("learned", 1, 120);
+  by_rank.learned.choice = "rank";
+  EXPECT_GT(hypervolume_after(by_rank), 1.05 * hypervolume_after(settings("random", 1, 120)));
+}
+
+TEST(Learned, FormerSamplesOfAnotherModelAreAHeadStart) {
+  const auto earlier = make_search(settings("nsga2", 9, 400));
+  run(*earlier);
+  SearchSettings with = settings("learned", 3, 40);
+  for (Evaluated sample : earlier->evaluated()) {  // another model: half as stiff, and tougher where rigid
+    sample.performance.modulus_pa *= 0.5;
+    sample.performance.toughness_pa *= 0.5 + sample.pattern.rigid_fraction();
+    with.former.push_back(sample);
+  }
+  const double head_start = hypervolume_after(with), without = hypervolume_after(settings("learned", 3, 40));
+  EXPECT_GT(head_start, 1.05 * without);
+}
+
+class EveryModelSearch : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryModelSearch, AnswersToItsQuestionsAreWhatItAsks) {
+  const auto search = make_search(settings(GetParam(), 4, 40)), other = make_search(settings(GetParam(), 4, 40));
+  int questions = 0;
+  while (true) {
+    const auto question = search->question();
+    questions += question.has_value();
+    const auto batch = search->ask();
+    const auto same = question ? other->ask_with(answer_to(*question)) : other->ask();
+    ASSERT_EQ(batch, same);
+    if (batch.empty()) break;
+    EXPECT_FALSE(search->question()) << "a question while a batch is out";
+    std::vector<std::optional<optimize::Performance>> answers;
+    for (const pattern::Pattern& pattern : batch) {
+      answers.push_back(pattern.bits() % 5 == 0 ? std::nullopt : std::optional(synthetic_performance(pattern)));
+    }
+    search->tell(answers);
+    other->tell(answers);
+  }
+  EXPECT_EQ(questions, 2);
+}
+
+TEST_P(EveryModelSearch, AnInterruptedSearchGoesOnWithoutThinkingTwice) {
+  const std::string path = ::testing::TempDir() + "/nacre_batches_" + GetParam() + ".txt";
+  std::filesystem::remove(path);
+  const SearchSettings whole = settings(GetParam(), 5, 40);
+  const auto play = [&](int batches, std::size_t expected_left) {
+    const auto search = make_search(whole);
+    BatchLog log(path, whole);
+    EXPECT_EQ(log.left(), expected_left);
+    for (int i = 0; i < batches; ++i) {
+      const auto batch = log.ask(*search);
+      std::vector<std::optional<optimize::Performance>> answers;
+      for (const pattern::Pattern& pattern : batch) answers.push_back(synthetic_performance(pattern));
+      if (!batch.empty()) search->tell(answers);
+    }
+    return search->evaluated();
+  };
+  play(3, 0);
+  std::ofstream(path, std::ios::app) << "577fffe9fff";  // killed while it wrote
+  const auto resumed = play(4, 3);
+  const auto uninterrupted = make_search(whole);
+  run(*uninterrupted);
+  EXPECT_EQ(resumed, uninterrupted->evaluated());
+  std::filesystem::remove(path);
+}
+
+INSTANTIATE_TEST_SUITE_P(Algorithms, EveryModelSearch, ::testing::Values("learned", "tsemo", "dgemo"),
+                         [](const auto& algorithm) { return algorithm.param; });
+
+TEST(BatchLog, RefusesTheBatchesOfAnotherSearch) {
+  const std::string path = ::testing::TempDir() + "/nacre_other_batches.txt";
+  std::filesystem::remove(path);
+  BatchLog(path, settings("nsga2", 1, 40));
+  BatchLog(path, settings("nsga2", 1, 80));  // a larger budget is the same search
+  const auto message = [&](const SearchSettings& other) -> std::string {
+    try {
+      BatchLog(path, other);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message(settings("nsga2", 2, 40)), HasSubstr("line 1: it is \"batches of nsga2 seed=1"));
+  std::ofstream(path, std::ios::app) << "577fffe9fffdef xyz\n";
+  EXPECT_THAT(message(settings("nsga2", 1, 40)), HasSubstr("line 2: \"xyz\", expected the key of a pattern"));
+  std::filesystem::remove(path);
+}
+
+TEST(Predictors, RankUnseenPatternsOfTheStandIn) {
+  const auto random = make_search(settings("random", 6, 300));
+  run(*random);
+  const std::span<const Evaluated> all(random->evaluated());
+  const Predictors predictors = fit_predictors(all.first(200), settings("learned", 1, 300));
+  std::vector<pattern::Pattern> unseen;
+  std::vector<double> modulus, toughness;
+  for (const Evaluated& sample : all.subspan(200)) {
+    unseen.push_back(sample.pattern);
+    modulus.push_back(sample.performance.modulus_pa);
+    toughness.push_back(sample.performance.toughness_pa);
+  }
+  EXPECT_GT(rank_correlation(predictors.modulus->means(unseen), modulus), 0.98);
+  EXPECT_GT(rank_correlation(predictors.toughness->means(unseen), toughness), 0.9);
+}
+
+}  // namespace
+}  // namespace nacre::explore

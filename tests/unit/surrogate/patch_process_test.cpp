@@ -1,0 +1,163 @@
+#include "surrogate/patch_process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "base/random.hpp"
+#include "base/statistics.hpp"
+#include "pattern/random_pattern.hpp"
+
+namespace nacre::surrogate {
+namespace {
+
+std::vector<pattern::Pattern> random_patterns(int count, std::uint64_t seed) {
+  RandomStream random(seed, "test");
+  std::vector<pattern::Pattern> patterns;
+  for (int i = 0; i < count; ++i) patterns.push_back(pattern::random_pattern(random));
+  return patterns;
+}
+
+/// Rewards what a crack would: soft corners between rigid neighbours, here and there; a function of neighbourhoods.
+double local_quantity(const pattern::Pattern& pattern) {
+  double sum = 0.0;
+  for (int r = 0; r < pattern::kQuarter; ++r) {
+    for (int c = 0; c < pattern::kQuarter; ++c) {
+      sum += pattern.rigid(r, c) && !pattern.rigid(r + 1, c) && pattern.rigid(r, c + 1) ? 1.0 + 0.1 * r : 0.0;
+    }
+  }
+  return std::log(1.0 + sum);
+}
+
+std::vector<double> values_of(const std::vector<pattern::Pattern>& patterns) {
+  std::vector<double> values;
+  for (const auto& pattern : patterns) values.push_back(local_quantity(pattern));
+  return values;
+}
+
+/// The covariance as its definition says, pixel by pixel.
+double defined_covariance(const pattern::Pattern& a, const pattern::Pattern& b, const PatchKernel& kernel) {
+  const auto differ = [&](int r, int c) {
+    const auto inside = [](int i) { return i < 0 ? -1 - i : i > 9 ? 19 - i : i; };
+    return a.rigid(inside(r), inside(c)) != b.rigid(inside(r), inside(c));
+  };
+  const auto window_mean = [&](int half, double decay) {
+    double sum = 0.0;
+    for (int r = 0; r < 10; ++r) {
+      for (int c = 0; c < 10; ++c) {
+        int different = 0;
+        for (int i = -half; i <= half; ++i)
+          for (int j = -half; j <= half; ++j) different += differ(r + i, c + j);
+        sum += std::pow(decay, different) / 100.0;
+      }
+    }
+    return sum;
+  };
+  int different = 0;
+  for (int r = 0; r < 10; ++r)
+    for (int c = 0; c < 10; ++c) different += differ(r, c);
+  return kernel.pixel_variance * (1.0 - different / 100.0) +
+         kernel.patch_variance * window_mean(1, kernel.patch_decay) +
+         kernel.region_variance * window_mean(2, kernel.region_decay) +
+         kernel.whole_variance * std::pow(kernel.whole_decay, different);
+}
+
+TEST(PatchCovariance, IsWhatItsDefinitionSays) {
+  const PatchKernel kernel{.pixel_variance = 0.3,
+                           .patch_variance = 0.8,
+                           .patch_decay = 0.5,
+                           .region_variance = 0.6,
+                           .region_decay = 0.85,
+                           .whole_variance = 0.4,
+                           .whole_decay = 0.93,
+                           .noise_variance = 0.01};
+  const PatchCovariance covariance(kernel);
+  const auto patterns = random_patterns(12, 1);
+  for (const auto& a : patterns) {
+    EXPECT_NEAR(covariance(quarter_rows(a), quarter_rows(a)), kernel.signal_variance(), 1e-6);
+    for (const auto& b : patterns) {
+      EXPECT_NEAR(covariance(quarter_rows(a), quarter_rows(b)), defined_covariance(a, b, kernel), 1e-6);
+      EXPECT_EQ(covariance(quarter_rows(a), quarter_rows(b)), covariance(quarter_rows(b), quarter_rows(a)));
+    }
+  }
+}
+
+TEST(PatchCovariance, IsPositiveDefinite) {
+  const PatchCovariance covariance(PatchKernel{});
+  auto patterns = random_patterns(60, 2);
+  for (int i = 0; i < 30; ++i) {  // near neighbours are the hard case
+    patterns.emplace_back(patterns[0].bits() ^ (std::uint64_t{1} << i));
+  }
+  Eigen::MatrixXd matrix(90, 90);
+  for (int i = 0; i < 90; ++i)
+    for (int j = 0; j < 90; ++j)
+      matrix(i, j) = covariance(quarter_rows(patterns[static_cast<std::size_t>(i)]),
+                                quarter_rows(patterns[static_cast<std::size_t>(j)]));
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff(), 1e-5);
+}
+
+TEST(PatchProcess, PassesThroughItsSamplesAndKnowsThatItDoes) {
+  const auto patterns = random_patterns(80, 3);
+  const auto values = values_of(patterns);
+  PatchKernel kernel;
+  kernel.noise_variance = 1e-8;
+  const auto process = make_patch_process({patterns, values}, kernel);
+  const auto predictions = process->predict(patterns);
+  const auto means = process->means(patterns);
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    EXPECT_NEAR(predictions[i].mean, values[i], 1e-4);
+    EXPECT_NEAR(means[i], predictions[i].mean, 1e-9);
+    EXPECT_LT(predictions[i].deviation, 1e-3);
+  }
+  const pattern::Pattern far = random_patterns(1, 99).front();
+  EXPECT_GT(process->predict(std::span(&far, 1)).front().deviation, 0.1);
+}
+
+TEST(PatchProcess, PredictsWhatNeighbourhoodsDecideBetterThanDistanceAloneCould) {
+  const auto patterns = random_patterns(300, 4), unseen = random_patterns(200, 5);
+  const auto values = values_of(patterns), truth = values_of(unseen);
+  const PatchKernel kernel = fit_patch_kernel({patterns, values}, 1);
+  const auto process = make_patch_process({patterns, values}, kernel);
+  PatchKernel distance = kernel;  // the same variance, but patterns are only near or far as a whole
+  distance.whole_variance = kernel.signal_variance() - kernel.pixel_variance;
+  distance.patch_variance = distance.region_variance = 0.0;
+  const double rank = rank_correlation(process->means(unseen), truth);
+  EXPECT_GT(rank, 0.45);
+  EXPECT_GT(rank, rank_correlation(make_patch_process({patterns, values}, distance)->means(unseen), truth) + 0.05);
+  // The uncertainty is of the size of the errors.
+  double squares = 0.0, believed_squares = 0.0;
+  const auto predictions = process->predict(unseen);
+  for (std::size_t i = 0; i < unseen.size(); ++i) {
+    squares += std::pow(predictions[i].mean - truth[i], 2);
+    believed_squares += std::pow(predictions[i].deviation, 2) + kernel.noise_variance;
+  }
+  EXPECT_GT(squares, 0.4 * believed_squares);
+  EXPECT_LT(squares, 2.5 * believed_squares);
+}
+
+TEST(PatchProcess, LearnsOnlyWhatAKindredPredictorGetsWrong) {
+  const auto many = random_patterns(400, 6), few = random_patterns(25, 7), unseen = random_patterns(200, 8);
+  const auto known = values_of(many), truth = values_of(unseen);
+  std::vector<double> other;  // another model's: scaled and shifted, and a little wrong
+  for (std::size_t i = 0; i < many.size(); ++i) other.push_back(0.5 * known[i] + 1.0 + 0.05 * many[i].rigid(3, 3));
+  const auto values = values_of(few);
+  const std::shared_ptr<const Predictor> base = make_patch_process({many, other}, fit_patch_kernel({many, other}, 1));
+  const auto with = make_patch_process({few, values}, fit_patch_kernel({few, values}, 1, base.get()), base);
+  const auto without = make_patch_process({few, values}, fit_patch_kernel({few, values}, 1));
+  EXPECT_GT(rank_correlation(with->means(unseen), truth), rank_correlation(without->means(unseen), truth) + 0.1);
+}
+
+TEST(PatchProcess, OneSampleAndEqualSamplesAreNoProblem) {
+  const auto patterns = random_patterns(12, 9);
+  for (const std::size_t count : {std::size_t{1}, std::size_t{12}}) {
+    const std::vector<double> values(count, 2.5);
+    const std::span<const pattern::Pattern> some(patterns.data(), count);
+    const auto process = make_patch_process({some, values}, fit_patch_kernel({some, values}, 1));
+    EXPECT_NEAR(process->means(some).front(), 2.5, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace nacre::surrogate
