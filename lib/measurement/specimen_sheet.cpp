@@ -110,8 +110,13 @@ class SheetReader {
       reject("pattern", "is empty, expected a pattern file, a key, rigid, soft, interface or mix:F");
       return {};
     }
+    const std::filesystem::path path = std::filesystem::exists(folder_ / name) ? folder_ / name : std::filesystem::path(name);
+    if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {  // a terminal or a pipe would wait for ever
+      reject("pattern", fmt::format("`{}` is no regular file, expected a pattern file, a key, rigid, soft, interface or mix:F", name));
+      return {};
+    }
     try {
-      return pattern::design_from_argument(std::filesystem::exists(folder_ / name) ? (folder_ / name).string() : name);
+      return pattern::design_from_argument(path.string());
     } catch (const InputError& error) {
       reject("pattern", error.what());
       return {};

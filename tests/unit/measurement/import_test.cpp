@@ -203,6 +203,12 @@ TEST_F(ImportedSet, ExportsAreFoundByNameAndUnusedOnesAreSaid) {
   EXPECT_THAT(import.warnings[0], HasSubstr("b.csv: no specimen of the sheet names this export"));
 }
 
+TEST_F(ImportedSet, APatternThatIsNoRegularFileIsRefusedAndNotWaitedFor) {
+  const Import imported = import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,s1,/dev/stdin,10,3,50\n");
+  ASSERT_FALSE(imported.rejected.empty());
+  EXPECT_THAT(to_string(imported.rejected.front()), HasSubstr("no regular file"));
+}
+
 TEST_F(ImportedSet, ASheetWithoutARequiredColumnIsRefused) {
   write("sheet.csv", "file,specimen,pattern,width_mm,gauge_mm\n");
   EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);
