@@ -18,7 +18,7 @@ class Projector {
   /// Residual of data against the anchor, refitted.
   Eigen::VectorXd residual(const Eigen::VectorXd& y) const { return off(fit_.whitened_residual(y, whitener_)); }
   Eigen::VectorXd whitened(const Eigen::VectorXd& change) const {
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(change.size() + kBaseCount);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(change.size() + fit_.base_count);
     b.head(change.size()) = whitener_(change);
     return b;
   }
@@ -46,18 +46,22 @@ double DrawStatistics::largest_contrast() const {
   return contrasts.empty() ? 0.0 : *std::max_element(contrasts.begin(), contrasts.end());
 }
 
-NoisyData draw_data(const Eigen::VectorXd& truth, const Observations& observations, RandomStream& random) {
-  const Eigen::MatrixXd factor = observations.covariance().llt().matrixL();
+DataSource::DataSource(const Observations& observations)
+    : parts_(observations.covariance_parts()), factor_(parts_.total({1.0, 1.0, 1.0}).llt().matrixL()) {
+  for (std::size_t t = 0; t < dof_.size(); ++t) dof_[t] = observations.scatter[t].dof;
+}
+
+NoisyData DataSource::draw(const Eigen::VectorXd& truth, RandomStream& random) const {
   Eigen::VectorXd noise(truth.size());
-  for (Eigen::Index i = 0; i < truth.size(); ++i) noise[i] = random.normal();
-  const int dof = observations.replicate_dof;
-  const double variance = observations.replicate_sd * observations.replicate_sd;
-  return {truth + factor * noise, Whitener(observations.covariance(dof > 0 ? variance * chi_square(dof, random) / dof : variance))};
+  for (double& value : noise) value = random.normal();
+  ScatterFactors factors;
+  for (std::size_t t = 0; t < dof_.size(); ++t) factors[t] = dof_[t] > 0 ? chi_square(dof_[t], random) / dof_[t] : 1.0;
+  return {truth + factor_ * noise, Whitener(parts_.total(factors))};
 }
 
 DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   const Projector projector(anchor.fit, data.whitener);
-  const Eigen::VectorXd residual = projector.residual(data.log_moduli);
+  const Eigen::VectorXd residual = projector.residual(data.values);
   DrawStatistics statistics;
   statistics.chi2 = residual.squaredNorm();
   for (const Signature& signature : anchor.signatures) {
@@ -71,7 +75,7 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
     statistics.drops.push_back(best);
   }
   for (const ContrastDirection& direction : anchor.directions) {
-    // The direction is given in log E; whitened and projected it is the contrast that noise scatters with unit variance.
+    // The direction is given in the features' own units; whitened and projected it is the contrast that noise scatters with unit variance.
     const Eigen::VectorXd g = projector.projected(direction.values);
     const double length = g.norm();
     // What the anchor imitates almost entirely says nothing about it.
@@ -83,9 +87,10 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
 
 std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count, std::uint64_t seed) {
   std::vector<DrawStatistics> draws(static_cast<std::size_t>(count));
+  const DataSource source(observations);
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "anchor/" + std::to_string(i));
-    draws[static_cast<std::size_t>(i)] = anchor_statistics(anchor, draw_data(anchor.fit.predicted, observations, random));
+    draws[static_cast<std::size_t>(i)] = anchor_statistics(anchor, source.draw(anchor.fit.predicted, random));
   });
   return draws;
 }
@@ -93,13 +98,14 @@ std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observa
 RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations, int count,
                                 std::uint64_t seed) {
   RivalStatistics statistics{std::vector<double>(static_cast<std::size_t>(count)), std::vector<double>(static_cast<std::size_t>(count))};
+  const DataSource source(observations);
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "rival/" + std::to_string(truth) + "/" + std::to_string(i));
-    const NoisyData data = draw_data(rivals[truth].predicted, observations, random);
-    const double own = linear_refit(rivals[truth], data.log_moduli, data.whitener);
+    const NoisyData data = source.draw(rivals[truth].predicted, random);
+    const double own = linear_refit(rivals[truth], data.values, data.whitener);
     double best_other = own;
     for (std::size_t k = 0; k < rivals.size(); ++k) {
-      if (k != truth) best_other = std::min(best_other, linear_refit(rivals[k], data.log_moduli, data.whitener));
+      if (k != truth) best_other = std::min(best_other, linear_refit(rivals[k], data.values, data.whitener));
     }
     statistics.chi2[static_cast<std::size_t>(i)] = own;
     statistics.lead_of_best_other[static_cast<std::size_t>(i)] = own - best_other;
@@ -115,6 +121,13 @@ double exceedance(const std::vector<double>& draws, double observed) {
 SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener) {
   const Projector projector(anchor, whitener);
   return {projector.whitened(change).norm(), projector.projected(change).norm()};
+}
+
+Eigen::MatrixXd projected_signatures(const Fit& anchor, const std::vector<Eigen::VectorXd>& changes, const Whitener& whitener) {
+  const Projector projector(anchor, whitener);
+  Eigen::MatrixXd columns(anchor.predicted.size() + anchor.base_count, static_cast<Eigen::Index>(changes.size()));
+  for (std::size_t k = 0; k < changes.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = projector.projected(changes[k]);
+  return columns;
 }
 
 }  // namespace nacre::diagnosis

@@ -3,6 +3,7 @@
 // scatter re-estimated in every draw, numerics floor), and everything is refitted on linearised models.
 
 #include <Eigen/Dense>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,10 @@
 
 namespace nacre::diagnosis {
 
-/// What adding one effect to an anchor model would change in log E, at several sizes of the effect.
+/// What adding one effect to an anchor model would change, at several sizes of the effect.
 struct Signature {
   std::string effect;
-  std::vector<Eigen::VectorXd> changes;  ///< one vector over the groups for each size
+  std::vector<Eigen::VectorXd> changes;  ///< one vector over the rows for each size
   bool one_sided = false;                ///< the parameter cannot be negative
 };
 
@@ -35,14 +36,23 @@ struct Anchor {
   std::vector<ContrastDirection> directions;
 };
 
-/// Data with their noise model: means of log E and the covariance that these data themselves suggest.
+/// Data with their noise model: the values of the rows and the covariance that these data themselves suggest.
 struct NoisyData {
-  Eigen::VectorXd log_moduli;
+  Eigen::VectorXd values;
   Whitener whitener;
 };
 
-/// Draws data as if `truth` were exact.
-NoisyData draw_data(const Eigen::VectorXd& truth, const Observations& observations, RandomStream& random);
+/// Draws data sets of the actual design as if a truth were exact.
+class DataSource {
+ public:
+  explicit DataSource(const Observations& observations);
+  NoisyData draw(const Eigen::VectorXd& truth, RandomStream& random) const;
+
+ private:
+  CovarianceParts parts_;
+  Eigen::MatrixXd factor_;  ///< of the whole covariance
+  std::array<int, 3> dof_;  ///< of the replicate scatter, by TestKind
+};
 
 /// Statistics of data against the anchor, by linear refits.
 DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data);
@@ -69,5 +79,7 @@ struct SignatureSize {
   double absorption() const { return whitened > 0.0 ? 1.0 - projected * projected / (whitened * whitened) : 1.0; }
 };
 SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener);
+/// Signatures as columns, whitened and projected off the anchor's tangent space.
+Eigen::MatrixXd projected_signatures(const Fit& anchor, const std::vector<Eigen::VectorXd>& changes, const Whitener& whitener);
 
 }  // namespace nacre::diagnosis

@@ -1,8 +1,11 @@
 #include "diagnosis/contrasts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <set>
+
+#include "base/result.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -82,49 +85,91 @@ double rigid_percolates(const Layout& layout) {
   return 0.0;
 }
 
-struct Feature {
+struct LayoutDescriptor {
   const char* name;
-  std::function<double(const Layout&)> of;
+  double (*of)(const Layout&);
 };
 
-const std::vector<Feature>& layout_features() {
-  static const std::vector<Feature> kFeatures = {
-      {"interface length across the load", [](const Layout& l) { return interface_share(l, 0, 1); }},
-      {"interface length along the load", [](const Layout& l) { return interface_share(l, 1, 0); }},
-      {"run length of the rigid phase", [](const Layout& l) { return mean_run(l, true); }},
-      {"run length of the soft phase", [](const Layout& l) { return mean_run(l, false); }},
-      {"point contacts at pixel corners", diagonal_contacts},
-      {"mixed pixel corners", mixed_corners},
-      {"percolation of the rigid phase", rigid_percolates},
-  };
-  return kFeatures;
+constexpr std::array kLayoutDescriptors = {
+    LayoutDescriptor{"interface length across the load", [](const Layout& l) { return interface_share(l, 0, 1); }},
+    LayoutDescriptor{"interface length along the load", [](const Layout& l) { return interface_share(l, 1, 0); }},
+    LayoutDescriptor{"run length of the rigid phase", [](const Layout& l) { return mean_run(l, true); }},
+    LayoutDescriptor{"run length of the soft phase", [](const Layout& l) { return mean_run(l, false); }},
+    LayoutDescriptor{"point contacts at pixel corners", diagonal_contacts},
+    LayoutDescriptor{"mixed pixel corners", mixed_corners},
+    LayoutDescriptor{"percolation of the rigid phase", rigid_percolates},
+};
+
+/// Features along which designs are compared; the others only as a whole.
+constexpr std::array kDescribed = {Feature::log_modulus, Feature::log_toughness, Feature::log_tangent_30, Feature::log_peak};
+
+/// Appends the direction when it varies over the rows it is about: centred there, unit length.
+void add_if_varying(std::vector<ContrastDirection>& directions, const std::string& name, Eigen::VectorXd values, const std::vector<int>& rows) {
+  double mean = 0.0;
+  for (const int row : rows) mean += values[row] / static_cast<double>(rows.size());
+  double largest = 0.0;
+  for (const int row : rows) largest = std::max(largest, std::abs(values[row])), values[row] -= mean;
+  const double length = values.norm();
+  if (length < 1e-9 * (1.0 + largest) * static_cast<double>(rows.size() + 1)) return;
+  directions.push_back({name, values / length});
 }
 
-/// Appends the direction when it varies: centred, unit length.
-void add_if_varying(std::vector<ContrastDirection>& directions, const std::string& name, Eigen::VectorXd values) {
-  values.array() -= values.mean();
-  const double length = values.norm();
-  if (length < 1e-9 * (1.0 + values.size())) return;
-  directions.push_back({name, values / length});
+/// Rows of one feature, by test.
+std::vector<int> rows_of(const Observations& observations, Feature feature, tester::TestKind test) {
+  std::vector<int> rows;
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.probe == Probe::mean && row.feature == feature && row.test == test) rows.push_back(i);
+  }
+  return rows;
+}
+
+Eigen::VectorXd spread(const Observations& observations, const std::vector<int>& rows, const std::function<double(const Observation&)>& value) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(observations.size());
+  for (const int row : rows) values[row] = value(observations.group_of(row));
+  return values;
 }
 
 }  // namespace
 
+std::vector<Descriptor> descriptors() {
+  std::vector<Descriptor> all = {
+      {"rigid fraction", [](const Observation& g) { return g.design.rigid_fraction(); }},
+      {"orientation", [](const Observation& g) { return g.conditions.orientation_deg; }},
+      {"strain rate", [](const Observation& g) { return std::log(g.conditions.strain_rate_per_s); }},
+      {"thickness", [](const Observation& g) { return g.conditions.thickness_mm; }},
+      {"print order", [](const Observation& g) { return g.print_order; }},
+  };
+  for (const LayoutDescriptor& descriptor : kLayoutDescriptors)
+    all.push_back({descriptor.name, [of = descriptor.of](const Observation& g) { return g.design.layout() ? of(*g.design.layout()) : 0.0; }});
+  return all;
+}
+
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted) {
   std::vector<ContrastDirection> directions;
-  const auto over_groups = [&](const std::function<double(const Observation&)>& value) {
-    Eigen::VectorXd values(observations.size());
-    for (int i = 0; i < observations.size(); ++i) values[i] = value(observations.groups[static_cast<std::size_t>(i)]);
-    return values;
-  };
-  add_if_varying(directions, "rigid fraction", over_groups([](const Observation& g) { return g.design.rigid_fraction(); }));
-  add_if_varying(directions, "stiffness level", predicted);
-  add_if_varying(directions, "orientation", over_groups([](const Observation& g) { return g.conditions.orientation_deg; }));
-  add_if_varying(directions, "strain rate", over_groups([](const Observation& g) { return std::log(g.conditions.strain_rate_per_s); }));
-  add_if_varying(directions, "thickness", over_groups([](const Observation& g) { return g.conditions.thickness_mm; }));
-  add_if_varying(directions, "print order", over_groups([](const Observation& g) { return g.print_order; }));
-  for (const Feature& feature : layout_features()) {
-    add_if_varying(directions, feature.name, over_groups([&](const Observation& g) { return feature.of(*g.design.layout()); }));
+  std::set<std::pair<Feature, tester::TestKind>> kinds;
+  for (const Row& row : observations.rows)
+    if (row.probe == Probe::mean) kinds.emplace(row.feature, row.test);
+  for (const auto& [feature, test] : kinds) {
+    const std::vector<int> rows = rows_of(observations, feature, test);
+    const std::string prefix = kinds.size() > 1 ? std::string(in_words(feature)) + " against " : "";
+    // One feature against the others: how far all specimens are off in it alone.
+    if (kinds.size() > 1) {
+      Eigen::VectorXd whole = Eigen::VectorXd::Zero(observations.size());
+      for (const int row : rows) whole[row] = 1.0 / std::sqrt(static_cast<double>(rows.size()));
+      directions.push_back({std::string(in_words(feature)), whole});
+    }
+    if (std::find(kDescribed.begin(), kDescribed.end(), feature) == kDescribed.end()) continue;
+    Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
+    for (const int row : rows) level[row] = predicted[row];
+    add_if_varying(directions, prefix + (feature == Feature::log_modulus ? "stiffness level" : "level"), level, rows);
+    for (const Descriptor& descriptor : descriptors()) add_if_varying(directions, prefix + descriptor.name, spread(observations, rows, descriptor.of), rows);
+  }
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.probe == Probe::mean) continue;
+    directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature), row.probe == Probe::batch ? "one batch" : "one specimen printed"),
+                          Eigen::VectorXd::Unit(observations.size(), i)});
   }
   return directions;
 }

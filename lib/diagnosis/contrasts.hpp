@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,15 +9,24 @@
 
 namespace nacre::diagnosis {
 
-/// A pre-declared feature of specimens along which residuals may line up; one value per group, mean 0 and length 1.
+/// A pre-declared direction of the data along which residuals may line up; one value per row, length 1.
 struct ContrastDirection {
   std::string name;
   Eigen::VectorXd values;
 };
 
-/// All contrasts that vary over these specimens: rigid fraction, interface length along and across the load, run length of either
-/// phase, corner contacts, percolation of the rigid phase, orientation, rate, thickness, print order and
-/// stiffness level (`predicted`, log E of the base fit).
+/// A number that describes a group: its conditions, or its layout.
+struct Descriptor {
+  std::string name;
+  std::function<double(const Observation&)> of;
+};
+
+/// Rigid fraction, orientation, rate, thickness, print order; interface length along and across the load, run length of either
+/// phase, corner contacts, percolation of the rigid phase.
+std::vector<Descriptor> descriptors();
+
+/// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and peak stress; every
+/// feature as a whole; every row of history by itself.
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted);
 
 }  // namespace nacre::diagnosis

@@ -8,54 +8,51 @@ namespace {
 
 /// How often the directions of the numerics are computed anew at models fitted with them.
 constexpr int kMeshPasses = 2;
-/// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is needed.
-constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
-
-/// Effects whose traces in E are calibrated against the numerics so far; the others stay out of the comparison.
-bool tells_on_modulus(std::string_view name) {
-  return name == "interface_anisotropy" || name == "droplet_mixing" || name == "machine_compliance";
-}
-
-std::vector<std::string> modulus_effects() {
-  std::vector<std::string> names;
-  for (const material::Effect& effect : material::effect_library()) {
-    if (effect.acts_on_modulus && tells_on_modulus(effect.name)) names.emplace_back(effect.name);
-  }
-  return names;
-}
+/// How often fracture tests are simulated at the fits and learnt from, and how far the emulator may be off before it is done again.
+constexpr int kRefinements = 3;
+constexpr double kWellKnown = 1.5;
+/// Effects whose fits are simulated: those that come near the best.
+constexpr std::size_t kRefinedEffects = 4;
 
 /// The model with `added` after the effects of `fit`, at the same coordinates and with the added parameters at zero.
 Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
   u.head(fit.u.size()) = fit.u;
+  for (int i = static_cast<int>(fit.u.size()) + 1; i < map.size(); ++i) u[i] = map.usual(i);
   return u;
+}
+
+/// Sizes at which a one-sided or two-sided effect is tried, in the order of its signature's changes.
+std::vector<double> signed_sizes(bool one_sided) {
+  std::vector<double> sizes(std::begin(kSizes), std::end(kSizes));
+  if (!one_sided)
+    for (const double size : kSizes) sizes.push_back(-size);
+  return sizes;
 }
 
 /// Start for a joint fit: the size of the effect whose signature lowers the misfit most.
 Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
-  const CoordinateMap map(std::vector<std::string>{evidence.effects[effect]});
-  const Eigen::VectorXd y = evidence.observations.log_moduli();
+  const std::vector<std::string> names = {evidence.effects[effect]};
+  const CoordinateMap map = evidence.model.map(names);
   const Whitener whitener(evidence.observations.covariance());
+  const int own = map.base_count();
   Eigen::VectorXd best = widened_start(evidence.base.fit, map);
   double least = evidence.base.fit.chi2;
-  std::size_t index = 0;
   const Signature& signature = evidence.base.signatures[effect];
-  for (const double sign : {1.0, -1.0}) {
-    if (sign < 0.0 && signature.one_sided) continue;
-    for (const double size : kSizes) {
-      Fit shifted = evidence.base.fit;
-      shifted.predicted += signature.changes[index++];
-      Eigen::VectorXd step;
-      const double chi2 = linear_refit(shifted, y, whitener, &step);
-      if (chi2 >= least) continue;
-      least = chi2;
-      best = widened_start(evidence.base.fit, map);
-      best.head(kBaseCount) += step.head(kBaseCount);
-      best[kBaseCount] = sign * size;
-    }
+  const std::vector<double> sizes = signed_sizes(signature.one_sided);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    Fit shifted = evidence.base.fit;
+    shifted.predicted += signature.changes[i];
+    Eigen::VectorXd step;
+    const double chi2 = linear_refit(shifted, evidence.observations.values, whitener, &step);
+    if (chi2 >= least) continue;
+    least = chi2;
+    best = widened_start(evidence.base.fit, map);
+    best.head(own) += step.head(own);
+    best[own] = sizes[i];
   }
   // A start at exactly zero may be a stationary point of an effect that begins quadratically.
-  if (best[kBaseCount] == 0.0) best[kBaseCount] = kSizes[0];
+  if (best[own] == 0.0) best[own] = kSizes[0];
   return best;
 }
 
@@ -64,6 +61,9 @@ struct Stretch {
   double begin = 0.0, end = 1.0;
 };
 
+/// The effects of the model without those that the extended one has: a start for the base that knows where the extended one went.
+Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
+
 /// Base and every single effect, fitted to the observations of the evidence.
 void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
   const auto report = [&](double share, std::string_view phase) {
@@ -71,24 +71,33 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
   };
   report(0.0, "fitting the base model");
   evidence.base.fit = fit_model(evidence.model, evidence.observations, {}, start);
+  // The base gets the start that each extended fit ended with: a gain must not be better optimisation.
+  for (const Fit& single : evidence.singles) {
+    if (single.chi2 < evidence.base.fit.chi2 - 1.0)
+      evidence.base.fit = better_of(std::move(evidence.base.fit), fit_model(evidence.model, evidence.observations, {}, single.u.head(single.base_count)));
+  }
   report(0.3, "signatures of the effects");
   evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
-  evidence.singles.clear();
+  std::vector<Fit> singles;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()), "fitting base and " + evidence.effects[k]);
-    evidence.singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, best_start(evidence, k)));
+    singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, best_start(evidence, k)));
+    // Where an earlier fit found less, under another covariance or emulator, it is a start as good.
+    if (k < evidence.singles.size()) singles.back() = better_of(std::move(singles.back()), fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, evidence.singles[k].u));
   }
+  evidence.singles = std::move(singles);
 }
 
 /// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the material true: each
 /// direction with a factor of its own, because an effect that smooths or sharpens a layout changes what its elements cost.
 void share_numerics(Evidence& evidence) {
   const double amplitude = evidence.settings.floor.mesh_amplitude;
-  std::vector<Eigen::VectorXd> directions = {amplitude * evidence.model.mesh_change(evidence.base.fit.parameters)};
+  std::vector<Eigen::VectorXd> directions = {amplitude * evidence.model.mesh_change(evidence.model.base_map(), evidence.base.fit.u)};
   for (const Fit& single : evidence.singles) {
     if (material::find_effect(single.effects.front())->side != material::EffectSide::material) continue;
-    directions.push_back(amplitude * evidence.model.mesh_change(single.parameters) - directions.front());
+    directions.push_back(amplitude * evidence.model.mesh_change(evidence.model.map(single.effects), single.u) - directions.front());
+    if (directions.back().norm() < 1e-9) directions.pop_back();  // it does not act on moduli
   }
   Eigen::MatrixXd& shared = evidence.observations.numerics_shared;
   shared.resize(evidence.observations.size(), static_cast<Eigen::Index>(directions.size()));
@@ -96,43 +105,58 @@ void share_numerics(Evidence& evidence) {
   evidence.observations.numerics_sd = evidence.settings.floor.mesh_remainder_sd;
 }
 
+/// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator knows them.
+void refine_fractures(Evidence& evidence, Workbench& workbench) {
+  if (!workbench.has_fractures()) return;
+  for (int pass = 0; pass < kRefinements; ++pass) {
+    std::vector<const Fit*> order;
+    for (const Fit& single : evidence.singles) order.push_back(&single);
+    std::stable_sort(order.begin(), order.end(), [](const Fit* a, const Fit* b) { return a->chi2 < b->chi2; });
+    std::vector<material::ParameterSet> sets = {evidence.base.fit.parameters};
+    for (std::size_t k = 0; k < std::min(order.size(), kRefinedEffects); ++k) sets.push_back(order[k]->parameters);
+    const double error = workbench.refine(sets);
+    const double begin = 0.6 + 0.03 * pass;
+    fit_models(evidence, evidence.base.fit.u, {begin, begin + 0.03});
+    if (error < kWellKnown) return;
+  }
+}
+
 }  // namespace
 
-std::vector<Signature> signatures_on(const ModulusModel& model, const Fit& anchor, const std::vector<std::string>& effects) {
+std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor, const std::vector<std::string>& effects) {
   std::vector<Signature> signatures;
   for (const std::string& effect : effects) {
     std::vector<std::string> names = anchor.effects;
     names.push_back(effect);
-    const CoordinateMap map(names);
+    const CoordinateMap map = model.map(names);
     const int own = static_cast<int>(anchor.u.size());
     Signature signature{effect, {}, map.lower(own) >= 0.0};
-    std::vector<material::ParameterSet> sets;
-    for (const double sign : {1.0, -1.0}) {
-      if (sign < 0.0 && signature.one_sided) continue;
-      for (const double size : kSizes) {
-        Eigen::VectorXd u = widened_start(anchor, map);
-        u[own] = sign * size;
-        sets.push_back(map.parameters(u));
-      }
+    std::vector<Eigen::VectorXd> points;
+    for (const double size : signed_sizes(signature.one_sided)) {
+      points.push_back(widened_start(anchor, map));
+      points.back()[own] = std::clamp(size, map.lower(own), map.upper(own));
     }
-    const Eigen::MatrixXd predicted = model.predict(sets);
+    const Eigen::MatrixXd predicted = model.predict(map, points);
     for (Eigen::Index i = 0; i < predicted.cols(); ++i) signature.changes.emplace_back(predicted.col(i) - anchor.predicted);
     signatures.push_back(std::move(signature));
   }
   return signatures;
 }
 
-Evidence gather_evidence(const ModulusModel& model, const Observations& measured, const DiagnosisSettings& settings) {
-  Evidence evidence{model, measured, settings, {}, modulus_effects(), {}, {}, {}};
-  const CoordinateMap map(std::span<const std::string>{});
-  const int passes = settings.floor.mesh_amplitude > 0.0 ? 1 + kMeshPasses : 1;
+Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings) {
+  Evidence evidence{workbench.model(), workbench.observations(), settings, {}, workbench.effects(), {}, {}, {}};
+  const CoordinateMap map = evidence.model.base_map();
+  const double first = workbench.has_fractures() ? 0.55 : 0.0;
+  const int passes = settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus) ? 1 + kMeshPasses : 1;
   for (int pass = 0; pass < passes; ++pass) {
     if (pass > 0) share_numerics(evidence);
-    fit_models(evidence, pass == 0 ? map.coordinates(settings.start.modulus) : evidence.base.fit.u, {0.7 * pass / passes, 0.7 * (pass + 1) / passes});
+    const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
+    fit_models(evidence, pass == 0 ? map.coordinates(settings.start) : evidence.base.fit.u, {begin, end});
+    if (pass == 0) refine_fractures(evidence, workbench);
   }
   const Observations& observations = evidence.observations;
   if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
-  evidence.base_statistics = anchor_statistics(evidence.base, {observations.log_moduli(), Whitener(observations.covariance())});
+  evidence.base_statistics = anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
   evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
   return evidence;
 }

@@ -4,47 +4,49 @@
 #include <cmath>
 #include <set>
 
+#include "base/parallel.hpp"
+#include "measurement/reduction.hpp"
 #include "pattern/coupons.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-/// Specimens that could be made, as groups without a measurement.
-std::vector<Observation> possible_specimens(const Observations& observations) {
-  std::set<std::string> taken;
-  const auto name_of = [](const pattern::Design& design, double orientation) { return design.name() + (orientation == 90.0 ? "/90" : "/0"); };
-  for (const Observation& g : observations.groups) taken.insert(name_of(g.design, g.conditions.orientation_deg));
-  std::vector<Observation> possible;
-  const auto offer = [&](const pattern::Design& design, double orientation) {
-    if (!taken.insert(name_of(design, orientation)).second) return;
-    Observation specimen;
-    specimen.design = design;
-    specimen.conditions.orientation_deg = orientation;
-    possible.push_back(specimen);
-  };
-  for (const Observation& g : observations.groups) {
-    offer(g.design, g.conditions.orientation_deg == 0.0 ? 90.0 : 0.0);
-  }
-  for (const int period : {1, 2, 5}) {
-    offer(pattern::checkerboard(period), 0.0);
-    offer(pattern::laminate(pattern::LayerDirection::along_x, period, period), 0.0);
-    offer(pattern::laminate(pattern::LayerDirection::along_y, period, period), 0.0);
-  }
-  return possible;
+using tester::TestKind;
+
+constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
+constexpr int kConditionTwins = 3;  // designs that are tested under other conditions
+constexpr double kCouponStrain = 0.02;
+
+/// Scatter where nothing was measured of a test: a logarithm's, and a strain's.
+constexpr double kUsualSd = 0.03, kUsualStrainSd = 5e-4;
+
+double noise_sd(const Observations& observations, TestKind test, Feature feature, int replicates) {
+  const bool strain = feature == Feature::toe_strain || feature == Feature::set_strain;
+  double sd = observations.has(test) ? observations.replicate_sd(feature, test) : 0.0;
+  if (!(sd > 0.0)) sd = strain ? kUsualStrainSd : kUsualSd;
+  double variance = sd * sd / replicates;
+  if (test == TestKind::modulus) variance += observations.numerics_sd * observations.numerics_sd;
+  if (test == TestKind::toughness) variance += observations.fracture_numerics.covariance(feature, feature, 0.0, 0.0, true);
+  return std::sqrt(variance);
 }
 
-/// Which two models a specimen separates best, and by how much.
+/// Which two models a test separates best, and by how many standard errors.
 struct Separation {
-  double score = 0.0;
+  double errors = 0.0;
   std::size_t first = 0, second = 0;
+  Feature feature = Feature::log_modulus;
 };
 
-Separation best_separation(const Eigen::RowVectorXd& predicted, double variance) {
+Separation best_separation(const PossibleTest& test, const std::vector<FeatureValues>& predicted, const Observations& observations, int replicates) {
   Separation best;
-  for (Eigen::Index a = 0; a < predicted.size(); ++a) {
-    for (Eigen::Index b = a + 1; b < predicted.size(); ++b) {
-      const double score = std::pow(predicted[a] - predicted[b], 2) / variance;
-      if (score > best.score) best = {score, static_cast<std::size_t>(a), static_cast<std::size_t>(b)};
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    const auto feature = static_cast<Feature>(f);
+    for (std::size_t a = 0; a < predicted.size(); ++a) {
+      for (std::size_t b = a + 1; b < predicted.size(); ++b) {
+        if (!predicted[a][f] || !predicted[b][f]) continue;
+        const double errors = std::abs(*predicted[a][f] - *predicted[b][f]) / noise_sd(observations, test.test, feature, replicates);
+        if (errors > best.errors) best = {errors, a, b, feature};
+      }
     }
   }
   return best;
@@ -57,29 +59,100 @@ std::string model_name(const Fit& fit) {
 
 }  // namespace
 
-std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const Observations& observations, tester::Fidelity fidelity,
+std::vector<double> unload_history() {
+  std::vector<double> strains;
+  for (int i = 0; i <= 40; ++i) strains.push_back(kCouponStrain * i / 40);
+  for (int i = 39; i >= 10; --i) strains.push_back(kCouponStrain * i / 40);
+  for (int i = 11; i <= 44; ++i) strains.push_back(kCouponStrain * i / 40);
+  return strains;
+}
+
+std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity) {
+  std::vector<PossibleTest> possible;
+  std::set<std::string> taken;
+  const auto name_of = [](const PossibleTest& t) {
+    return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test), t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
+  };
+  for (const Observation& g : observations.groups) taken.insert(name_of({g.design, g.test, g.conditions, ""}));
+  const auto offer = [&](PossibleTest test) {
+    if (taken.insert(name_of(test)).second) possible.push_back(std::move(test));
+  };
+  std::vector<TestKind> tests;
+  for (const TestKind test : {TestKind::modulus, TestKind::toughness})
+    if (std::any_of(observations.groups.begin(), observations.groups.end(), [&](const Observation& g) { return g.test == test && g.design.layout(); })) tests.push_back(test);
+  int twins = 0;
+  for (const Observation& g : observations.groups) {
+    if (!g.design.layout() || g.test == TestKind::tensile) continue;
+    PossibleTest turned{g.design, g.test, g.conditions, "a twin printed turned by 90 degrees"};
+    turned.conditions.orientation_deg = g.conditions.orientation_deg == 0.0 ? 90.0 : 0.0;
+    offer(turned);
+    if (g.conditions.orientation_deg != 0.0 || twins++ >= kConditionTwins) continue;
+    PossibleTest faster{g.design, g.test, g.conditions, "a twin pulled ten times as fast"};
+    faster.conditions.strain_rate_per_s *= kSecondRate;
+    offer(faster);
+    PossibleTest thinner{g.design, g.test, g.conditions, "a twin of half the thickness"};
+    thinner.conditions.thickness_mm *= kSecondThickness;
+    offer(thinner);
+  }
+  for (const TestKind test : tests) {
+    for (const int period : {1, 2, 5}) {
+      offer({pattern::checkerboard(period), test, {}, fmt::format("a checkerboard of period {}", period)});
+      offer({pattern::laminate(pattern::LayerDirection::along_x, period, period), test, {}, fmt::format("a laminate of period {} across the pull", period)});
+      offer({pattern::laminate(pattern::LayerDirection::along_y, period, period), test, {}, fmt::format("a laminate of period {} along the pull", period)});
+    }
+  }
+  for (const double fraction : {1.0, 0.5, 0.0}) {
+    for (const double factor : {1.0, kSecondRate}) {
+      PossibleTest coupon{pattern::Mixture{fraction}, TestKind::tensile, {}, factor > 1.0 ? "a pure coupon pulled ten times as fast and unloaded" : "a pure coupon pulled and unloaded"};
+      coupon.conditions.strain_rate_per_s *= factor;
+      offer(coupon);
+    }
+  }
+  return possible;
+}
+
+FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u, tester::Fidelity fidelity) {
+  const material::ParameterSet set = test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
+  const tester::Simulation simulation{test.design, set, test.conditions, fidelity};
+  FeatureValues values;
+  if (test.test == TestKind::modulus) {
+    if (const auto result = tester::test_modulus(simulation)) value_of(values, Feature::log_modulus) = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+  } else if (test.test == TestKind::tensile) {
+    if (const auto curve = tester::test_tensile(simulation, unload_history())) values = tensile_features(measurement::observe_curve(*curve, set.extensions));
+  } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
+    sysid::Prediction prediction;
+    prediction.toughness_pa = result->toughness_pa;
+    prediction.curve = tester::resampled(measurement::forward_part(result->curve), 128);
+    values = shown_features(prediction, set.extensions, {});
+  }
+  return values;
+}
+
+std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model, const Observations& observations, tester::Fidelity fidelity,
                                              int count, int replicates) {
   if (models.size() < 2) return {};
-  const std::vector<Observation> specimens = possible_specimens(observations);
-  std::vector<material::ParameterSet> sets;
-  for (const Fit& model : models) sets.push_back(model.parameters);
-  const Eigen::MatrixXd predicted = ModulusModel(specimens, fidelity).predict(sets);
-  const double variance = observations.replicate_sd * observations.replicate_sd / replicates + observations.numerics_sd * observations.numerics_sd;
+  std::vector<PossibleTest> tests = possible_tests(observations, fidelity);
+  // Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: the others say the same for less.
+  if (observations.has(TestKind::modulus)) std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness && t.words.find("twin") == std::string::npos; });
+  std::vector<std::vector<FeatureValues>> predicted(tests.size(), std::vector<FeatureValues>(models.size()));
+  parallel_for(static_cast<int>(tests.size() * models.size()), [&](int job) {
+    const std::size_t t = static_cast<std::size_t>(job) / models.size(), m = static_cast<std::size_t>(job) % models.size();
+    predicted[t][m] = predicted_features(tests[t], model.map(models[m].effects), models[m].u, fidelity);
+  });
   struct Ranked {
     Separation separation;
-    std::size_t specimen = 0;
+    std::size_t test = 0;
   };
   std::vector<Ranked> ranked;
-  for (std::size_t i = 0; i < specimens.size(); ++i) {
-    ranked.push_back({best_separation(predicted.row(static_cast<Eigen::Index>(i)), variance), i});
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.separation.score > b.separation.score; });
+  for (std::size_t t = 0; t < tests.size(); ++t) ranked.push_back({best_separation(tests[t], predicted[t], observations, replicates), t});
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.separation.errors > b.separation.errors; });
   std::vector<NextExperiment> experiments;
   for (const Ranked& r : ranked) {
-    if (static_cast<int>(experiments.size()) == count || r.separation.score < 1.0) break;
-    experiments.push_back({specimens[r.specimen].design, tester::TestKind::modulus, specimens[r.specimen].conditions, replicates,
-                           fmt::format("separates {} from {} by {:.1f} standard errors", model_name(models[r.separation.first]),
-                                       model_name(models[r.separation.second]), std::sqrt(r.separation.score))});
+    if (static_cast<int>(experiments.size()) == count || r.separation.errors < 1.0) break;
+    const PossibleTest& test = tests[r.test];
+    experiments.push_back({test.design, test.test, test.conditions, replicates,
+                           fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words, in_words(r.separation.feature),
+                                       model_name(models[r.separation.first]), model_name(models[r.separation.second]), r.separation.errors)});
   }
   return experiments;
 }

@@ -13,19 +13,21 @@ constexpr int kIterations = 12;
 /// A drop of chi2 that no threshold would notice.
 constexpr double kConverged = 0.02;
 
-double prior_chi2(const Eigen::VectorXd& u) { return ((u.head(kBaseCount).array() - 0.5) / kPriorSd).square().sum(); }
+double prior_chi2(const Fit& fit, const Eigen::VectorXd& u) {
+  return ((u.head(fit.base_count).array() - 0.5) / fit.prior_sd.array()).square().sum();
+}
 
-/// Columns d log E / d u by one-sided differences that stay inside the bounds.
-Eigen::MatrixXd jacobian_at(const ModulusModel& model, const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted) {
-  std::vector<material::ParameterSet> sets;
+/// Columns d row / d u by one-sided differences that stay inside the bounds.
+Eigen::MatrixXd jacobian_at(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted) {
+  std::vector<Eigen::VectorXd> points;
   std::vector<double> steps;
   for (int i = 0; i < map.size(); ++i) {
     Eigen::VectorXd moved = u;
     steps.push_back(u[i] + kStep <= map.upper(i) ? kStep : -kStep);
     moved[i] += steps.back();
-    sets.push_back(map.parameters(moved));
+    points.push_back(moved);
   }
-  Eigen::MatrixXd columns = model.predict(sets);
+  Eigen::MatrixXd columns = model.predict(map, points);
   for (int i = 0; i < map.size(); ++i) columns.col(i) = (columns.col(i) - predicted) / steps[static_cast<std::size_t>(i)];
   return columns;
 }
@@ -62,7 +64,7 @@ Eigen::VectorXd damped_step(const Fit& fit, const Eigen::VectorXd& y, const Whit
 
 /// An extension that ended on a bound other than zero says that the library's range does not hold the truth.
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
-  for (int i = kBaseCount; i < map.size(); ++i) {
+  for (int i = map.base_count(); i < map.size(); ++i) {
     for (const double bound : {map.lower(i), map.upper(i)}) {
       if (bound != 0.0 && std::abs(u[i] - bound) < 1e-6) return true;
     }
@@ -74,18 +76,18 @@ bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
 
 Eigen::MatrixXd Fit::whitened_columns(const Whitener& whitener) const {
   const Eigen::Index n = jacobian.rows();
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + kBaseCount, static_cast<Eigen::Index>(free.size()));
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + base_count, static_cast<Eigen::Index>(free.size()));
   columns.topRows(n) = whitener(jacobian(Eigen::all, free));
   for (std::size_t k = 0; k < free.size(); ++k) {
-    if (free[k] < kBaseCount) columns(n + free[k], static_cast<Eigen::Index>(k)) = 1.0 / kPriorSd;
+    if (free[k] < base_count) columns(n + free[k], static_cast<Eigen::Index>(k)) = 1.0 / prior_sd[free[k]];
   }
   return columns;
 }
 
 Eigen::VectorXd Fit::whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const {
-  Eigen::VectorXd residual(y.size() + kBaseCount);
+  Eigen::VectorXd residual(y.size() + base_count);
   residual.head(y.size()) = whitener(y - predicted);
-  for (int i = 0; i < kBaseCount; ++i) residual[y.size() + i] = (0.5 - u[i]) / kPriorSd;
+  for (int i = 0; i < base_count; ++i) residual[y.size() + i] = (0.5 - u[i]) / prior_sd[i];
   return residual;
 }
 
@@ -98,17 +100,20 @@ double Fit::variance(int coordinate, const Whitener& whitener) const {
   return (a.transpose() * a).ldlt().solve(unit)[k];
 }
 
-Fit fit_model(const ModulusModel& model, const Observations& observations, const std::vector<std::string>& effects, const Eigen::VectorXd& start) {
-  const CoordinateMap map(effects);
-  const Eigen::VectorXd y = observations.log_moduli();
+Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects, const Eigen::VectorXd& start) {
+  const CoordinateMap map = model.map(effects);
+  const Eigen::VectorXd& y = observations.values;
   const Whitener whitener(observations.covariance());
   Fit fit;
   fit.effects = effects;
+  fit.base_count = map.base_count();
+  fit.prior_sd.resize(fit.base_count);
+  for (int i = 0; i < fit.base_count; ++i) fit.prior_sd[i] = map.prior_sd(i);
   fit.u = clamped(map, start);
   fit.lower = fit.upper = fit.u;
   for (int i = 0; i < map.size(); ++i) fit.lower[i] = map.lower(i), fit.upper[i] = map.upper(i);
-  fit.predicted = model.predict(map.parameters(fit.u));
-  fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit.u);
+  fit.predicted = model.predict(map, fit.u);
+  fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
@@ -116,8 +121,8 @@ Fit fit_model(const ModulusModel& model, const Observations& observations, const
     double gained = 0.0;
     for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
       const Eigen::VectorXd candidate = clamped(map, fit.u + damped_step(fit, y, whitener, damping));
-      const Eigen::VectorXd predicted = model.predict(map.parameters(candidate));
-      const double chi2 = whitener.chi2(y - predicted) + prior_chi2(candidate);
+      const Eigen::VectorXd predicted = model.predict(map, candidate);
+      const double chi2 = whitener.chi2(y - predicted) + prior_chi2(fit, candidate);
       gained = fit.chi2 - chi2;
       if (gained > 0.0) {
         fit.u = candidate;

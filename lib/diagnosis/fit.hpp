@@ -12,28 +12,27 @@ namespace nacre::diagnosis {
 /// Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
 struct Fit {
   std::vector<std::string> effects;  ///< extensions fitted with the base; empty: the base model
+  int base_count = 0;                ///< coordinates that are base constants: the first ones
+  Eigen::VectorXd prior_sd;          ///< of the base coordinates, about their middle 0.5
   Eigen::VectorXd u;                 ///< coordinates of the optimum (CoordinateMap)
   Eigen::VectorXd lower, upper;      ///< their bounds
   material::ParameterSet parameters;
-  Eigen::VectorXd predicted;         ///< log E per group
-  Eigen::MatrixXd jacobian;          ///< groups x coordinates
+  Eigen::VectorXd predicted;         ///< per row
+  Eigen::MatrixXd jacobian;          ///< rows x coordinates
   std::vector<int> free;             ///< coordinates that may move; the others are held by a bound that they would leave
   double chi2 = 0.0;                 ///< weighted sum of squares, prior included
   bool extension_on_bound = false;   ///< an extension parameter ended on a bound of its range (zero does not count)
-  /// Whitened columns of the free coordinates: groups, then the prior's rows.
+  /// Whitened columns of the free coordinates: rows, then those of the prior.
   Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
-  /// Whitened residual of data: groups, then the prior's rows.
+  /// Whitened residual of data: rows, then those of the prior.
   Eigen::VectorXd whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const;
   /// Variance of one coordinate; 0 when it is held.
   double variance(int coordinate, const Whitener& whitener) const;
 };
 
-/// Standard deviation of the prior, in widths of the widened range.
-inline constexpr double kPriorSd = 0.5;
-
-/// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1) x groups
-/// modulus tests an iteration.
-Fit fit_model(const ModulusModel& model, const Observations& observations, const std::vector<std::string>& effects,
+/// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1)
+/// predictions of all rows an iteration.
+Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
               const Eigen::VectorXd& start);
 
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of

@@ -18,12 +18,6 @@ Fit restricted(const Fit& fit, const std::vector<Eigen::Index>& rows) {
   return part;
 }
 
-/// Errors of one design before and after.
-struct DesignErrors {
-  double before = 0.0, after = 0.0;
-  int groups = 0;
-};
-
 struct Refit {
   double chi2 = 0.0;
   Eigen::VectorXd delta;
@@ -35,12 +29,24 @@ Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::
   return result;
 }
 
-/// log E of all groups by a model refitted to `rows`, with what those rows say of the numerics that all layouts share.
+/// All rows by a model refitted to `rows`, with what those rows say of the numerics that all layouts share.
 Eigen::VectorXd predicted_from(const Observations& observations, const Fit& fit, const Refit& refit, const std::vector<Eigen::Index>& rows) {
   const Eigen::VectorXd model = fit.predicted + fit.jacobian * refit.delta;
-  const Eigen::VectorXd residuals = observations.log_moduli() - model;
+  const Eigen::VectorXd residuals = observations.values - model;
   return model + observations.shared_numerics(residuals(rows), rows);
 }
+
+/// Rows whose errors count for the figure of the whole: moduli and toughness; slopes and stresses where there are coupons only.
+bool counts(const Observations& observations, const Row& row) {
+  const bool layouts = observations.has(tester::TestKind::toughness) || std::any_of(observations.groups.begin(), observations.groups.end(), [](const Observation& g) { return g.design.layout() != nullptr; });
+  if (layouts) return row.test != tester::TestKind::tensile && (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
+  return row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 || row.feature == Feature::log_tangent_50 || row.feature == Feature::log_peak;
+}
+
+/// Sums over the rows of one design.
+struct DesignErrors {
+  double before = 0.0, after = 0.0;
+};
 
 double reduction(const std::vector<DesignErrors>& errors, const std::vector<std::size_t>& picks) {
   double before = 0.0, after = 0.0;
@@ -48,26 +54,22 @@ double reduction(const std::vector<DesignErrors>& errors, const std::vector<std:
   return before > 0.0 ? 1.0 - after / before : 0.0;
 }
 
-}  // namespace
+/// Held-out errors of all rows that belong to a group, base and the model selected without them.
+struct HeldOut {
+  Eigen::VectorXd before, after;
+};
 
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed, std::uint64_t seed) {
-  const Eigen::VectorXd y = observations.log_moduli();
+HeldOut hold_out(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed, const std::vector<std::vector<Eigen::Index>>& designs) {
+  const Eigen::VectorXd& y = observations.values;
   const Eigen::MatrixXd covariance = observations.covariance();
-  // Folds of whole designs, dealt by a seeded shuffle.
-  std::map<std::string, std::vector<Eigen::Index>> rows_of;
-  for (int i = 0; i < observations.size(); ++i) rows_of[observations.groups[static_cast<std::size_t>(i)].design.name()].push_back(i);
-  std::vector<std::vector<Eigen::Index>> designs;
-  for (const auto& [name, rows] : rows_of) designs.push_back(rows);
-  RandomStream random(seed, "gain/folds");
-  for (std::size_t i = designs.size(); i > 1; --i) std::swap(designs[i - 1], designs[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
-
-  std::vector<DesignErrors> errors(designs.size());
+  HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
   for (int fold = 0; fold < kFolds; ++fold) {
+    std::vector<bool> held(static_cast<std::size_t>(y.size()), false);
+    for (std::size_t d = static_cast<std::size_t>(fold); d < designs.size(); d += kFolds)
+      for (const Eigen::Index row : designs[d]) held[static_cast<std::size_t>(row)] = true;
     std::vector<Eigen::Index> train;
-    for (std::size_t d = 0; d < designs.size(); ++d) {
-      if (static_cast<int>(d) % kFolds != fold) train.insert(train.end(), designs[d].begin(), designs[d].end());
-    }
-    std::sort(train.begin(), train.end());
+    for (Eigen::Index row = 0; row < y.size(); ++row)
+      if (!held[static_cast<std::size_t>(row)]) train.push_back(row);
     const Whitener whitener(covariance(train, train));
     const Refit plain = refit(base, train, y, whitener);
     const Fit* chosen = &base;
@@ -77,26 +79,42 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - drop_needed) chosen = &model, chosen_refit = own;
     }
     const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train), after = y - predicted_from(observations, *chosen, chosen_refit, train);
-    for (std::size_t d = static_cast<std::size_t>(fold); d < designs.size(); d += kFolds) {
-      for (const Eigen::Index row : designs[d]) {
-        errors[d].before += std::abs(before[row]);
-        errors[d].after += std::abs(after[row]);
-        ++errors[d].groups;
-      }
-    }
+    for (Eigen::Index row = 0; row < y.size(); ++row)
+      if (held[static_cast<std::size_t>(row)]) result.before[row] = before[row], result.after[row] = after[row];
   }
+  return result;
+}
+
+}  // namespace
+
+Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed, std::uint64_t seed) {
+  // Folds of whole designs, dealt by a seeded shuffle.
+  std::map<std::string, std::vector<Eigen::Index>> rows_of;
+  for (int i = 0; i < observations.size(); ++i)
+    if (observations.rows[static_cast<std::size_t>(i)].group >= 0) rows_of[observations.group_of(i).design.name()].push_back(i);
+  std::vector<std::vector<Eigen::Index>> designs;
+  for (const auto& [name, rows] : rows_of) designs.push_back(rows);
+  RandomStream random(seed, "gain/folds");
+  for (std::size_t i = designs.size(); i > 1; --i) std::swap(designs[i - 1], designs[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  const HeldOut held = hold_out(observations, base, models, drop_needed, designs);
 
   Gain gain;
-  int groups = 0;
-  std::vector<std::size_t> all(errors.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    all[i] = i;
-    gain.held_out_error_before += errors[i].before;
-    gain.held_out_error_after += errors[i].after;
-    groups += errors[i].groups;
+  int rows = 0;
+  std::vector<DesignErrors> errors(designs.size());
+  for (std::size_t d = 0; d < designs.size(); ++d) {
+    for (const Eigen::Index row : designs[d]) {
+      if (!counts(observations, observations.rows[static_cast<std::size_t>(row)])) continue;
+      errors[d].before += std::abs(held.before[row]);
+      errors[d].after += std::abs(held.after[row]);
+      ++rows;
+    }
+    gain.held_out_error_before += errors[d].before;
+    gain.held_out_error_after += errors[d].after;
   }
-  gain.held_out_error_before /= groups;
-  gain.held_out_error_after /= groups;
+  gain.held_out_error_before /= std::max(rows, 1);
+  gain.held_out_error_after /= std::max(rows, 1);
+  std::vector<std::size_t> all(errors.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   gain.relative_reduction = reduction(errors, all);
   RandomStream draws(seed, "gain/interval");
   std::vector<double> reductions;
@@ -108,6 +126,24 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
   std::sort(reductions.begin(), reductions.end());
   gain.interval_low = reductions[kIntervalDraws / 20];
   gain.interval_high = reductions[kIntervalDraws - 1 - kIntervalDraws / 20];
+
+  // A normal error of deviation s is 0.8 s large on average.
+  const Eigen::VectorXd deviation = observations.covariance().diagonal().cwiseSqrt();
+  std::map<Feature, std::pair<FeatureGain, int>> by_feature;
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.group < 0) continue;
+    auto& [sums, count] = by_feature[row.feature];
+    sums.feature = row.feature;
+    sums.before += std::abs(held.before[i]);
+    sums.after += std::abs(held.after[i]);
+    sums.noise += 0.7979 * deviation[i];
+    ++count;
+  }
+  for (auto& [feature, entry] : by_feature) {
+    auto& [sums, count] = entry;
+    gain.features.push_back({feature, sums.before / count, sums.after / count, sums.noise / count});
+  }
   return gain;
 }
 

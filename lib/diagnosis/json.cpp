@@ -14,16 +14,32 @@ ordered_json json_of(const NamedEffect& e) {
 
 ordered_json json_of(const Candidate& c) {
   return {{"name", c.name},           {"status", c.status},         {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise},
-          {"absorption", c.absorption}, {"signal_to_noise", c.signal_to_noise}, {"parameter", c.parameter}, {"p_fit", c.p_fit}};
+          {"absorption", c.absorption}, {"signal_to_noise", c.signal_to_noise}, {"parameter", c.parameter}, {"p_fit", c.p_fit},
+          {"nearest_rival", c.nearest_rival}, {"rival_cosine", c.rival_cosine}, {"distance", c.distance}};
 }
 
 ordered_json json_of(const Contrast& c) { return {{"name", c.name}, {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise}}; }
+
+ordered_json json_of(const NextExperiment& e);
+ordered_json json_of(const ResidualRow& r);
+
+ordered_json json_of(const FeatureGain& g) {
+  return {{"feature", to_string(g.feature)}, {"before", g.before}, {"after", g.after}, {"noise", g.noise}};
+}
+
+template <class T>
+ordered_json array_of(const std::vector<T>& items) {
+  ordered_json array = ordered_json::array();
+  for (const T& item : items) array.push_back(json_of(item));
+  return array;
+}
 
 ordered_json json_of(const Gain& g) {
   return {{"held_out_error_before", g.held_out_error_before},
           {"held_out_error_after", g.held_out_error_after},
           {"relative_reduction", g.relative_reduction},
-          {"interval90", {g.interval_low, g.interval_high}}};
+          {"interval90", {g.interval_low, g.interval_high}},
+          {"features", array_of(g.features)}};
 }
 
 ordered_json json_of(const NextExperiment& e) {
@@ -37,15 +53,28 @@ ordered_json json_of(const NextExperiment& e) {
 }
 
 ordered_json json_of(const ResidualRow& r) {
-  return {{"design", r.design},     {"orientation_deg", r.orientation_deg}, {"measured_pa", r.measured_pa},
-          {"base_pa", r.base_pa}, {"extended_pa", r.extended_pa},         {"standard_error", r.standard_error}};
+  return {{"design", r.design},
+          {"test", tester::to_string(r.test)},
+          {"orientation_deg", r.conditions.orientation_deg},
+          {"strain_rate_per_s", r.conditions.strain_rate_per_s},
+          {"thickness_mm", r.conditions.thickness_mm},
+          {"feature", to_string(r.feature)},
+          {"measured", r.measured},
+          {"base", r.base},
+          {"extended", r.extended},
+          {"standard_error", r.standard_error}};
 }
 
-template <class T>
-ordered_json array_of(const std::vector<T>& items) {
-  ordered_json array = ordered_json::array();
-  for (const T& item : items) array.push_back(json_of(item));
-  return array;
+/// Parameters of the tests that took part, by name.
+ordered_json json_of(const material::ParameterSet& set) {
+  ordered_json object = ordered_json::object();
+  const auto theta = to_vector(set.modulus);
+  const auto eta = to_vector(set.toughness);
+  for (std::size_t i = 0; i < theta.size(); ++i) object["modulus"][std::string(material::modulus_parameter_names()[i])] = theta[i];
+  for (std::size_t i = 0; i < eta.size(); ++i) object["toughness"][std::string(material::toughness_parameter_names()[i])] = eta[i];
+  object["extensions"] = ordered_json::object();
+  for (const auto& [name, values] : set.extensions) object["extensions"][name] = values;
+  return object;
 }
 
 }  // namespace
@@ -63,6 +92,13 @@ std::string to_json(const Diagnosis& d) {
                                  {"numerics_sd", d.numerics_sd},
                                  {"numerics_shared_sd", d.numerics_shared_sd},
                                  {"noise_known", d.noise_known},
+                                 {"procedure", d.procedure},
+                                 {"possible", d.possible},
+                                 {"common_ground", d.common_ground},
+                                 {"partial_gain", d.partial_gain ? json_of(*d.partial_gain) : ordered_json(nullptr)},
+                                 {"base_fit", json_of(d.base_fit)},
+                                 {"extended_fit", json_of(d.extended_fit)},
+                                 {"simulations", d.simulations},
                                  {"residuals", array_of(d.residuals)}};
   return document.dump(2);
 }

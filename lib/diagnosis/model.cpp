@@ -9,118 +9,103 @@
 namespace nacre::diagnosis {
 namespace {
 
-struct Bounds {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// Range of a base parameter widened three-fold about its middle (docs/METHODS.md): moduli in log scale, ratios kept physical.
-Bounds widened(int i) {
-  const material::ParameterRange& range = material::modulus_ranges(material::FitTarget::microstructures)[static_cast<std::size_t>(i)];
-  if (i < 3) {
-    const double half = 1.5 * std::log(range.maximum / range.minimum);
-    const double middle = 0.5 * std::log(range.maximum * range.minimum);
-    return {middle - half, middle + half};
-  }
-  const double half = 1.5 * (range.maximum - range.minimum);
-  const double middle = 0.5 * (range.maximum + range.minimum);
-  return {std::max(0.02, middle - half), std::min(0.495, middle + half)};
-}
+using tester::TestKind;
 
 }  // namespace
 
-CoordinateMap::CoordinateMap(std::span<const std::string> effects) : effects_(effects.begin(), effects.end()) {
-  for (const std::string& name : effects_) {
-    const material::Effect* effect = material::find_effect(name);
-    assert(effect != nullptr);
-    for (int p = 0; p < static_cast<int>(effect->parameters.size()); ++p) extension_.push_back({effect, p});
+tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
+  const auto pulled = tester::test_tensile({group.design, set, group.conditions, fidelity_}, group.curve.strain);
+  if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
+  const tester::Curve shown = measurement::observe_curve(*pulled, set.extensions);
+  const auto end = strain_at_peak(group.curve);
+  return end ? truncated(shown, *end) : shown;
+}
+
+Basis basis_for(const Observations& observations, const material::ParameterSet& start) {
+  Basis basis{false, false, false, start};
+  for (const Observation& group : observations.groups) {
+    if (group.test == TestKind::toughness) basis.toughness = true;
+    else if (group.design.layout()) basis.modulus = true;
+    else basis.coupon = true;
+  }
+  return basis;
+}
+
+FeatureModel::FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity, const FractureSurface* surface)
+    : observations_(observations), basis_(basis), fidelity_(fidelity), surface_(surface), rows_of_group_(observations.groups.size()) {
+  for (int i = 0; i < observations.size(); ++i) {
+    const int group = observations.rows[static_cast<std::size_t>(i)].group;
+    if (group >= 0) rows_of_group_[static_cast<std::size_t>(group)].push_back(i);
   }
 }
 
-double CoordinateMap::scale(int extension_index) const {
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(extension_index)];
-  const material::EffectParameter& p = c.effect->parameters[static_cast<std::size_t>(c.parameter)];
-  return std::max(std::abs(p.minimum), std::abs(p.maximum));
-}
-
-double CoordinateMap::lower(int i) const {
-  if (i < kBaseCount) return 0.0;
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - kBaseCount)];
-  return c.effect->parameters[static_cast<std::size_t>(c.parameter)].minimum / scale(i - kBaseCount);
-}
-
-double CoordinateMap::upper(int i) const {
-  if (i < kBaseCount) return 1.0;
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - kBaseCount)];
-  return c.effect->parameters[static_cast<std::size_t>(c.parameter)].maximum / scale(i - kBaseCount);
-}
-
-double CoordinateMap::value(int i, double u) const {
-  if (i >= kBaseCount) return u * scale(i - kBaseCount);
-  const Bounds b = widened(i);
-  const double x = b.low + u * (b.high - b.low);
-  return i < 3 ? std::exp(x) : x;
-}
-
-material::ParameterSet CoordinateMap::parameters(const Eigen::VectorXd& u) const {
-  material::ParameterSet set = material::default_parameters();
-  material::ModulusVector theta = to_vector(set.modulus);
-  for (int i = 0; i < kBaseCount; ++i) theta[static_cast<std::size_t>(i)] = value(i, u[i]);
-  set.modulus = material::modulus_from_vector(theta);
-  for (std::size_t k = 0; k < extension_.size(); ++k) {
-    set.extensions[std::string(extension_[k].effect->name)].push_back(value(kBaseCount + static_cast<int>(k), u[kBaseCount + static_cast<int>(k)]));
-  }
-  return set;
-}
-
-Eigen::VectorXd CoordinateMap::coordinates(const material::ModulusParameters& parameters) const {
-  const material::ModulusVector theta = to_vector(parameters);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(size());
-  for (int i = 0; i < kBaseCount; ++i) {
-    const Bounds b = widened(i);
-    const double x = i < 3 ? std::log(theta[static_cast<std::size_t>(i)]) : theta[static_cast<std::size_t>(i)];
-    u[i] = std::clamp((x - b.low) / (b.high - b.low), 0.02, 0.98);
-  }
-  return u;
-}
-
-double ModulusModel::log_modulus(const Observation& group, const material::ParameterSet& set) const {
+double FeatureModel::modulus(const Observation& group, const material::ParameterSet& set) const {
   const tester::Simulation simulation{group.design, set, group.conditions, fidelity_};
-  const std::string key = tester::simulation_key(simulation, tester::TestKind::modulus);
+  const std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
     const std::lock_guard lock(mutex_);
-    if (const auto found = known_.find(key); found != known_.end()) {
-      return std::log(measurement::observe_modulus(found->second, set.extensions));
-    }
+    if (const auto found = known_.find(key); found != known_.end()) return found->second;
   }
   const auto result = tester::test_modulus(simulation);
   if (!result) throw std::runtime_error(fmt::format("modulus of {}: {}", group.design.name(), result.error().message));
-  {
-    const std::lock_guard lock(mutex_);
-    known_.emplace(key, result->modulus_pa);
-  }
-  return std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+  const std::lock_guard lock(mutex_);
+  return known_.emplace(key, result->modulus_pa).first->second;
 }
 
-Eigen::VectorXd ModulusModel::mesh_change(const material::ParameterSet& set) const {
-  Eigen::VectorXd finer(static_cast<Eigen::Index>(groups_.size()));
-  parallel_for(static_cast<int>(groups_.size()), [&](int i) {
-    const Observation& group = groups_[static_cast<std::size_t>(i)];
+void FeatureModel::put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
+  const Observation& g = observations_.groups[group];
+  FeatureValues values;
+  if (g.test == TestKind::modulus) value_of(values, Feature::log_modulus) = std::log(measurement::observe_modulus(modulus(g, set), set.extensions));
+  if (g.test == TestKind::tensile) values = tensile_features(coupon_curve(g, set));
+  for (const int row : rows_of_group_[group]) {
+    const auto& value = value_of(values, observations_.rows[static_cast<std::size_t>(row)].feature);
+    // A feature that the model does not show (a permanent set, say) is one that it puts at nothing.
+    rows[row] = value.value_or(0.0);
+  }
+}
+
+void FeatureModel::put_history(const material::ParameterSet&, Eigen::Ref<Eigen::VectorXd> rows) const {
+  for (int i = 0; i < observations_.size(); ++i)
+    if (observations_.rows[static_cast<std::size_t>(i)].probe != Probe::mean) rows[i] = 0.0;
+}
+
+Eigen::MatrixXd FeatureModel::predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const {
+  const int groups = static_cast<int>(observations_.groups.size()), points = static_cast<int>(u.size());
+  Eigen::MatrixXd y(observations_.size(), points);
+  std::vector<material::ParameterSet> layouts, coupons;
+  for (const Eigen::VectorXd& each : u) {
+    layouts.push_back(map.parameters(each));
+    coupons.push_back(basis_.coupon ? map.coupon_parameters(each) : material::ParameterSet{});
+  }
+  parallel_for(groups * points, [&](int job) {
+    const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
+    const Observation& g = observations_.groups[group];
+    if (g.test == TestKind::toughness) return;
+    put_group(group, g.design.layout() ? layouts[point] : coupons[point], y.col(static_cast<Eigen::Index>(point)));
+  });
+  for (int p = 0; p < points; ++p) put_history(layouts[static_cast<std::size_t>(p)], y.col(p));
+  if (surface_ != nullptr && basis_.toughness) {
+    parallel_for(points, [&](int p) {
+      const Eigen::VectorXd values = surface_->predict(layouts[static_cast<std::size_t>(p)]);
+      for (std::size_t k = 0; k < surface_->rows().size(); ++k) y(surface_->rows()[k].row, p) = values[static_cast<Eigen::Index>(k)];
+    });
+  }
+  return y;
+}
+
+Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const {
+  const material::ParameterSet set = map.parameters(u);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(observations_.size());
+  parallel_for(static_cast<int>(observations_.groups.size()), [&](int i) {
+    const Observation& group = observations_.groups[static_cast<std::size_t>(i)];
+    if (group.test != TestKind::modulus || !group.design.layout()) return;
     const auto result = tester::test_modulus({group.design, set, group.conditions, fidelity_}, {.refinement = 2});
     if (!result) throw std::runtime_error(fmt::format("modulus of {} at h/2: {}", group.design.name(), result.error().message));
-    finer[i] = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+    const double finer = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+    const double own = std::log(measurement::observe_modulus(modulus(group, set), set.extensions));
+    for (const int row : rows_of_group_[static_cast<std::size_t>(i)]) change[row] = finer - own;
   });
-  return finer - predict(set);
-}
-
-Eigen::MatrixXd ModulusModel::predict(std::span<const material::ParameterSet> sets) const {
-  const int count = static_cast<int>(groups_.size());
-  Eigen::MatrixXd y(count, static_cast<int>(sets.size()));
-  parallel_for(count * static_cast<int>(sets.size()), [&](int job) {
-    const int set = job / count, group = job % count;
-    y(group, set) = log_modulus(groups_[static_cast<std::size_t>(group)], sets[static_cast<std::size_t>(set)]);
-  });
-  return y;
+  return change;
 }
 
 }  // namespace nacre::diagnosis

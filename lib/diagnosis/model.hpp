@@ -7,59 +7,45 @@
 #include <unordered_map>
 #include <vector>
 
+#include "diagnosis/coordinates.hpp"
+#include "diagnosis/fracture_surface.hpp"
 #include "diagnosis/observations.hpp"
-#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 
-/// The free base parameters of the modulus side: e_tb, e_vw, e_if, nu_tb, nu_vw, nu_if (gamma has no effect on a static test).
-inline constexpr int kBaseCount = 6;
-
-/// One parameter of one effect.
-struct EffectCoordinate {
-  const material::Effect* effect = nullptr;
-  int parameter = 0;
-};
-
-/// Coordinates of a fit: the base parameters in the unit cube of their ranges widened three-fold (moduli in log scale), then one
-/// coordinate per effect parameter, scaled by the largest size that the library allows.
-class CoordinateMap {
+/// The testers as a function of coordinates over the rows of a data set, measurement side included: moduli of layouts by the static tester
+/// itself, coupons by the material point, fracture tests by the emulator. Thread-safe; remembers moduli.
+class FeatureModel {
  public:
-  explicit CoordinateMap(std::span<const std::string> effects);
-  int size() const { return kBaseCount + static_cast<int>(extension_.size()); }
-  const std::vector<std::string>& effects() const { return effects_; }
-  double lower(int i) const;
-  double upper(int i) const;
-  /// Physical value of coordinate i at u.
-  double value(int i, double u) const;
-  double scale(int extension_index) const;
-  material::ParameterSet parameters(const Eigen::VectorXd& u) const;
-  /// Base coordinates of `parameters`, moved into the ranges; extension coordinates 0.
-  Eigen::VectorXd coordinates(const material::ModulusParameters& parameters) const;
+  /// `observations` must outlive the model; `surface` is needed when there are fracture rows, and may learn more while the model lives.
+  FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity, const FractureSurface* surface = nullptr);
+  const Basis& basis() const { return basis_; }
+  CoordinateMap map(std::span<const std::string> effects) const { return CoordinateMap(basis_, effects); }
+  CoordinateMap base_map() const { return CoordinateMap(basis_, {}); }
+  /// Predicted features, rows x coordinate vectors; all cores. Throws std::runtime_error when a simulation is impossible.
+  Eigen::MatrixXd predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const;
+  Eigen::VectorXd predict(const CoordinateMap& map, const Eigen::VectorXd& u) const { return predict(map, std::span(&u, 1)); }
+  /// log E on elements of size h/2 less log E on the tester's elements, measurement side included; 0 in rows that are no modulus
+  /// of a layout. Not remembered.
+  Eigen::VectorXd mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const;
+  /// The curve of a coupon through the machine, along the strains that were measured. Throws std::runtime_error.
+  tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
 
  private:
-  std::vector<std::string> effects_;
-  std::vector<EffectCoordinate> extension_;
-};
+  double modulus(const Observation& group, const material::ParameterSet& set) const;
+  void put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
+  void put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
 
-/// The modulus tester as a function of parameters over fixed specimens, measurement side included. Thread-safe; remembers what it
-/// computed.
-class ModulusModel {
- public:
-  ModulusModel(std::vector<Observation> groups, tester::Fidelity fidelity) : groups_(std::move(groups)), fidelity_(fidelity) {}
-  const std::vector<Observation>& groups() const { return groups_; }
-  /// Predicted log E, groups x parameter sets; all cores. Throws std::runtime_error when a simulation is impossible.
-  Eigen::MatrixXd predict(std::span<const material::ParameterSet> sets) const;
-  Eigen::VectorXd predict(const material::ParameterSet& set) const { return predict(std::span(&set, 1)); }
-  /// log E on elements of size h/2 less log E on the tester's elements, per group; measurement side included, not remembered.
-  Eigen::VectorXd mesh_change(const material::ParameterSet& set) const;
-
- private:
-  double log_modulus(const Observation& group, const material::ParameterSet& set) const;
-  std::vector<Observation> groups_;
+  const Observations& observations_;
+  Basis basis_;
   tester::Fidelity fidelity_;
+  const FractureSurface* surface_;
+  std::vector<std::vector<int>> rows_of_group_;
   mutable std::mutex mutex_;
   mutable std::unordered_map<std::string, double> known_;
 };
+
+/// Blocks of base constants that these observations need; what is not searched from `start`.
+Basis basis_for(const Observations& observations, const material::ParameterSet& start);
 
 }  // namespace nacre::diagnosis

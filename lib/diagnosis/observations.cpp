@@ -3,89 +3,210 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
+
+#include "diagnosis/history_rows.hpp"
+#include "diagnosis/scatter.hpp"
+#include "measurement/conditions.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-/// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
-constexpr double kAssumedReplicateSd = 0.02;
-/// Replicates that agree better than a testing machine reads say nothing about scatter; exactly equal ones would leave a singular
-/// covariance.
-constexpr double kLeastReplicateSd = 1e-4;
+using measurement::SpecimenRecord;
+using tester::TestKind;
 
-using GroupKey = std::tuple<std::string, double, double, double>;
+using GroupKey = std::tuple<int, std::string, double, double, double>;
 
-GroupKey key_of(const measurement::SpecimenRecord& specimen) {
+GroupKey key_of(const SpecimenRecord& specimen) {
   const tester::TestConditions& c = specimen.conditions;
-  return {specimen.design.name(), c.orientation_deg, c.strain_rate_per_s, c.thickness_mm};
+  return {static_cast<int>(specimen.test), specimen.design.name(), c.orientation_deg, c.strain_rate_per_s, c.thickness_mm};
 }
 
-/// Means one group; `squares` and `dof` collect the scatter within groups.
-Observation mean_of(const std::vector<const measurement::SpecimenRecord*>& replicates, double& squares, int& dof) {
-  Observation group;
-  group.design = replicates.front()->design;
-  group.conditions = replicates.front()->conditions;
-  group.batch = replicates.front()->batch;
-  group.replicates = static_cast<int>(replicates.size());
-  for (const auto* specimen : replicates) {
-    group.log_modulus += std::log(*specimen->modulus_pa) / group.replicates;
-    group.print_order += static_cast<double>(specimen->print_order) / group.replicates;
-    if (specimen->batch != group.batch) group.batch.clear();
+bool has_coupons(const std::vector<SpecimenRecord>& specimens) {
+  return std::any_of(specimens.begin(), specimens.end(), [](const SpecimenRecord& s) {
+    return s.valid && s.test == TestKind::tensile && s.design.mixture() && !s.curve.empty();
+  });
+}
+
+bool has_layouts(const std::vector<SpecimenRecord>& specimens) {
+  return std::any_of(specimens.begin(), specimens.end(), [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
+}
+
+FeatureValues features_of(const SpecimenRecord& specimen) {
+  FeatureValues values;
+  switch (specimen.test) {
+    case TestKind::modulus:
+      if (const auto modulus = measurement::modulus_of(specimen); modulus && *modulus > 0.0) value_of(values, Feature::log_modulus) = std::log(*modulus);
+      break;
+    case TestKind::toughness:
+      values = fracture_features(specimen.curve);
+      if (const auto toughness = measurement::toughness_of(specimen); toughness && *toughness > 0.0) value_of(values, Feature::log_toughness) = std::log(*toughness);
+      break;
+    case TestKind::tensile:
+      values = tensile_features(specimen.curve);
+      break;
   }
-  for (const auto* specimen : replicates) squares += std::pow(std::log(*specimen->modulus_pa) - group.log_modulus, 2);
-  dof += group.replicates - 1;
+  return values;
+}
+
+/// Whether a specimen's kind takes part.
+bool belongs(const SpecimenRecord& specimen, bool homogeneous_moduli) {
+  if (!specimen.valid) return false;
+  switch (specimen.test) {
+    case TestKind::modulus: return specimen.design.layout() != nullptr || homogeneous_moduli;
+    case TestKind::toughness: return specimen.design.layout() != nullptr;
+    case TestKind::tensile: return specimen.design.mixture() != nullptr;
+  }
+  return false;
+}
+
+/// Coupons of one group are stopped at different strains: all are read as far as the first that stops.
+void read_to_common_strain(std::vector<Measured>& replicates) {
+  std::optional<double> common;
+  for (const Measured& each : replicates) {
+    const auto strain = strain_at_peak(each.specimen->curve);
+    if (!strain) return;
+    common = std::min(common.value_or(*strain), *strain);
+  }
+  for (Measured& each : replicates) each.features = tensile_features(truncated(each.specimen->curve, *common));
+}
+
+Observation mean_of(const std::vector<Measured>& replicates) {
+  Observation group;
+  const SpecimenRecord& first = *replicates.front().specimen;
+  group.design = first.design;
+  group.test = first.test;
+  group.conditions = first.conditions;
+  group.batch = first.batch;
+  group.replicates = static_cast<int>(replicates.size());
+  for (const Measured& each : replicates) {
+    group.print_order += static_cast<double>(each.specimen->print_order) / group.replicates;
+    group.batch_step += each.batch_step / group.replicates;
+    if (each.specimen->batch != group.batch) group.batch.clear();
+  }
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    // A feature that one replicate lacks says nothing of the group: groups of one kind are then alike.
+    double sum = 0.0;
+    const bool all = std::all_of(replicates.begin(), replicates.end(), [f](const Measured& m) { return m.features[f].has_value(); });
+    for (const Measured& each : replicates) sum += each.features[f].value_or(0.0);
+    if (all) group.features[f] = sum / group.replicates;
+  }
+  std::vector<const Measured*> with_curve;
+  for (const Measured& each : replicates)
+    if (!each.specimen->curve.empty()) with_curve.push_back(&each);
+  const auto peak = [](const Measured* m) { return value_of(m->features, Feature::log_peak).value_or(0.0); };
+  std::stable_sort(with_curve.begin(), with_curve.end(), [&](const Measured* a, const Measured* b) { return peak(a) < peak(b); });
+  if (!with_curve.empty()) group.curve = with_curve[with_curve.size() / 2]->specimen->curve;
+  if (group.test == TestKind::tensile && !group.curve.empty()) {
+    std::optional<double> common;
+    for (const Measured* each : with_curve) {
+      const auto strain = strain_at_peak(each->specimen->curve);
+      common = strain ? std::optional(std::min(common.value_or(*strain), *strain)) : std::nullopt;
+      if (!strain) break;
+    }
+    if (common) group.curve = truncated(group.curve, *common);
+  }
   return group;
 }
 
+double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
+
 }  // namespace
 
-Eigen::VectorXd Observations::log_moduli() const {
-  Eigen::VectorXd y(size());
-  for (int i = 0; i < size(); ++i) y[i] = groups[static_cast<std::size_t>(i)].log_modulus;
-  return y;
+std::string Observation::material() const { return design.layout() ? "layout" : design.name(); }
+
+bool Observations::has(TestKind test) const {
+  return std::any_of(groups.begin(), groups.end(), [test](const Observation& g) { return g.test == test; });
 }
 
-Eigen::MatrixXd Observations::covariance(double replicate_variance) const {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size(), size());
+int Observations::replicate_dof() const {
+  int fewest = -1;
+  for (int t = 0; t < 3; ++t) {
+    if (has(static_cast<TestKind>(t)) && (fewest < 0 || scatter[static_cast<std::size_t>(t)].dof < fewest)) fewest = scatter[static_cast<std::size_t>(t)].dof;
+  }
+  return std::max(fewest, 0);
+}
+
+double Observations::replicate_sd(Feature feature, TestKind test) const {
+  const Eigen::MatrixXd& c = scatter[static_cast<std::size_t>(test)].covariance;
+  const auto f = static_cast<Eigen::Index>(feature);
+  return c.size() ? std::sqrt(c(f, f)) : 0.0;
+}
+
+CovarianceParts Observations::covariance_parts() const {
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size(), size());
+  CovarianceParts parts{none, {none, none, none}};
   for (int i = 0; i < size(); ++i) {
-    const Observation& a = groups[static_cast<std::size_t>(i)];
-    matrix(i, i) = replicate_variance / a.replicates;
-    for (int j = 0; j < size(); ++j) {
-      if (groups[static_cast<std::size_t>(j)].design == a.design) matrix(i, j) += numerics_sd * numerics_sd;
+    const Row& a = rows[static_cast<std::size_t>(i)];
+    for (int j = 0; j <= i; ++j) {
+      const Row& b = rows[static_cast<std::size_t>(j)];
+      if (a.test != b.test || a.probe != b.probe) continue;
+      const auto test = static_cast<std::size_t>(a.test);
+      if (a.group == b.group) parts.scatter[test](i, j) = parts.scatter[test](j, i) = a.weight * scatter[test].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
+      if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) continue;
+      const bool same = group_of(i).design == group_of(j).design;
+      double numerics = 0.0;
+      if (a.test == TestKind::modulus && same) numerics = numerics_sd * numerics_sd;
+      if (a.test == TestKind::toughness) numerics = fracture_numerics.covariance(a.feature, b.feature, rigid_position(group_of(i)), rigid_position(group_of(j)), same);
+      parts.fixed(i, j) = parts.fixed(j, i) = numerics;
     }
   }
-  if (numerics_shared.rows() == size()) matrix += numerics_shared * numerics_shared.transpose();
-  return matrix;
+  if (numerics_shared.rows() == size()) parts.fixed += numerics_shared * numerics_shared.transpose();
+  if (emulator_variance.size() == size()) parts.fixed.diagonal() += emulator_variance;
+  return parts;
 }
 
-Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& rows) const {
+Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& at) const {
   if (numerics_shared.rows() != size()) return Eigen::VectorXd::Zero(size());
   const Eigen::MatrixXd all = covariance();
-  const Eigen::VectorXd weights = all(rows, rows).llt().solve(residuals_at_rows);
-  return numerics_shared * (numerics_shared(rows, Eigen::all).transpose() * weights);
+  const Eigen::VectorXd weights = all(at, at).llt().solve(residuals_at_rows);
+  return numerics_shared * (numerics_shared(at, Eigen::all).transpose() * weights);
 }
 
-Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd) {
+Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_numerics_sd, const FractureNumerics& fracture) {
+  const bool homogeneous_moduli = has_coupons(specimens) || !has_layouts(specimens);
   // Replicates in the order of their names: the same bits whatever the order of arrival.
-  std::map<GroupKey, std::map<std::string, const measurement::SpecimenRecord*>> by_group;
-  for (const measurement::SpecimenRecord& specimen : specimens) {
-    if (!specimen.valid || !specimen.modulus_pa || specimen.test != tester::TestKind::modulus) continue;
-    // A homogeneous coupon shows bulk constants, which voxels do not have (thesis 3.2.4), and no mesh: what the base fit makes of a
-    // mesh's softness (6 % between h and h/2) would look like a fault of the coupons.
-    if (!specimen.design.layout()) continue;
-    by_group[key_of(specimen)].emplace(specimen.specimen, &specimen);
+  const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
+  std::map<GroupKey, std::map<std::string, Measured>> by_group;
+  std::set<std::string> batches;
+  for (const SpecimenRecord& specimen : nominal) {
+    if (!belongs(specimen, homogeneous_moduli)) continue;
+    const FeatureValues features = features_of(specimen);
+    if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
+    by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, 0.0});
+    if (!specimen.batch.empty()) batches.insert(specimen.batch);
   }
   Observations observations;
-  observations.numerics_sd = numerics_sd;
-  double squares = 0.0;
-  for (const auto& [key, named] : by_group) {
-    std::vector<const measurement::SpecimenRecord*> replicates;
-    for (const auto& [name, specimen] : named) replicates.push_back(specimen);
-    observations.groups.push_back(mean_of(replicates, squares, observations.replicate_dof));
+  observations.numerics_sd = modulus_numerics_sd;
+  observations.fracture_numerics = fracture;
+  observations.batches = static_cast<int>(batches.size());
+  std::vector<std::vector<Measured>> groups;
+  for (auto& [key, named] : by_group) {
+    groups.emplace_back();
+    for (auto& [name, measured] : named) {
+      const auto batch = batches.find(measured.specimen->batch);
+      measured.batch_step = batch == batches.end() ? 0.0 : static_cast<double>(std::distance(batches.begin(), batch));
+      groups.back().push_back(measured);
+    }
+    if (groups.back().front().specimen->test == TestKind::tensile) read_to_common_strain(groups.back());
+    observations.groups.push_back(mean_of(groups.back()));
   }
-  const double measured_sd = observations.replicate_dof > 0 ? std::sqrt(squares / observations.replicate_dof) : kAssumedReplicateSd;
-  observations.replicate_sd = std::max(measured_sd, kLeastReplicateSd);
+  std::vector<double> values;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Observation& group = observations.groups[g];
+    for (std::size_t f = 0; f < kFeatureCount; ++f) {
+      if (!group.features[f]) continue;
+      observations.rows.push_back({static_cast<int>(g), static_cast<Feature>(f), Probe::mean, group.test, 1.0 / group.replicates});
+      values.push_back(*group.features[f]);
+    }
+  }
+  for (int t = 0; t < 3; ++t) observations.scatter[static_cast<std::size_t>(t)] = pooled_scatter(groups, static_cast<TestKind>(t), observations.batches);
+  for (const HistoryRow& history : history_rows(groups)) {
+    observations.rows.push_back(history.row);
+    values.push_back(history.value);
+  }
+  observations.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return observations;
 }
 

@@ -1,24 +1,47 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <string>
 #include <vector>
 
+#include "diagnosis/features.hpp"
+#include "diagnosis/numerics.hpp"
 #include "measurement/measurement.hpp"
 
 namespace nacre::diagnosis {
 
-/// One group of replicate specimens: a design under one set of conditions.
+/// One group of replicate specimens: a design under one test and one set of conditions.
 struct Observation {
   pattern::Design design;
+  tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  double log_modulus = 0.0;  ///< mean of log E over the valid replicates
+  FeatureValues features;     ///< means over the valid replicates
   int replicates = 0;
-  double print_order = 0.0;  ///< mean, 0 when unknown
-  std::string batch;         ///< empty when the replicates are of several batches
+  double print_order = 0.0;   ///< mean, 0 when unknown
+  double batch_step = 0.0;    ///< mean number of the batch, the first is 0
+  std::string batch;          ///< empty when the replicates are of several batches
+  tester::Curve curve;        ///< of the replicate whose peak is the middle one; empty when none was recorded
+  std::string material() const;  ///< "layout" or the name of the homogeneous material
 };
 
-/// Turns differences of log E into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
+/// Where a row of the data comes from.
+enum class Probe {
+  mean,         ///< mean of a feature over a group's replicates
+  batch,        ///< change of a feature per batch step between replicates of one group, over all groups
+  print_order,  ///< the same per specimen printed, inside batches
+};
+
+/// One row of the data.
+struct Row {
+  int group = -1;  ///< index of the group; -1 with probes of history, which join all groups
+  Feature feature = Feature::log_modulus;
+  Probe probe = Probe::mean;
+  tester::TestKind test = tester::TestKind::modulus;
+  double weight = 1.0;  ///< variance of the row over that of a single specimen: 1/replicates of a mean
+};
+
+/// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
 class Whitener {
  public:
   explicit Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {}
@@ -30,25 +53,50 @@ class Whitener {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-/// The modulus data of a measurement set, groups sorted by design and conditions.
+/// How replicates of one test scatter: pooled over its groups, correlations shrunk towards none.
+struct ReplicateScatter {
+  Eigen::MatrixXd covariance;  ///< features x features
+  int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
+};
+
+/// Factors on the replicate variances of the three tests, in the order of TestKind.
+using ScatterFactors = std::array<double, 3>;
+
+/// The covariance of the rows, taken apart: what scatters between replicates of each test, and the rest.
+struct CovarianceParts {
+  Eigen::MatrixXd fixed;
+  std::array<Eigen::MatrixXd, 3> scatter;
+  Eigen::MatrixXd total(const ScatterFactors& factors) const { return fixed + factors[0] * scatter[0] + factors[1] * scatter[1] + factors[2] * scatter[2]; }
+};
+
+/// The data of a measurement set: groups sorted by test, design and conditions; rows by group and feature, then those of history.
 struct Observations {
   std::vector<Observation> groups;
-  double replicate_sd = 0.0;        ///< pooled standard deviation of log E of single specimens
-  int replicate_dof = 0;            ///< degrees of freedom behind it; 0: no replicates
-  double numerics_sd = 0.0;         ///< per layout, of log E, independent between layouts
-  Eigen::MatrixXd numerics_shared;  ///< groups x directions: what numerics leave along each, one standard deviation; may be empty
-  int size() const { return static_cast<int>(groups.size()); }
-  Eigen::VectorXd log_moduli() const;
-  /// Covariance of the groups' means when single specimens scatter with `replicate_variance`. What two numerics differ by is the
-  /// same for all specimens of one layout: rotated twins share it. Along the shared directions all groups go together.
-  Eigen::MatrixXd covariance(double replicate_variance) const;
-  Eigen::MatrixXd covariance() const { return covariance(replicate_sd * replicate_sd); }
-  /// The part of residuals (measured - predicted log E) that is expected to be numerics along the shared directions, given these
-  /// residuals at `rows`; for all groups.
+  std::vector<Row> rows;
+  Eigen::VectorXd values;                    ///< per row
+  std::array<ReplicateScatter, 3> scatter;   ///< by TestKind
+  double numerics_sd = 0.0;                  ///< per layout, of log E, independent between layouts
+  FractureNumerics fracture_numerics;        ///< the same of the features of a fracture test
+  Eigen::MatrixXd numerics_shared;           ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
+  Eigen::VectorXd emulator_variance;         ///< per row; empty: none
+  int batches = 0;                           ///< different names of batches among the specimens used
+  int size() const { return static_cast<int>(rows.size()); }
+  const Observation& group_of(int row) const { return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)]; }
+  bool has(tester::TestKind test) const;
+  /// Fewest degrees of freedom behind the scatter of a test that is present.
+  int replicate_dof() const;
+  double replicate_sd(Feature feature, tester::TestKind test) const;
+  /// Covariance of the rows. What two numerics differ by is the same for all specimens of one layout under one test: rotated twins share
+  /// it. Along the shared directions all rows go together.
+  CovarianceParts covariance_parts() const;
+  Eigen::MatrixXd covariance() const { return covariance_parts().total({1.0, 1.0, 1.0}); }
+  /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given these
+  /// residuals at `rows`; for all rows.
   Eigen::VectorXd shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& rows) const;
 };
 
-/// Groups the valid specimens of layouts that have a modulus; homogeneous coupons are left out.
-Observations observe_moduli(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd);
+/// Groups the valid specimens: moduli and fracture tests of layouts, coupons pulled with a curve. Homogeneous moduli join only where
+/// such coupons are there too, or no layout: voxels do not have bulk constants (thesis 3.2.4). Notched homogeneous specimens are left out.
+Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_numerics_sd, const FractureNumerics& fracture);
 
 }  // namespace nacre::diagnosis

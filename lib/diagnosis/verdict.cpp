@@ -8,6 +8,8 @@ namespace {
 
 /// A rival leaves the set only when data from it would so seldom look like ours.
 constexpr double kExclusionLevel = 0.005;
+/// So far behind the best fit that no draw would let a rival catch up.
+constexpr double kOutOfReach = 60.0;
 
 template <class Value>
 std::vector<double> over_draws(const std::vector<DrawStatistics>& draws, Value value) {
@@ -34,7 +36,7 @@ double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
   const Anchor anchor{fit, {}, contrast_directions(evidence.observations, fit.predicted)};
   const std::vector<DrawStatistics> draws = bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
   const double omnibus = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.chi2; }), fit.chi2);
-  const DrawStatistics own = anchor_statistics(anchor, {evidence.observations.log_moduli(), Whitener(evidence.observations.covariance())});
+  const DrawStatistics own = anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())});
   const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }), own.largest_contrast());
   return std::min(1.0, 2.0 * std::min(omnibus, contrast));
 }
@@ -69,10 +71,12 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
                                                  [](const DrawStatistics& d) { return d.largest_drop(); });
   std::vector<Fit> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    const CoordinateMap map(std::vector<std::string>{single.effects.front(), others[k]});
+    const std::vector<std::string> names = {single.effects.front(), others[k]};
+    const CoordinateMap map = evidence.model.map(names);
     Eigen::VectorXd start = Eigen::VectorXd::Zero(map.size());
     start.head(single.u.size()) = single.u;
     start[single.u.size()] = 0.1;
+    for (int i = static_cast<int>(single.u.size()) + 1; i < map.size(); ++i) start[i] = map.usual(i);
     Fit pair = fit_model(evidence.model, evidence.observations, map.effects(), start);
     if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
   }
@@ -121,9 +125,13 @@ Decision decide(const Evidence& evidence) {
     return unexplained(std::move(decision), evidence.singles, "the residuals are larger than noise, but no effect of the library explains them");
   }
   report(0.8, "testing what each effect leaves");
-  for (std::size_t k = 0; k < evidence.singles.size(); ++k) decision.p_fit[k] = chance_of_misfit(evidence, evidence.singles[k]);
   const std::size_t best = static_cast<std::size_t>(
       std::min_element(evidence.singles.begin(), evidence.singles.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; }) - evidence.singles.begin());
+  for (std::size_t k = 0; k < evidence.singles.size(); ++k) {
+    // What lies far behind the best cannot be in the set: its misfit is not bootstrapped.
+    const bool in_reach = evidence.singles[k].chi2 <= evidence.singles[best].chi2 + kOutOfReach;
+    decision.p_fit[k] = in_reach ? chance_of_misfit(evidence, evidence.singles[k]) : 0.0;
+  }
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
     return settled(std::move(decision), confidence_set(evidence, evidence.singles, decision.p_fit), "one effect fitted jointly with the base explains the data");

@@ -6,13 +6,14 @@
 
 #include "diagnosis/bootstrap.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/workbench.hpp"
 
 namespace nacre::diagnosis {
 
 /// Everything the decision rests on: the base model, every effect (and pair, when needed) fitted jointly with it.
 struct Evidence {
-  const ModulusModel& model;
-  Observations observations;  ///< with what numerics leave, shared directions included
+  const FeatureModel& model;
+  Observations& observations;  ///< with what numerics leave, shared directions included
   const DiagnosisSettings& settings;
   Anchor base;
   std::vector<std::string> effects;  ///< candidates, in the order of the library
@@ -35,10 +36,10 @@ struct Decision {
 
 /// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure. With a floor that has a common direction
 /// the fits are done first with independent layouts and again with the directions along which finer elements move these models.
-Evidence gather_evidence(const ModulusModel& model, const Observations& observations, const DiagnosisSettings& settings);
+Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings);
 
 /// Signatures of every effect on top of a fitted model, at several sizes each.
-std::vector<Signature> signatures_on(const ModulusModel& model, const Fit& anchor, const std::vector<std::string>& effects);
+std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor, const std::vector<std::string>& effects);
 
 /// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits.
 Decision decide(const Evidence& evidence);

@@ -97,7 +97,7 @@ std::string diagnose_work(const std::string& spec) {
   settings.floor = task.floor;
   const std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   try {
-    return wire::encode(message_of(diagnosis::diagnose_modulus(specimens, settings), task.request.round));
+    return wire::encode(message_of(diagnosis::diagnose(specimens, settings), task.request.round));
   } catch (const InputError& error) {
     return wire::encode(undecided(task.request.round, error.what()));
   } catch (const std::runtime_error& error) {

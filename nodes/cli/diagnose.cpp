@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "analyser/diagnosis_page.hpp"
+#include "base/files.hpp"
 #include "command.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/table_trends.hpp"
@@ -20,6 +22,8 @@ struct Options {
   std::string fidelity = "full";
   std::string table, measured, predicted;
   std::string numerics_floor;
+  std::string store, report;
+  int search_budget = 40;
   std::uint64_t seed = 1;
   int bootstraps = 2000;
   bool json = false;
@@ -61,10 +65,14 @@ int diagnose(const Options& options) {
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
   settings.floor = diagnosis::read_modulus_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
+  settings.fracture_numerics = diagnosis::read_fracture_numerics(numerics_floor_file(options.numerics_floor), settings.fidelity);
+  settings.store = options.store;
+  settings.search_budget = options.search_budget;
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::Diagnosis d = diagnosis::diagnose_modulus(set.specimens, settings);
+  const diagnosis::Diagnosis d = diagnosis::diagnose(set.specimens, settings);
   progress.end();
+  if (!options.report.empty()) write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {
     print_json(nlohmann::ordered_json::parse(to_json(d)));
   } else {
@@ -78,11 +86,14 @@ int diagnose(const Options& options) {
 
 void add_diagnose(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "diagnose", "Show what the simulation gets wrong about measured moduli, and why", options, diagnose);
+  CLI::App& command = add_command(app, action, "diagnose", "Show what the simulation gets wrong about measurements, and why", options, diagnose);
   command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
   command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor, "What the tester's elements leave of an error (data/numerics_floor.toml)");
+  command.add_option("--report", options->report, "One self-contained HTML page for the person who measured");
+  command.add_option("--store", options->store, "File that keeps fracture simulations, so that an interrupted diagnosis goes on (the one of nacre calibrate serves too)");
+  command.add_option("--search", options->search_budget, "Evaluations of the fracture tests in search of a base fit; 0: begin at --params")->check(CLI::Range(0, 1000))->capture_default_str();
   command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")->check(CLI::Range(1000, 1'000'000))->capture_default_str();
   command.add_option("--seed", options->seed, "Of the resampling")->capture_default_str();
   command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");

@@ -19,7 +19,7 @@ Diagnosis diagnose_on_finer_elements(const material::ParameterSet& truth) {
   settings.start = material::default_parameters();
   settings.fidelity = tester::Fidelity::tiny;
   settings.floor = {.log_modulus_sd = 0.006, .mesh_amplitude = 1.7, .mesh_remainder_sd = 0.003};
-  return diagnose_modulus(synthetic_specimens(set, truth), settings);
+  return diagnose(synthetic_specimens(set, truth), settings);
 }
 
 TEST(FinerElements, OfOneTruthAreNoEffect) {

@@ -1,0 +1,86 @@
+#include "diagnosis/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/result.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Size of an effect, as a share of its range, at which it is asked whether these data could show it.
+constexpr int kTypicalSize = 2;  // index of 0.3 among the sizes of a signature
+
+bool holds(const std::vector<Fit>& fits, const std::string& effect) {
+  return std::any_of(fits.begin(), fits.end(), [&](const Fit& f) { return std::find(f.effects.begin(), f.effects.end(), effect) != f.effects.end(); });
+}
+
+/// The change between base and the joint fit, in what the base cannot imitate; a typical one where the fit found nothing.
+Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed) {
+  const Eigen::VectorXd fitted = evidence.singles[k].predicted - evidence.base.fit.predicted;
+  return noticed ? fitted : evidence.base.signatures[k].changes[kTypicalSize];
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision) {
+  const Whitener whitener(evidence.observations.covariance());
+  std::vector<Eigen::VectorXd> changes;
+  for (std::size_t k = 0; k < evidence.effects.size(); ++k) changes.push_back(change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level));
+  const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
+  std::vector<Candidate> candidates;
+  for (const material::Effect& effect : material::effect_library()) {
+    Candidate candidate;
+    candidate.name = effect.name;
+    const auto found = std::find(evidence.effects.begin(), evidence.effects.end(), effect.name);
+    if (found == evidence.effects.end()) {
+      candidate.status = "not_applicable";
+      candidates.push_back(candidate);
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(found - evidence.effects.begin());
+    const Fit& single = evidence.singles[k];
+    const SignatureSize typical = signature_size(evidence.base.fit, evidence.base.signatures[k].changes[kTypicalSize], whitener);
+    candidate.statistic = evidence.base.fit.chi2 - single.chi2;
+    candidate.p_family_wise = decision.p_family_wise[k];
+    candidate.p_fit = decision.p_fit[k];
+    candidate.absorption = typical.absorption();
+    candidate.signal_to_noise = projected.col(static_cast<Eigen::Index>(k)).norm();
+    candidate.parameter = single.parameters.extensions.at(candidate.name).front();
+    for (std::size_t j = 0; j < evidence.effects.size(); ++j) {
+      const double lengths = candidate.signal_to_noise * projected.col(static_cast<Eigen::Index>(j)).norm();
+      if (j == k || lengths < 1e-9) continue;
+      const double cosine = std::min(1.0, std::abs(projected.col(static_cast<Eigen::Index>(k)).dot(projected.col(static_cast<Eigen::Index>(j)))) / lengths);
+      if (cosine > candidate.rival_cosine) candidate.rival_cosine = cosine, candidate.nearest_rival = evidence.effects[j];
+    }
+    candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
+    const bool visible = typical.projected >= kVisibleSignal && typical.absorption() <= kInvisibleAbsorption;
+    const bool noticed = candidate.p_family_wise <= evidence.settings.name_level;
+    candidate.status = holds(decision.possible, candidate.name) ? "in_set" : visible || noticed ? "excluded" : "invisible";
+    candidates.push_back(candidate);
+  }
+  return candidates;
+}
+
+std::string common_ground(const std::vector<std::vector<std::string>>& possible) {
+  if (possible.empty()) return "";
+  // An effect that is in every model is certain, whatever else it comes with.
+  for (const std::string& name : possible.front()) {
+    if (std::all_of(possible.begin(), possible.end(), [&](const auto& model) { return std::find(model.begin(), model.end(), name) != model.end(); })) return "effect " + name;
+  }
+  std::set<std::string_view> families;
+  std::set<material::EffectSide> sides;
+  for (const auto& model : possible) {
+    for (const std::string& name : model) {
+      const material::Effect* effect = material::find_effect(name);
+      families.insert(effect->family);
+      sides.insert(effect->side);
+    }
+  }
+  if (families.size() == 1) return fmt::format("family {}", *families.begin());
+  if (sides.size() == 1) return *sides.begin() == material::EffectSide::material ? "material side" : "measurement side";
+  return "";
+}
+
+}  // namespace nacre::diagnosis

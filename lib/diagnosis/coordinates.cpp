@@ -1,0 +1,156 @@
+#include "diagnosis/coordinates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Of a prior about the middle, in widths of the widened range.
+constexpr double kWidePrior = 0.5;
+/// eta is looked for within this distance of the centre, in log units, with this standard deviation: the emulator knows no more.
+constexpr double kEtaReach = 1.5, kEtaSd = 0.7;
+constexpr std::array kSearchedEta = {0, 1, 2, 6, 7, 8, 9};
+
+struct Bounds {
+  double low = 0.0, high = 0.0;
+};
+
+/// Range widened three-fold about its middle (docs/METHODS.md): moduli in log scale, ratios kept physical.
+Bounds widened(const material::ParameterRange& range, bool logarithmic) {
+  if (logarithmic) {
+    const double half = 1.5 * std::log(range.maximum / range.minimum), middle = 0.5 * std::log(range.maximum * range.minimum);
+    return {middle - half, middle + half};
+  }
+  const double half = 1.5 * (range.maximum - range.minimum), middle = 0.5 * (range.maximum + range.minimum);
+  return {std::max(0.02, middle - half), std::min(0.495, middle + half)};
+}
+
+}  // namespace
+
+std::span<const int> searched_eta() { return kSearchedEta; }
+
+CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects) : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
+  centre_.extensions.clear();
+  const auto add_moduli = [&](Block block, material::FitTarget target, int count) {
+    for (int i = 0; i < count; ++i) {
+      const bool logarithmic = i < 3;
+      const Bounds b = widened(material::modulus_ranges(target)[static_cast<std::size_t>(i)], logarithmic);
+      base_.push_back({block, i, b.low, b.high, logarithmic, kWidePrior});
+    }
+  };
+  if (basis.modulus) add_moduli(Block::modulus, material::FitTarget::microstructures, 6);
+  if (basis.toughness) {
+    const material::ToughnessVector eta = to_vector(centre_.toughness);
+    for (const int i : kSearchedEta) {
+      const double middle = std::log(eta[static_cast<std::size_t>(i)]);
+      base_.push_back({Block::toughness, i, middle - kEtaReach, middle + kEtaReach, true, kEtaSd / (2.0 * kEtaReach)});
+    }
+  }
+  if (basis.coupon) add_moduli(Block::coupon, material::FitTarget::base, 3);
+  for (const std::string& name : effects_) {
+    const material::Effect* effect = material::find_effect(name);
+    assert(effect != nullptr);
+    for (int p = 0; p < static_cast<int>(effect->parameters.size()); ++p) extension_.push_back({effect, p});
+  }
+}
+
+double CoordinateMap::scale(int extension_index) const {
+  const EffectCoordinate& c = extension_[static_cast<std::size_t>(extension_index)];
+  const material::EffectParameter& p = c.effect->parameters[static_cast<std::size_t>(c.parameter)];
+  return std::max(std::abs(p.minimum), std::abs(p.maximum));
+}
+
+double CoordinateMap::lower(int i) const {
+  if (i < base_count()) return 0.0;
+  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - base_count())];
+  return c.effect->parameters[static_cast<std::size_t>(c.parameter)].minimum / scale(i - base_count());
+}
+
+double CoordinateMap::upper(int i) const {
+  if (i < base_count()) return 1.0;
+  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - base_count())];
+  return c.effect->parameters[static_cast<std::size_t>(c.parameter)].maximum / scale(i - base_count());
+}
+
+double CoordinateMap::usual(int i) const {
+  const double low = lower(i), high = upper(i);
+  return low > 0.0 ? std::sqrt(low * high) : 0.5 * (low + high);
+}
+
+int CoordinateMap::first_coordinate(std::size_t effect) const {
+  for (std::size_t k = 0; k < extension_.size(); ++k) {
+    if (extension_[k].effect->name == effects_[effect]) return base_count() + static_cast<int>(k);
+  }
+  return size();
+}
+
+double CoordinateMap::plain(const BaseCoordinate& c, double u) const {
+  const double x = c.low + u * (c.high - c.low);
+  return c.logarithmic ? std::exp(x) : x;
+}
+
+double CoordinateMap::value(int i, double u) const {
+  return i >= base_count() ? u * scale(i - base_count()) : plain(base_[static_cast<std::size_t>(i)], u);
+}
+
+material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {
+  for (std::size_t k = 0; k < extension_.size(); ++k) {
+    const int i = base_count() + static_cast<int>(k);
+    set.extensions[std::string(extension_[k].effect->name)].push_back(value(i, u[i]));
+  }
+  return set;
+}
+
+material::ParameterSet CoordinateMap::parameters(const Eigen::VectorXd& u) const {
+  material::ParameterSet set = centre_;
+  material::ModulusVector theta = to_vector(set.modulus);
+  material::ToughnessVector eta = to_vector(set.toughness);
+  for (int i = 0; i < base_count(); ++i) {
+    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    if (c.block == Block::modulus) theta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
+    if (c.block == Block::toughness) eta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
+  }
+  set.modulus = material::modulus_from_vector(theta);
+  set.toughness = material::toughness_from_vector(eta);
+  return with_extensions(std::move(set), u);
+}
+
+material::ParameterSet CoordinateMap::coupon_parameters(const Eigen::VectorXd& u) const {
+  material::ParameterSet set = centre_;
+  material::ModulusVector theta = to_vector(material::default_parameters().modulus);
+  for (int i = 0; i < base_count(); ++i) {
+    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    if (c.block == Block::coupon) theta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
+  }
+  set.modulus = material::modulus_from_vector(theta);
+  return with_extensions(std::move(set), u);
+}
+
+Eigen::VectorXd CoordinateMap::coordinates(const material::ParameterSet& parameters) const {
+  const material::ModulusVector theta = to_vector(parameters.modulus), bulk = to_vector(material::default_parameters().modulus);
+  const material::ToughnessVector eta = to_vector(parameters.toughness);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(size());
+  for (int i = 0; i < base_count(); ++i) {
+    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    const auto index = static_cast<std::size_t>(c.index);
+    const double plain_value = c.block == Block::toughness ? eta[index] : c.block == Block::modulus ? theta[index] : bulk[index];
+    const double x = c.logarithmic ? std::log(plain_value) : plain_value;
+    u[i] = std::clamp((x - c.low) / (c.high - c.low), 0.02, 0.98);
+  }
+  return u;
+}
+
+Eigen::VectorXd CoordinateMap::log_eta(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(kSearchedEta.size()));
+  Eigen::Index k = 0;
+  for (int i = 0; i < base_count(); ++i) {
+    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    if (c.block == Block::toughness) result[k++] = (u[i] - 0.5) * (c.high - c.low);
+  }
+  return result.head(k);
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,77 @@
+#pragma once
+// Coordinates of a fit: the base constants of each kind of specimen, then one per parameter of the effects that extend the model.
+
+#include <Eigen/Dense>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "material/extensions.hpp"
+
+namespace nacre::diagnosis {
+
+/// Which base constants are free. Kinds of specimens have constants of their own (thesis 2.3.1, 3.2.4): what they share are effects.
+struct Basis {
+  bool modulus = true;     ///< theta of modulus tests of layouts: E and nu of three materials (gamma has no effect on a static test)
+  bool toughness = false;  ///< eta of fracture tests: E and W of three materials, gamma
+  bool coupon = false;     ///< E of the bulk materials: homogeneous coupons
+  material::ParameterSet centre = material::default_parameters();  ///< where eta is looked for, and what is not searched
+};
+
+/// One parameter of one effect.
+struct EffectCoordinate {
+  const material::Effect* effect = nullptr;
+  int parameter = 0;
+};
+
+/// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a factor
+/// e^1.5 of the centre, in log scale; effects scaled by the largest size that the library allows.
+class CoordinateMap {
+ public:
+  CoordinateMap(const Basis& basis, std::span<const std::string> effects);
+  int size() const { return base_count() + static_cast<int>(extension_.size()); }
+  int base_count() const { return static_cast<int>(base_.size()); }
+  const std::vector<std::string>& effects() const { return effects_; }
+  double lower(int i) const;
+  double upper(int i) const;
+  /// Middle and standard deviation of the prior of a base coordinate.
+  double prior_centre(int /*i*/) const { return 0.5; }
+  double prior_sd(int i) const { return base_[static_cast<std::size_t>(i)].prior_sd; }
+  /// Physical value of coordinate i at u.
+  double value(int i, double u) const;
+  double scale(int extension_index) const;
+  /// Coordinate of the second parameter of an effect (a time, a shape) while the first is tried.
+  double usual(int i) const;
+  /// First coordinate of the effect with this index among effects().
+  int first_coordinate(std::size_t effect) const;
+  /// Parameters of layouts.
+  material::ParameterSet parameters(const Eigen::VectorXd& u) const;
+  /// Parameters of homogeneous coupons: E of the bulk in place of theta's.
+  material::ParameterSet coupon_parameters(const Eigen::VectorXd& u) const;
+  /// Base coordinates of `parameters`, moved into the ranges; extension coordinates 0.
+  Eigen::VectorXd coordinates(const material::ParameterSet& parameters) const;
+  /// log of eta's free constants over those of the centre.
+  Eigen::VectorXd log_eta(const Eigen::VectorXd& u) const;
+
+ private:
+  enum class Block { modulus, toughness, coupon };
+  struct BaseCoordinate {
+    Block block;
+    int index;  ///< in the vector of the block's parameters
+    double low, high;  ///< of the logarithm where `logarithmic`
+    bool logarithmic;
+    double prior_sd;
+  };
+  double plain(const BaseCoordinate& c, double u) const;
+  material::ParameterSet with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const;
+
+  material::ParameterSet centre_;
+  std::vector<BaseCoordinate> base_;
+  std::vector<std::string> effects_;
+  std::vector<EffectCoordinate> extension_;
+};
+
+/// Indices in the vector of eta of the constants that are searched: Poisson's ratios stay (T hardly depends on them).
+std::span<const int> searched_eta();
+
+}  // namespace nacre::diagnosis

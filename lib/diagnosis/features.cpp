@@ -1,0 +1,160 @@
+#include "diagnosis/features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "measurement/reduction.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+constexpr int kPoints = 128;
+constexpr double kDropOffset = 0.05;
+
+struct Names {
+  std::string_view name, words;
+};
+constexpr std::array<Names, kFeatureCount> kNames = {{{"log_modulus", "Young's modulus"},
+                                                      {"log_toughness", "toughness"},
+                                                      {"toe_strain", "offset of the toe"},
+                                                      {"log_tangent_10", "slope at 10 % of the peak"},
+                                                      {"log_tangent_30", "slope at 30 % of the peak"},
+                                                      {"log_tangent_50", "slope at 50 % of the peak"},
+                                                      {"knee", "bend before the peak"},
+                                                      {"log_peak", "stress at the peak"},
+                                                      {"log_peak_strain", "strain at the peak"},
+                                                      {"drop", "fall after the peak"},
+                                                      {"tail", "energy after the peak"},
+                                                      {"log_unloading", "slope on unloading"},
+                                                      {"set_strain", "permanent set"}}};
+
+/// The rising part of a curve, strain never decreasing, up to its largest stress.
+struct Rise {
+  tester::Curve path;
+  double peak_pa = 0.0, peak_strain = 0.0;
+  /// Strain at which `share` of the peak is first reached.
+  double strain_at(double share) const {
+    const double stress = share * peak_pa;
+    std::size_t k = 1;
+    while (k + 1 < path.size() && path.stress_pa[k] < stress) ++k;
+    const double low = path.stress_pa[k - 1], high = path.stress_pa[k];
+    const double t = high > low ? std::clamp((stress - low) / (high - low), 0.0, 1.0) : 0.0;
+    return path.strain[k - 1] + t * (path.strain[k] - path.strain[k - 1]);
+  }
+};
+
+std::optional<Rise> rise_of(const tester::Curve& forward) {
+  if (forward.size() < 4) return std::nullopt;
+  const auto peak = static_cast<std::size_t>(std::max_element(forward.stress_pa.begin(), forward.stress_pa.end()) - forward.stress_pa.begin());
+  if (peak < 2 || forward.stress_pa[peak] <= 0.0 || forward.strain[peak] <= 0.0) return std::nullopt;
+  Rise rise{{}, forward.stress_pa[peak], forward.strain[peak]};
+  rise.path.strain.assign(forward.strain.begin(), forward.strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
+  rise.path.stress_pa.assign(forward.stress_pa.begin(), forward.stress_pa.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
+  return rise;
+}
+
+void put_slope(FeatureValues& values, Feature feature, const Rise& rise, double low, double high) {
+  const double strain = rise.strain_at(high) - rise.strain_at(low);
+  if (strain > 0.0) value_of(values, feature) = std::log((high - low) * rise.peak_pa / strain);
+}
+
+/// What the way up to the peak says.
+void put_rise(FeatureValues& values, const Rise& rise) {
+  put_slope(values, Feature::log_tangent_10, rise, 0.05, 0.15);
+  put_slope(values, Feature::log_tangent_30, rise, 0.2, 0.4);
+  put_slope(values, Feature::log_tangent_50, rise, 0.4, 0.6);
+  if (const auto slope = value_of(values, Feature::log_tangent_30))
+    value_of(values, Feature::toe_strain) = 0.5 * (rise.strain_at(0.2) + rise.strain_at(0.4)) - 0.3 * rise.peak_pa / std::exp(*slope);
+  const double energy = tester::area_under(rise.path);
+  if (energy > 0.0) value_of(values, Feature::knee) = std::log(energy / (0.5 * rise.peak_pa * rise.peak_strain));
+  value_of(values, Feature::log_peak) = std::log(rise.peak_pa);
+  value_of(values, Feature::log_peak_strain) = std::log(rise.peak_strain);
+}
+
+/// The first unloading: from a local maximum of strain down.
+void put_unloading(FeatureValues& values, const tester::Curve& curve) {
+  std::size_t turn = 1;
+  while (turn + 1 < curve.size() && curve.strain[turn + 1] >= curve.strain[turn]) ++turn;
+  if (turn + 3 >= curve.size() || curve.stress_pa[turn] <= 0.0) return;
+  const double top = curve.stress_pa[turn];
+  const auto strain_at = [&](double stress) -> std::optional<double> {
+    for (std::size_t k = turn; k + 1 < curve.size() && curve.strain[k + 1] <= curve.strain[k]; ++k) {
+      if (curve.stress_pa[k] < stress || curve.stress_pa[k + 1] > stress) continue;
+      const double fall = curve.stress_pa[k] - curve.stress_pa[k + 1];
+      const double t = fall > 0.0 ? (curve.stress_pa[k] - stress) / fall : 0.0;
+      return curve.strain[k] + t * (curve.strain[k + 1] - curve.strain[k]);
+    }
+    return std::nullopt;
+  };
+  const auto high = strain_at(0.9 * top), low = strain_at(0.5 * top);
+  if (!high || !low || *high <= *low) return;
+  const double slope = 0.4 * top / (*high - *low);
+  value_of(values, Feature::log_unloading) = std::log(slope);
+  value_of(values, Feature::set_strain) = *low - 0.5 * top / slope;
+}
+
+}  // namespace
+
+std::string_view to_string(Feature feature) { return kNames[static_cast<std::size_t>(feature)].name; }
+std::string_view in_words(Feature feature) { return kNames[static_cast<std::size_t>(feature)].words; }
+
+Result<Feature> feature_from_string(std::string_view name) {
+  for (int i = 0; i < kFeatureCount; ++i) {
+    if (kNames[static_cast<std::size_t>(i)].name == name) return static_cast<Feature>(i);
+  }
+  return fail("unknown feature '{}'", name);
+}
+
+FeatureValues fracture_features(const tester::Curve& curve) {
+  FeatureValues values;
+  tester::Curve forward = measurement::forward_part(curve);
+  if (forward.size() < 4 || !(tester::area_under(forward) > 0.0)) return values;
+  if (forward.size() > kPoints) forward = tester::resampled(forward, kPoints);
+  const std::optional<Rise> rise = rise_of(forward);
+  if (!rise) return values;
+  put_rise(values, *rise);
+  const double energy = tester::area_under(forward);
+  value_of(values, Feature::log_toughness) = std::log(energy);
+  value_of(values, Feature::tail) = 1.0 - tester::area_under(rise->path) / energy;
+  std::size_t half = rise->path.size() - 1;
+  while (half + 1 < forward.size() && forward.stress_pa[half] > 0.5 * rise->peak_pa) ++half;
+  value_of(values, Feature::drop) = std::log(kDropOffset + (forward.strain[half] - rise->peak_strain) / rise->peak_strain);
+  return values;
+}
+
+FeatureValues tensile_features(const tester::Curve& curve) {
+  FeatureValues values;
+  const std::optional<Rise> rise = rise_of(measurement::forward_part(curve));
+  if (!rise) return values;
+  put_rise(values, *rise);
+  value_of(values, Feature::log_peak_strain).reset();
+  put_unloading(values, curve);
+  return values;
+}
+
+std::optional<double> strain_at_peak(const tester::Curve& curve) {
+  if (curve.empty()) return std::nullopt;
+  const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) - curve.stress_pa.begin();
+  const bool unloaded = std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
+  return unloaded ? std::nullopt : std::optional(curve.strain[static_cast<std::size_t>(peak)]);
+}
+
+tester::Curve truncated(const tester::Curve& curve, double strain) {
+  tester::Curve result;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve.strain[i] > strain) {
+      if (i > 0) {
+        const double t = (strain - curve.strain[i - 1]) / (curve.strain[i] - curve.strain[i - 1]);
+        result.strain.push_back(strain);
+        result.stress_pa.push_back(curve.stress_pa[i - 1] + t * (curve.stress_pa[i] - curve.stress_pa[i - 1]));
+      }
+      break;
+    }
+    result.strain.push_back(curve.strain[i]);
+    result.stress_pa.push_back(curve.stress_pa[i]);
+  }
+  return result;
+}
+
+}  // namespace nacre::diagnosis

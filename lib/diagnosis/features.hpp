@@ -1,0 +1,55 @@
+#pragma once
+// What a diagnosis compares: numbers that a test says of a specimen, each smooth in the parameters and with a meaning of its own.
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "base/result.hpp"
+#include "tester/curve.hpp"
+
+namespace nacre::diagnosis {
+
+/// Stresses and moduli as natural logarithms (of Pa), strains as they are; peak: the largest stress.
+enum class Feature {
+  log_modulus,      ///< Young's modulus, modulus test
+  log_toughness,    ///< area under the curve
+  toe_strain,       ///< where the line through 20 and 40 % of the peak meets zero stress
+  log_tangent_10,   ///< slope between 5 and 15 % of the peak
+  log_tangent_30,   ///< between 20 and 40 %
+  log_tangent_50,   ///< between 40 and 60 %
+  knee,             ///< log of the energy up to the peak over that of a triangle: above 0 the curve bends over
+  log_peak,         ///< peak stress
+  log_peak_strain,  ///< strain at the peak, log
+  drop,             ///< how much farther the strain goes until half the peak: log(0.05 + strain over peak strain)
+  tail,             ///< share of the energy behind the peak
+  log_unloading,    ///< slope of the first unloading, between 90 and 50 % of the stress where it begins
+  set_strain,       ///< where that line meets zero stress
+};
+inline constexpr int kFeatureCount = 13;
+
+/// Name in files: `log_peak`.
+std::string_view to_string(Feature feature);
+/// For a person: "stress at the peak".
+std::string_view in_words(Feature feature);
+Result<Feature> feature_from_string(std::string_view name);
+
+/// One value per feature, in their order; nothing where the test does not say.
+using FeatureValues = std::array<std::optional<double>, kFeatureCount>;
+inline std::optional<double>& value_of(FeatureValues& values, Feature feature) { return values[static_cast<std::size_t>(feature)]; }
+inline const std::optional<double>& value_of(const FeatureValues& values, Feature feature) { return values[static_cast<std::size_t>(feature)]; }
+
+/// Features of a notched specimen pulled to separation. The curve is taken at 128 points first, so that measured and simulated curves
+/// are read alike. Nothing at all when the stress never rises.
+FeatureValues fracture_features(const tester::Curve& curve);
+
+/// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee, and of the
+/// first unloading where there is one. Its strain is not among them: it is where the test was stopped.
+FeatureValues tensile_features(const tester::Curve& curve);
+
+/// Where a tensile curve is to be read to: the strain at its largest stress; nothing when it was unloaded on the way (then all of it).
+std::optional<double> strain_at_peak(const tester::Curve& curve);
+/// The curve as far as `strain`, its last point interpolated.
+tester::Curve truncated(const tester::Curve& curve, double strain);
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,85 @@
+#include "diagnosis/fracture_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "material/extensions.hpp"
+#include "sysid/objective.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// A group as a calibration knows it.
+measurement::Replicates replicates_of(const Observation& group, double log_toughness_sd) {
+  measurement::Replicates measured;
+  measured.design = group.design;
+  measured.conditions = group.conditions;
+  measured.toughness_count = group.replicates;
+  measured.toughness_pa = std::exp(value_of(group.features, Feature::log_toughness).value_or(0.0));
+  measured.toughness_sd_pa = group.replicates > 1 ? measured.toughness_pa * log_toughness_sd : 0.0;
+  measured.representative_curve = group.curve;
+  return measured;
+}
+
+}  // namespace
+
+material::ParameterSet simulated_side(const material::ParameterSet& set) {
+  material::ParameterSet result = set;
+  std::erase_if(result.extensions, [](const auto& extension) {
+    const material::Effect* effect = material::find_effect(extension.first);
+    const bool off = std::all_of(extension.second.begin(), extension.second.end(), [](double v) { return v == 0.0; });
+    return off || (effect != nullptr && effect->side == material::EffectSide::measurement);
+  });
+  return result;
+}
+
+FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions, const Observation&) {
+  if (!prediction.toughness_pa || prediction.curve.empty()) return {};
+  const sysid::Prediction shown = sysid::observed(prediction, extensions);
+  FeatureValues features = fracture_features(shown.curve);
+  if (shown.toughness_pa && *shown.toughness_pa > 0.0) value_of(features, Feature::log_toughness) = std::log(*shown.toughness_pa);
+  return features;
+}
+
+FractureRuns::FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store, int threads)
+    : simulator_(std::make_unique<sysid::LocalSimulator>(fidelity, threads, store)) {
+  const double sd = observations.replicate_sd(Feature::log_toughness, tester::TestKind::toughness);
+  for (std::size_t g = 0; g < observations.groups.size(); ++g) {
+    if (observations.groups[g].test != tester::TestKind::toughness) continue;
+    groups_.push_back(static_cast<int>(g));
+    measured_.push_back(replicates_of(observations.groups[g], sd));
+  }
+}
+
+void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const std::function<void()>& done) {
+  std::vector<sysid::WantedEvaluation> wanted;
+  std::vector<std::size_t> items(measured_.size());
+  std::iota(items.begin(), items.end(), std::size_t{0});
+  for (const material::ParameterSet& set : sets) {
+    const material::ParameterSet simulated = simulated_side(set);
+    const auto same = [&](const auto& other) { return other.parameters.toughness == simulated.toughness && other.parameters.extensions == simulated.extensions; };
+    if (std::any_of(runs_.begin(), runs_.end(), same) || std::any_of(wanted.begin(), wanted.end(), same)) continue;
+    wanted.push_back({fmt::format("run {}", runs_.size() + wanted.size()), simulated, false, true, items});
+  }
+  auto answers = simulator_->simulate(measured_, wanted, done);
+  for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(answers[k])});
+}
+
+material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start, int budget, std::uint64_t seed, const sysid::ProgressCallback& progress) {
+  // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find where to look.
+  std::vector<measurement::Replicates> designs;
+  for (const measurement::Replicates& each : measured_) {
+    const bool known = std::any_of(designs.begin(), designs.end(), [&](const auto& other) { return other.design == each.design; });
+    if (!known && each.toughness_pa > 1.0) designs.push_back(each);
+  }
+  sysid::CalibrationSettings settings;
+  settings.start = simulated_side(start);
+  settings.start.extensions.clear();
+  settings.modulus_budget = 0;
+  settings.toughness_budget = budget;
+  settings.seed = seed;
+  return sysid::run_calibration(designs, settings, *simulator_, progress).parameters.toughness;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,48 @@
+#pragma once
+// Fracture tests simulated for a diagnosis: every group of a set at chosen parameters, each simulation done once and kept.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/observations.hpp"
+#include "sysid/offline.hpp"
+
+namespace nacre::diagnosis {
+
+/// What the tester says of every fracture group at one parameter set, before the testing machine.
+struct FractureRun {
+  material::ParameterSet parameters;            ///< material side only
+  std::vector<sysid::Prediction> predictions;   ///< per fracture group; without values where the simulation failed
+};
+
+/// The features that a prediction would show through a machine with these measurement-side extensions.
+FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions, const Observation& group);
+
+class FractureRuns {
+ public:
+  /// `store`: a file of answers that are kept (sysid::PredictionStore); empty: remembered while this object lives.
+  FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store, int threads);
+  /// Indices of the observations' groups that are fracture tests.
+  const std::vector<int>& groups() const { return groups_; }
+  /// Simulates all groups at each set and appends the runs; a set that was run already is not run again. `done` after every simulation.
+  void add(const std::vector<material::ParameterSet>& sets, const std::function<void()>& done = {});
+  const std::vector<FractureRun>& runs() const { return runs_; }
+  /// Simulations really done.
+  int simulations() const { return simulator_->simulations(); }
+  /// The most probable eta for the measured toughness and peaks, by the search of a calibration from `start`; its simulations are kept too.
+  material::ToughnessParameters search(const material::ParameterSet& start, int budget, std::uint64_t seed, const sysid::ProgressCallback& progress);
+
+ private:
+  std::vector<int> groups_;
+  std::vector<measurement::Replicates> measured_;
+  std::unique_ptr<sysid::LocalSimulator> simulator_;
+  std::vector<FractureRun> runs_;
+};
+
+/// The set without measurement-side extensions: what a simulation can depend on.
+material::ParameterSet simulated_side(const material::ParameterSet& set);
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,259 @@
+#include "diagnosis/fracture_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlopt.hpp>
+#include <numeric>
+
+#include "base/parallel.hpp"
+#include "diagnosis/coordinates.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+constexpr double kOffset = 3.0;         // deviation of a feature's level, in units of its spread over runs
+constexpr double kCurvedLength = 1.0;   // in log units of eta
+constexpr double kEffectLength = 0.5;   // in units of an effect's largest size
+constexpr double kOwnShare = 0.15;      // of an effect's variance that depends on eta
+constexpr int kNearest = 5;             // runs whose curves stand for a fit's
+
+double square(double x) { return x * x; }
+
+double matern52(double distance) {
+  const double r = std::sqrt(5.0) * distance;
+  return (1.0 + r + r * r / 3.0) * std::exp(-r);
+}
+
+/// Covariance over the size of one effect: zero without the effect, linear and curved.
+double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const auto m = [](double distance) { return matern52(distance / kEffectLength); };
+  const double size = a[0] * b[0] + m(a[0] - b[0]) - m(a[0]) * m(b[0]);
+  const double shape = a.size() > 1 ? m((a.tail(a.size() - 1) - b.tail(b.size() - 1)).norm()) : 1.0;
+  return size * shape;
+}
+
+int library_index(std::string_view name) {
+  const auto library = material::effect_library();
+  const auto found = std::find_if(library.begin(), library.end(), [&](const material::Effect& e) { return e.name == name; });
+  return static_cast<int>(found - library.begin());
+}
+
+}  // namespace
+
+FractureSurface::FractureSurface(const Observations& observations, const FractureRuns& runs, material::ToughnessParameters centre)
+    : observations_(observations), runs_(runs), centre_(to_vector(centre)) {
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.probe != Probe::mean || row.test != tester::TestKind::toughness) continue;
+    const auto at = std::find(runs.groups().begin(), runs.groups().end(), row.group);
+    rows_.push_back({i, static_cast<int>(at - runs.groups().begin()), row.feature});
+  }
+}
+
+FractureSurface::Point FractureSurface::point_of(const material::ParameterSet& set) const {
+  Point point;
+  const material::ToughnessVector eta = to_vector(set.toughness);
+  const auto searched = searched_eta();
+  point.log_eta.resize(static_cast<Eigen::Index>(searched.size()));
+  for (std::size_t k = 0; k < searched.size(); ++k) {
+    const auto i = static_cast<std::size_t>(searched[k]);
+    point.log_eta[static_cast<Eigen::Index>(k)] = std::log(eta[i] / centre_[i]);
+  }
+  for (const auto& [name, values] : simulated_side(set).extensions) {
+    const material::Effect& effect = *material::find_effect(name);
+    Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      const material::EffectParameter& range = effect.parameters[p];
+      x[static_cast<Eigen::Index>(p)] = values[p] / std::max(std::abs(range.minimum), std::abs(range.maximum));
+    }
+    if (x[0] != 0.0) point.effects.emplace(library_index(name), x);
+  }
+  return point;
+}
+
+double FractureSurface::covariance(const Kernel& kernel, const Point& a, const Point& b) {
+  const double near = matern52((a.log_eta - b.log_eta).norm() / kCurvedLength);
+  double sum = square(kOffset) + square(kernel.linear) * a.log_eta.dot(b.log_eta) + square(kernel.curved) * near;
+  for (const auto& [effect, x] : a.effects) {
+    const auto other = b.effects.find(effect);
+    const auto amplitude = kernel.effect.find(effect);
+    if (other == b.effects.end() || amplitude == kernel.effect.end()) continue;
+    sum += square(amplitude->second) * effect_covariance(x, other->second) * (1.0 - kOwnShare + kOwnShare * near);
+  }
+  return sum;
+}
+
+Eigen::MatrixXd FractureSurface::covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const {
+  const auto n = static_cast<Eigen::Index>(at.size());
+  Eigen::MatrixXd matrix(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j)
+      matrix(i, j) = matrix(j, i) = covariance(kernel, points_[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])], points_[static_cast<std::size_t>(at[static_cast<std::size_t>(j)])]);
+    matrix(i, i) += square(kernel.noise);
+  }
+  return matrix;
+}
+
+/// Amplitude of every effect: root mean square over its runs of what they change beyond the base, per unit of the effect's own deviation.
+void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const {
+  std::vector<int> base;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, base));
+  const Eigen::MatrixXd weights = factor.solve(centred(base, Eigen::all));
+  std::map<int, std::pair<double, int>> squares;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (points_[k].effects.size() != 1) continue;
+    Eigen::VectorXd row(static_cast<Eigen::Index>(base.size()));
+    for (std::size_t j = 0; j < base.size(); ++j) row[static_cast<Eigen::Index>(j)] = covariance(learnt.kernel, points_[k], points_[static_cast<std::size_t>(base[j])]);
+    const Eigen::RowVectorXd change = centred.row(static_cast<Eigen::Index>(k)) - row.transpose() * weights;
+    const auto& [effect, x] = *points_[k].effects.begin();
+    auto& [sum, count] = squares[effect];
+    sum += change.squaredNorm() / effect_covariance(x, x);
+    count += static_cast<int>(change.size());
+  }
+  for (const auto& [effect, sums] : squares) learnt.kernel.effect[effect] = std::max(std::sqrt(sums.first / sums.second), 0.3 * learnt.kernel.noise);
+}
+
+FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values) {
+  Learnt learnt{rows, {}, values.colwise().mean(), {}};
+  Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
+  const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
+  centred /= spread;
+  std::vector<int> base;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
+  const Eigen::MatrixXd targets = centred(base, Eigen::all);
+  struct Question {
+    const FractureSurface& surface;
+    const std::vector<int>& base;
+    const Eigen::MatrixXd& targets;
+  } question{*this, base, targets};
+  const auto kernel_at = [](const std::vector<double>& at) { return Kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}}; };
+  const auto cost = [](const std::vector<double>& at, std::vector<double>&, void* data) {
+    const Question& asked = *static_cast<Question*>(data);
+    const Kernel kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}};
+    const Eigen::LLT<Eigen::MatrixXd> factor(asked.surface.covariance_matrix(kernel, asked.base));
+    const Eigen::MatrixXd lower = factor.matrixL();
+    // A weak prior about the start keeps what the runs do not determine.
+    const double prior = 0.5 * (square(at[0] / 1.5) + square((at[1] + 1.0) / 1.5) + square((at[2] + 1.5) / 1.5));
+    return prior + 0.5 * factor.matrixL().solve(asked.targets).squaredNorm() + static_cast<double>(asked.targets.cols()) * lower.diagonal().array().log().sum();
+  };
+  std::vector<double> at = {0.0, -1.0, -1.5};
+  if (base.size() >= 5) {
+    nlopt::opt search(nlopt::LN_SBPLX, 3);
+    search.set_lower_bounds({-4.0, -5.0, -5.0});
+    search.set_upper_bounds({3.0, 2.0, 1.0});
+    search.set_initial_step(0.5);
+    search.set_maxeval(50);
+    search.set_min_objective(cost, &question);
+    try {
+      double smallest = 0.0;
+      search.optimize(at, smallest);
+    } catch (const nlopt::roundoff_limited&) {  // the point reached is the best that doubles can tell
+    }
+  }
+  learnt.kernel = kernel_at(at);
+  learn_effects(learnt, centred);
+  std::vector<int> all(points_.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, all));
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
+  const Eigen::MatrixXd weights = inverse * centred;
+  std::vector<int> order = all;
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return points_[static_cast<std::size_t>(a)].log_eta.squaredNorm() < points_[static_cast<std::size_t>(b)].log_eta.squaredNorm(); });
+  order.resize((order.size() + 1) / 2);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    double sum = 0.0;
+    for (const int k : order) sum += square(weights(k, static_cast<Eigen::Index>(r)) / inverse(k, k));
+    variance_[rows[r]] = square(spread) * sum / static_cast<double>(order.size());
+  }
+  learnt.weights = spread * weights;
+  return learnt;
+}
+
+void FractureSurface::learn() {
+  points_.clear();
+  for (const FractureRun& run : runs_.runs()) points_.push_back(point_of(run.parameters));
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  Eigen::MatrixXd values(count, static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const Observation& group = observations_.groups[static_cast<std::size_t>(runs_.groups()[static_cast<std::size_t>(rows_[r].group)])];
+    double sum = 0.0;
+    int known = 0;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto& prediction = runs_.runs()[static_cast<std::size_t>(k)].predictions[static_cast<std::size_t>(rows_[r].group)];
+      const auto value = value_of(shown_features(prediction, {}, group), rows_[r].feature);
+      values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
+      if (value) sum += *value, ++known;
+    }
+    // A run that failed says nothing: the mean of the others stands there.
+    for (Eigen::Index k = 0; k < count; ++k)
+      if (std::isnan(values(k, static_cast<Eigen::Index>(r)))) values(k, static_cast<Eigen::Index>(r)) = known > 0 ? sum / known : 0.0;
+  }
+  std::map<Feature, std::vector<int>> by_feature;
+  for (std::size_t r = 0; r < rows_.size(); ++r) by_feature[rows_[r].feature].push_back(static_cast<int>(r));
+  std::vector<std::vector<int>> kinds;
+  for (auto& [feature, rows] : by_feature) kinds.push_back(std::move(rows));
+  variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  learnt_.assign(kinds.size(), {});
+  parallel_for(static_cast<int>(kinds.size()), [&](int k) {
+    const auto& rows = kinds[static_cast<std::size_t>(k)];
+    learnt_[static_cast<std::size_t>(k)] = learn_feature(rows, values(Eigen::all, rows));
+  });
+}
+
+/// What the testing machine changes in every row: on the curves of the runs nearest to the point, averaged.
+Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& set, const Point& at) const {
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    double distance = (points_[k].log_eta - at.log_eta).squaredNorm();
+    for (const auto& [effect, x] : points_[k].effects) {
+      const auto own = at.effects.find(effect);
+      distance += own == at.effects.end() ? 1.0 + x.squaredNorm() : (own->second - x).squaredNorm();
+    }
+    for (const auto& [effect, x] : at.effects) distance += points_[k].effects.contains(effect) ? 0.0 : 1.0 + x.squaredNorm();
+    order.emplace_back(distance, static_cast<int>(k));
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min<std::size_t>(order.size(), kNearest));
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  Eigen::VectorXd known = change;
+  for (const auto& [distance, k] : order) {
+    const FractureRun& run = runs_.runs()[static_cast<std::size_t>(k)];
+    std::vector<FeatureValues> plain, shown;
+    for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
+      const Observation& group = observations_.groups[static_cast<std::size_t>(runs_.groups()[g])];
+      plain.push_back(shown_features(run.predictions[g], {}, group));
+      shown.push_back(shown_features(run.predictions[g], set.extensions, group));
+    }
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const auto group = static_cast<std::size_t>(rows_[r].group);
+      const auto& before = value_of(plain[group], rows_[r].feature);
+      const auto& after = value_of(shown[group], rows_[r].feature);
+      if (!before || !after) continue;
+      change[static_cast<Eigen::Index>(r)] += *after - *before;
+      known[static_cast<Eigen::Index>(r)] += 1.0;
+    }
+  }
+  return change.cwiseQuotient(known.cwiseMax(1.0));
+}
+
+Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) const {
+  const Point at = point_of(set);
+  Eigen::VectorXd result(static_cast<Eigen::Index>(rows_.size()));
+  for (const Learnt& learnt : learnt_) {
+    Eigen::VectorXd to_runs(static_cast<Eigen::Index>(points_.size()));
+    for (std::size_t k = 0; k < points_.size(); ++k) to_runs[static_cast<Eigen::Index>(k)] = covariance(learnt.kernel, at, points_[k]);
+    const Eigen::RowVectorXd values = learnt.mean + to_runs.transpose() * learnt.weights;
+    for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[static_cast<Eigen::Index>(r)];
+  }
+  const bool machine = std::any_of(set.extensions.begin(), set.extensions.end(), [](const auto& extension) {
+    const material::Effect* effect = material::find_effect(extension.first);
+    return effect != nullptr && effect->side == material::EffectSide::measurement && std::any_of(extension.second.begin(), extension.second.end(), [](double v) { return v != 0.0; });
+  });
+  if (machine) result += machine_change(set, at);
+  return result;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,67 @@
+#pragma once
+// Features of fracture tests as functions of the parameters, learnt from runs around a fit: a fracture costs a second, a bootstrap asks for
+// thousands.
+//
+// Per feature one covariance for all groups: an offset, a linear and a curved part over the logarithms of eta, one part per effect
+// that vanishes where the effect does, and noise: a crack jumps from one way to another. Effects of the machine need no
+// emulator: they are applied to the curves of the nearest runs.
+
+#include <Eigen/Dense>
+#include <map>
+#include <vector>
+
+#include "diagnosis/fracture_runs.hpp"
+
+namespace nacre::diagnosis {
+
+/// One row of the data that is a feature of a fracture group.
+struct SurfaceRow {
+  int row = 0;        ///< index in Observations::rows
+  int group = 0;      ///< index in FractureRuns::groups()
+  Feature feature = Feature::log_toughness;
+};
+
+class FractureSurface {
+ public:
+  /// Rows of the observations that the surface predicts.
+  explicit FractureSurface(const Observations& observations, const FractureRuns& runs, material::ToughnessParameters centre);
+  /// Learns from all runs there are now. O(runs^3) per feature.
+  void learn();
+  const std::vector<SurfaceRow>& rows() const { return rows_; }
+  /// Features at a parameter set, measurement side included, one per row().
+  Eigen::VectorXd predict(const material::ParameterSet& set) const;
+  /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre.
+  const Eigen::VectorXd& cross_validated_variance() const { return variance_; }
+
+ private:
+  struct Point {
+    Eigen::VectorXd log_eta;
+    std::map<int, Eigen::VectorXd> effects;  ///< by index in the library, in units of the largest size
+  };
+  struct Kernel {
+    double linear = 0.5, curved = 0.2, noise = 0.05;
+    std::map<int, double> effect;  ///< amplitude by library index
+  };
+  struct Learnt {
+    std::vector<int> rows;  ///< indices into rows_
+    Kernel kernel;
+    Eigen::RowVectorXd mean;
+    Eigen::MatrixXd weights;  ///< runs x rows
+  };
+  Point point_of(const material::ParameterSet& set) const;
+  static double covariance(const Kernel& kernel, const Point& a, const Point& b);
+  Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
+  Learnt learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values);
+  void learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const;
+  Eigen::VectorXd machine_change(const material::ParameterSet& set, const Point& at) const;
+
+  const Observations& observations_;
+  const FractureRuns& runs_;
+  material::ToughnessVector centre_;
+  std::vector<SurfaceRow> rows_;
+  std::vector<Point> points_;
+  std::vector<Learnt> learnt_;
+  Eigen::VectorXd variance_;
+};
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,64 @@
+#include "diagnosis/numerics.hpp"
+
+#include <algorithm>
+
+#include "base/files.hpp"
+#include "base/result.hpp"
+
+#include <toml++/toml.h>
+
+namespace nacre::diagnosis {
+namespace {
+
+Eigen::MatrixXd matrix(const toml::table& table, const char* key, std::size_t size, const std::string& place) {
+  const toml::array* rows = table[key].as_array();
+  if (rows == nullptr || rows->size() != size) throw InputError::format("{} {}: expected {} rows", place, key, size);
+  Eigen::MatrixXd result(size, size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const toml::array* row = rows->get(i)->as_array();
+    if (row == nullptr || row->size() != size) throw InputError::format("{} {}: expected {} numbers in row {}", place, key, size, i + 1);
+    for (std::size_t j = 0; j < size; ++j) {
+      const auto value = row->get(j)->value<double>();
+      if (!value) throw InputError::format("{} {}: expected numbers in row {}", place, key, i + 1);
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = *value;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+double FractureNumerics::covariance(Feature a, Feature b, double z_a, double z_b, bool same_layout) const {
+  const auto i = std::find(features.begin(), features.end(), a), j = std::find(features.begin(), features.end(), b);
+  if (i == features.end() || j == features.end()) return 0.0;
+  const Eigen::Index r = i - features.begin(), c = j - features.begin();
+  return shared(r, c) + z_a * z_b * rigid(r, c) + (same_layout ? layout(r, c) : 0.0);
+}
+
+FractureNumerics read_fracture_numerics(const std::filesystem::path& file, tester::Fidelity fidelity) {
+  const std::string text = read_file(file);
+  const toml::parse_result document = [&] {
+    try {
+      return toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    }
+  }();
+  FractureNumerics floor;
+  const toml::table* table = document[tester::to_string(fidelity)]["curve"].as_table();
+  if (table == nullptr) return floor;
+  const std::string place = fmt::format("{}: [{}.curve]", file.string(), tester::to_string(fidelity));
+  const toml::array* names = (*table)["features"].as_array();
+  if (names == nullptr) throw InputError::format("{}: expected features, an array of names", place);
+  for (const toml::node& node : *names) {
+    const auto feature = feature_from_string(node.value_or(std::string_view{}));
+    if (!feature) throw InputError::format("{} features: {}", place, feature.error().message);
+    floor.features.push_back(*feature);
+  }
+  floor.shared = matrix(*table, "covariance_shared", names->size(), place);
+  floor.rigid = matrix(*table, "covariance_rigid", names->size(), place);
+  floor.layout = matrix(*table, "covariance_layout", names->size(), place);
+  return floor;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,174 @@
+#include "diagnosis/workbench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "base/result.hpp"
+#include "sysid/objective.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+constexpr int kLeastGroups = 8, kLeastCoupons = 4;
+/// Opposite pairs of runs around the centre, and how far they lie, in log units of every constant.
+constexpr int kPairs = 14;
+constexpr double kSpread = 0.3;
+/// Sizes at which effects are simulated, as shares of their range, and how far eta is moved meanwhile.
+constexpr double kRunSizes[] = {0.1, 0.3, 0.6};
+constexpr double kJitter = 0.05;
+
+void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
+  material::ToughnessVector eta = to_vector(parameters);
+  for (std::size_t k = 0; k < searched_eta().size(); ++k) eta[static_cast<std::size_t>(searched_eta()[k])] *= std::exp(sign * spread * normal[k]);
+  parameters = material::toughness_from_vector(eta);
+}
+
+std::vector<double> normals(RandomStream& random) {
+  std::vector<double> values(searched_eta().size());
+  for (double& value : values) value = random.normal();
+  return values;
+}
+
+/// The centre, pairs around it, and every effect of the material on fractures at several sizes.
+std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& centre, std::uint64_t seed) {
+  std::vector<material::ParameterSet> sets = {centre};
+  RandomStream random(seed, "diagnosis/runs");
+  for (int k = 0; k < kPairs; ++k) {
+    const std::vector<double> normal = normals(random);
+    for (const double sign : {1.0, -1.0}) {
+      sets.push_back(centre);
+      moved(sets.back().toughness, kSpread, sign, normal);
+    }
+  }
+  for (const material::Effect& effect : material::effect_library()) {
+    if (!effect.acts_on_toughness || effect.side != material::EffectSide::material) continue;
+    const std::vector<std::string> names = {std::string(effect.name)};
+    const CoordinateMap map(Basis{false, true, false, centre}, names);
+    const int own = map.base_count();
+    for (const double sign : {1.0, -1.0}) {
+      if (sign < 0.0 && map.lower(own) >= 0.0) continue;
+      for (const double size : kRunSizes) {
+        Eigen::VectorXd u = map.coordinates(centre);
+        u[own] = std::clamp(sign * size, map.lower(own), map.upper(own));
+        for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
+        sets.push_back(map.parameters(u));
+        moved(sets.back().toughness, kJitter, 1.0, normals(random));
+      }
+    }
+  }
+  return sets;
+}
+
+}  // namespace
+
+std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
+  const CoordinateMap base = model.base_map();
+  const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
+  std::vector<std::string> acting;
+  for (const material::Effect& effect : material::effect_library()) {
+    const std::vector<std::string> names = {std::string(effect.name)};
+    const CoordinateMap map = model.map(names);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
+    u.head(start.size()) = start;
+    const int own = map.base_count();
+    for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
+    double largest = 0.0;
+    for (const double size : {0.1, 0.6}) {
+      u[own] = std::clamp(size, map.lower(own), map.upper(own));
+      largest = std::max(largest, (model.predict(map, u) - plain).cwiseAbs().maxCoeff());
+    }
+    if (largest > 1e-9 && observations.size() > 0) acting.push_back(names.front());
+  }
+  return acting;
+}
+
+Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings)
+    : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics)), fidelity_(settings.fidelity) {
+  const auto layouts = std::count_if(observations_.groups.begin(), observations_.groups.end(), [](const Observation& g) { return g.design.layout() != nullptr; });
+  const auto coupons = static_cast<std::ptrdiff_t>(observations_.groups.size()) - layouts;
+  if (layouts < kLeastGroups && coupons < kLeastCoupons) {
+    throw InputError::format("a diagnosis needs at least {} designs with a valid modulus or toughness, or {} coupons with a curve; there are {} and {}", kLeastGroups, kLeastCoupons,
+                             layouts, coupons);
+  }
+  material::ParameterSet centre = settings.start;
+  centre.extensions.clear();
+  if (observations_.has(tester::TestKind::toughness)) {
+    runs_ = std::make_unique<FractureRuns>(observations_, settings.fidelity, settings.store, settings.threads);
+    const auto searching = [&](double share, std::string_view) {
+      if (settings.progress) settings.progress(0.15 * share, "calibrating the fracture tester");
+    };
+    if (settings.search_budget > 0) centre.toughness = runs_->search(settings.start, settings.search_budget, settings.seed, searching);
+    surface_ = std::make_unique<FractureSurface>(observations_, *runs_, centre.toughness);
+  }
+  model_ = std::make_unique<FeatureModel>(observations_, basis_for(observations_, centre), settings.fidelity, surface_.get());
+  if (runs_) simulate_around(settings);
+  effects_ = acting_effects(*model_, observations_);
+}
+
+void Workbench::simulate_around(const DiagnosisSettings& settings) {
+  const std::vector<material::ParameterSet> sets = planned_runs(model_->basis().centre, settings.seed);
+  const double all = static_cast<double>(sets.size() * runs_->groups().size());
+  int count = 0;
+  runs_->add(sets, [&] {
+    ++count;
+    if (settings.progress) settings.progress(0.15 + 0.4 * std::min(1.0, count / all), fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
+  });
+  learn();
+}
+
+void Workbench::learn() {
+  surface_->learn();
+  observations_.emulator_variance = Eigen::VectorXd::Zero(observations_.size());
+  for (std::size_t k = 0; k < surface_->rows().size(); ++k) observations_.emulator_variance[surface_->rows()[k].row] = surface_->cross_validated_variance()[static_cast<Eigen::Index>(k)];
+}
+
+double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
+  if (!runs_) return 0.0;
+  std::vector<Eigen::VectorXd> expected;
+  for (const material::ParameterSet& set : sets) expected.push_back(surface_->predict(simulated_side(set)));
+  const std::size_t before = runs_->runs().size();
+  runs_->add(sets);
+  double largest = 0.0;
+  for (std::size_t k = before; k < runs_->runs().size(); ++k) {
+    const FractureRun& run = runs_->runs()[k];
+    const auto own = std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return simulated_side(set).toughness == run.parameters.toughness && simulated_side(set).extensions == run.parameters.extensions; });
+    double squares = 0.0;
+    int count = 0;
+    for (std::size_t r = 0; r < surface_->rows().size(); ++r) {
+      const SurfaceRow& row = surface_->rows()[r];
+      const auto value = value_of(shown_features(run.predictions[static_cast<std::size_t>(row.group)], {}, observations_.group_of(row.row)), row.feature);
+      const double variance = surface_->cross_validated_variance()[static_cast<Eigen::Index>(r)];
+      if (!value || variance <= 0.0) continue;
+      squares += std::pow(*value - expected[static_cast<std::size_t>(own - sets.begin())][static_cast<Eigen::Index>(r)], 2) / variance;
+      ++count;
+    }
+    if (count > 0) largest = std::max(largest, std::sqrt(squares / count));
+  }
+  if (runs_->runs().size() > before) learn();
+  return largest;
+}
+
+tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
+  const Observation& g = observations_.groups[static_cast<std::size_t>(group)];
+  if (g.test == tester::TestKind::tensile) return model_->coupon_curve(g, model_->map(fit.effects).coupon_parameters(fit.u));
+  if (g.test != tester::TestKind::toughness) return {};
+  const material::ParameterSet simulated = simulated_side(fit.parameters);
+  const auto eta = to_vector(simulated.toughness);
+  const FractureRun* nearest = nullptr;
+  double least = 0.0;
+  for (const FractureRun& run : runs_->runs()) {
+    double distance = 0.0;
+    const auto other = to_vector(run.parameters.toughness);
+    for (const int i : searched_eta()) distance += std::pow(std::log(eta[static_cast<std::size_t>(i)] / other[static_cast<std::size_t>(i)]), 2);
+    for (const material::Effect& effect : material::effect_library()) {
+      const double range = std::max(std::abs(effect.parameters.front().minimum), std::abs(effect.parameters.front().maximum));
+      distance += std::pow((material::extension_value(simulated.extensions, effect.name) - material::extension_value(run.parameters.extensions, effect.name)) / (0.1 * range), 2);
+    }
+    if (nearest == nullptr || distance < least) least = distance, nearest = &run;
+  }
+  const auto place = std::find(runs_->groups().begin(), runs_->groups().end(), group) - runs_->groups().begin();
+  return sysid::observed(nearest->predictions[static_cast<std::size_t>(place)], fit.parameters.extensions).curve;
+}
+
+}  // namespace nacre::diagnosis
