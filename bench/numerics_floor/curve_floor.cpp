@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <map>
+#include <Eigen/Dense>
 
 #include "base/files.hpp"
 #include "diagnosis/features.hpp"

@@ -15,6 +15,7 @@ constexpr double kOffset = 3.0;         // deviation of a feature's level, in un
 constexpr double kCurvedLength = 1.0;   // in log units of eta
 constexpr double kEffectLength = 0.5;   // in units of an effect's largest size
 constexpr double kOwnShare = 0.15;      // of an effect's variance that depends on eta
+constexpr double kNoEffect = 1e-3;      // share of the largest size below which an effect is none
 constexpr int kNearest = 5;             // runs whose curves stand for a fit's
 
 double square(double x) { return x * x; }
@@ -66,7 +67,7 @@ FractureSurface::Point FractureSurface::point_of(const material::ParameterSet& s
       const material::EffectParameter& range = effect.parameters[p];
       x[static_cast<Eigen::Index>(p)] = values[p] / std::max(std::abs(range.minimum), std::abs(range.maximum));
     }
-    if (x[0] != 0.0) point.effects.emplace(library_index(name), x);
+    if (std::abs(x[0]) > kNoEffect) point.effects.emplace(library_index(name), x);
   }
   return point;
 }
@@ -101,16 +102,17 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
     if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, base));
   const Eigen::MatrixXd weights = factor.solve(centred(base, Eigen::all));
-  std::map<int, std::pair<double, int>> squares;
+  // Sums, not ratios: a run with hardly any of the effect says hardly anything of its amplitude.
+  std::map<int, std::pair<double, double>> squares;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (points_[k].effects.size() != 1) continue;
     Eigen::VectorXd row(static_cast<Eigen::Index>(base.size()));
     for (std::size_t j = 0; j < base.size(); ++j) row[static_cast<Eigen::Index>(j)] = covariance(learnt.kernel, points_[k], points_[static_cast<std::size_t>(base[j])]);
     const Eigen::RowVectorXd change = centred.row(static_cast<Eigen::Index>(k)) - row.transpose() * weights;
     const auto& [effect, x] = *points_[k].effects.begin();
-    auto& [sum, count] = squares[effect];
-    sum += change.squaredNorm() / effect_covariance(x, x);
-    count += static_cast<int>(change.size());
+    auto& [sum, expected] = squares[effect];
+    sum += change.squaredNorm();
+    expected += effect_covariance(x, x) * static_cast<double>(change.size());
   }
   for (const auto& [effect, sums] : squares) learnt.kernel.effect[effect] = std::max(std::sqrt(sums.first / sums.second), 0.3 * learnt.kernel.noise);
 }
