@@ -57,28 +57,24 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
   }
 }
 
-double CoordinateMap::scale(int extension_index) const {
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(extension_index)];
-  const material::EffectParameter& p = c.effect->parameters[static_cast<std::size_t>(c.parameter)];
-  return std::max(std::abs(p.minimum), std::abs(p.maximum));
+const material::EffectParameter& CoordinateMap::parameter_of(int i) const {
+  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - base_count())];
+  return c.effect->parameters[static_cast<std::size_t>(c.parameter)];
 }
 
 double CoordinateMap::lower(int i) const {
   if (i < base_count()) return 0.0;
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - base_count())];
-  return c.effect->parameters[static_cast<std::size_t>(c.parameter)].minimum / scale(i - base_count());
+  const material::EffectParameter& p = parameter_of(i);
+  return p.minimum < 0.0 ? material::strength_of(p, p.minimum) : 0.0;
 }
 
 double CoordinateMap::upper(int i) const {
   if (i < base_count()) return 1.0;
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - base_count())];
-  return c.effect->parameters[static_cast<std::size_t>(c.parameter)].maximum / scale(i - base_count());
+  const material::EffectParameter& p = parameter_of(i);
+  return p.strength == material::Strength::proportional ? material::strength_of(p, p.maximum) : 1.0;
 }
 
-double CoordinateMap::usual(int i) const {
-  const double low = lower(i), high = upper(i);
-  return low > 0.0 ? std::sqrt(low * high) : 0.5 * (low + high);
-}
+double CoordinateMap::usual(int i) const { return 0.5 * (lower(i) + upper(i)); }
 
 int CoordinateMap::first_coordinate(std::size_t effect) const {
   for (std::size_t k = 0; k < extension_.size(); ++k) {
@@ -93,7 +89,7 @@ double CoordinateMap::plain(const BaseCoordinate& c, double u) const {
 }
 
 double CoordinateMap::value(int i, double u) const {
-  return i >= base_count() ? u * scale(i - base_count()) : plain(base_[static_cast<std::size_t>(i)], u);
+  return i >= base_count() ? material::value_at_strength(parameter_of(i), u) : plain(base_[static_cast<std::size_t>(i)], u);
 }
 
 material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {

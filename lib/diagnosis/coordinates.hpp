@@ -25,7 +25,7 @@ struct EffectCoordinate {
 };
 
 /// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a factor
-/// e^1.5 of the centre, in log scale; effects scaled by the largest size that the library allows.
+/// e^1.5 of the centre, in log scale; effects by their strength (material::value_at_strength), -1 or 0 to 1.
 class CoordinateMap {
  public:
   CoordinateMap(const Basis& basis, std::span<const std::string> effects);
@@ -39,7 +39,6 @@ class CoordinateMap {
   double prior_sd(int i) const { return base_[static_cast<std::size_t>(i)].prior_sd; }
   /// Physical value of coordinate i at u.
   double value(int i, double u) const;
-  double scale(int extension_index) const;
   /// Coordinate of the second parameter of an effect (a time, a shape) while the first is tried.
   double usual(int i) const;
   /// First coordinate of the effect with this index among effects().
@@ -63,6 +62,7 @@ class CoordinateMap {
     double prior_sd;
   };
   double plain(const BaseCoordinate& c, double u) const;
+  const material::EffectParameter& parameter_of(int i) const;
   material::ParameterSet with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const;
 
   material::ParameterSet centre_;

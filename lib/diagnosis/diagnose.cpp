@@ -8,6 +8,7 @@
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/procedure.hpp"
+#include "diagnosis/sanity.hpp"
 #include "diagnosis/verdict.hpp"
 
 namespace nacre::diagnosis {
@@ -22,14 +23,13 @@ std::vector<NamedEffect> named_effects(const Evidence& evidence, const Fit& fit)
   const int dof = evidence.observations.replicate_dof();
   const double student = dof > 0 ? 1.645 * (1.0 + 0.93 / dof) : 2.0;  // Cornish-Fisher, within 1 % from 4 degrees of freedom on
   std::vector<NamedEffect> named;
-  int coordinate = map.base_count();
-  for (const std::string& name : fit.effects) {
-    const material::Effect& effect = *material::find_effect(name);
-    const double scale = map.scale(coordinate - map.base_count());
-    const double value = map.value(coordinate, fit.u[coordinate]);
-    const double half = student * std::sqrt(fit.variance(coordinate, whitener)) * scale;
-    named.push_back({name, std::string(effect.family), value, value - half, value + half, std::string(effect.parameters.front().unit)});
-    coordinate += static_cast<int>(effect.parameters.size());
+  for (std::size_t k = 0; k < fit.effects.size(); ++k) {
+    const material::Effect& effect = *material::find_effect(fit.effects[k]);
+    const int i = map.first_coordinate(k);
+    const double half = student * std::sqrt(fit.variance(i, whitener));
+    // A limit falls as its effect grows stronger.
+    const double a = map.value(i, std::max(fit.u[i] - half, map.lower(i))), b = map.value(i, fit.u[i] + half);
+    named.push_back({fit.effects[k], std::string(effect.family), map.value(i, fit.u[i]), std::min(a, b), std::max(a, b), std::string(effect.parameters.front().unit)});
   }
   return named;
 }
@@ -181,7 +181,14 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.next_experiments = next_experiments(models_to_separate(evidence, decision), evidence.model, observations, settings.fidelity, kNextExperiments);
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
+  if (settings.progress) settings.progress(0.98, "other numerics on three specimens");
+  if (settings.check_numerics) diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
   diagnosis.summary = summary_of(diagnosis, decision);
+  for (const SanityCheck& check : diagnosis.sanity) {
+    // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
+    if (!check.numerical || check.changed == "half the element size") continue;
+    diagnosis.summary += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.", check.changed, in_words(check.feature), 100.0 * check.largest);
+  }
   if (!diagnosis.noise_known) diagnosis.summary += " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
   if (settings.progress) settings.progress(1.0, "done");
   return diagnosis;

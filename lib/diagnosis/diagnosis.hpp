@@ -100,6 +100,15 @@ struct GroupCurves {
   tester::Curve measured, base, extended;
 };
 
+/// What one numerical choice changes in one feature: the largest of three specimens.
+struct SanityCheck {
+  std::string changed;        ///< "half the time step", "half the simulated rate", "doubled recording", "half the element size"
+  Feature feature = Feature::log_modulus;
+  double largest = 0.0;       ///< largest change over the specimens, in the feature's unit
+  double allowed = 0.0;       ///< standard error of a group: what such a change would hide in
+  bool numerical = false;     ///< more than twice that: a misfit of this size is not to be called physics
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::base_sufficient;
   std::string summary;                ///< for a person, a few sentences
@@ -119,6 +128,7 @@ struct Diagnosis {
   material::ParameterSet base_fit;
   material::ParameterSet extended_fit;  ///< base parameters and extension of the named model; base fit otherwise
   std::vector<ResidualRow> residuals;
+  std::vector<SanityCheck> sanity;       ///< what other numerics change, before anything is called physics
   std::vector<std::string> descriptors;  ///< names of what residuals are shown against
   std::vector<GroupCurves> curves;       ///< of fracture tests and coupons
   int simulations = 0;                   ///< of fracture tests, really done
@@ -135,6 +145,7 @@ struct DiagnosisSettings {
   int search_budget = 40;            ///< evaluations of the fracture tests in search of a base fit; 0: begin at `start`
   std::filesystem::path store;       ///< file that keeps fracture simulations; empty: none
   int threads = 0;                   ///< 0 all allowed cores
+  bool check_numerics = true;        ///< simulate three specimens with other numerics too
   double name_level = 0.003;         ///< family-wise level of a name
   double unexplained_level = 0.01;   ///< level of a misfit without a name
   /// Called now and then with the share of the work done (0..1) and what is being done.

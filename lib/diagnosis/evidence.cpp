@@ -61,7 +61,6 @@ struct Stretch {
   double begin = 0.0, end = 1.0;
 };
 
-/// The effects of the model without those that the extended one has: a start for the base that knows where the extended one went.
 Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
 
 /// Base and every single effect, fitted to the observations of the evidence.
@@ -71,20 +70,19 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
   };
   report(0.0, "fitting the base model");
   evidence.base.fit = fit_model(evidence.model, evidence.observations, {}, start);
-  // The base gets the start that each extended fit ended with: a gain must not be better optimisation.
-  for (const Fit& single : evidence.singles) {
-    if (single.chi2 < evidence.base.fit.chi2 - 1.0)
-      evidence.base.fit = better_of(std::move(evidence.base.fit), fit_model(evidence.model, evidence.observations, {}, single.u.head(single.base_count)));
-  }
+  // The base gets the start that the best extended fit ended with: a gain must not be better optimisation.
+  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  if (best != evidence.singles.end() && best->chi2 < evidence.base.fit.chi2 - 1.0)
+    evidence.base.fit = better_of(std::move(evidence.base.fit), fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count)));
   report(0.3, "signatures of the effects");
   evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
   std::vector<Fit> singles;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()), "fitting base and " + evidence.effects[k]);
-    singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, best_start(evidence, k)));
-    // Where an earlier fit found less, under another covariance or emulator, it is a start as good.
-    if (k < evidence.singles.size()) singles.back() = better_of(std::move(singles.back()), fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, evidence.singles[k].u));
+    // An earlier fit that found something is where to go on, under another covariance or emulator.
+    const bool found = k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
+    singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, found ? evidence.singles[k].u : best_start(evidence, k)));
   }
   evidence.singles = std::move(singles);
 }

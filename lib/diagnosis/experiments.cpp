@@ -123,7 +123,7 @@ FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& 
     sysid::Prediction prediction;
     prediction.toughness_pa = result->toughness_pa;
     prediction.curve = tester::resampled(measurement::forward_part(result->curve), 128);
-    values = shown_features(prediction, set.extensions, {});
+    values = shown_features(prediction, set.extensions);
   }
   return values;
 }

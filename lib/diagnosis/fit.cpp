@@ -62,9 +62,15 @@ Eigen::VectorXd damped_step(const Fit& fit, const Eigen::VectorXd& y, const Whit
   return full;
 }
 
+/// A share of something ends at the whole of it: that bound is physics, not the edge of what was thought of.
+bool is_share(const material::EffectParameter& parameter) { return parameter.unit == "1" && parameter.minimum == 0.0 && parameter.maximum == 1.0; }
+
 /// An extension that ended on a bound other than zero says that the library's range does not hold the truth.
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
-  for (int i = map.base_count(); i < map.size(); ++i) {
+  for (std::size_t k = 0; k < map.effects().size(); ++k) {
+    const material::Effect& effect = *material::find_effect(map.effects()[k]);
+    const int i = map.first_coordinate(k);
+    if (is_share(effect.parameters.front())) continue;
     for (const double bound : {map.lower(i), map.upper(i)}) {
       if (bound != 0.0 && std::abs(u[i] - bound) < 1e-6) return true;
     }
@@ -100,12 +106,12 @@ double Fit::variance(int coordinate, const Whitener& whitener) const {
   return (a.transpose() * a).ldlt().solve(unit)[k];
 }
 
-Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects, const Eigen::VectorXd& start) {
-  const CoordinateMap map = model.map(effects);
-  const Eigen::VectorXd& y = observations.values;
-  const Whitener whitener(observations.covariance());
+namespace {
+
+/// A fit at `start` that knows its map and what is predicted there.
+Fit begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& start) {
   Fit fit;
-  fit.effects = effects;
+  fit.effects = map.effects();
   fit.base_count = map.base_count();
   fit.prior_sd.resize(fit.base_count);
   for (int i = 0; i < fit.base_count; ++i) fit.prior_sd[i] = map.prior_sd(i);
@@ -113,6 +119,26 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
   fit.lower = fit.upper = fit.u;
   for (int i = 0; i < map.size(); ++i) fit.lower[i] = map.lower(i), fit.upper[i] = map.upper(i);
   fit.predicted = model.predict(map, fit.u);
+  return fit;
+}
+
+}  // namespace
+
+Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
+  const CoordinateMap map = model.base_map();
+  Fit fit = begun(model, map, u);
+  fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
+  fit.free.resize(static_cast<std::size_t>(map.size()));
+  std::iota(fit.free.begin(), fit.free.end(), 0);
+  fit.parameters = map.parameters(fit.u);
+  return fit;
+}
+
+Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects, const Eigen::VectorXd& start) {
+  const CoordinateMap map = model.map(effects);
+  const Eigen::VectorXd& y = observations.values;
+  const Whitener whitener(observations.covariance());
+  Fit fit = begun(model, map, start);
   fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {

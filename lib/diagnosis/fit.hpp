@@ -35,6 +35,9 @@ struct Fit {
 Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
               const Eigen::VectorXd& start);
 
+/// The base model at given coordinates, with its linearisation there and every coordinate free; chi2 is not computed.
+Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u);
+
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
 /// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the minimiser when wanted.
 double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta = nullptr);

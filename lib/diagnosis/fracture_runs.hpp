@@ -19,7 +19,7 @@ struct FractureRun {
 };
 
 /// The features that a prediction would show through a machine with these measurement-side extensions.
-FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions, const Observation& group);
+FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions, const measurement::PrintContext& context = {});
 
 class FractureRuns {
  public:

@@ -64,8 +64,7 @@ FractureSurface::Point FractureSurface::point_of(const material::ParameterSet& s
     const material::Effect& effect = *material::find_effect(name);
     Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
     for (std::size_t p = 0; p < values.size(); ++p) {
-      const material::EffectParameter& range = effect.parameters[p];
-      x[static_cast<Eigen::Index>(p)] = values[p] / std::max(std::abs(range.minimum), std::abs(range.maximum));
+      x[static_cast<Eigen::Index>(p)] = material::strength_of(effect.parameters[p], values[p]);
     }
     if (std::abs(x[0]) > kNoEffect) point.effects.emplace(library_index(name), x);
   }
@@ -180,12 +179,11 @@ void FractureSurface::learn() {
   const auto count = static_cast<Eigen::Index>(points_.size());
   Eigen::MatrixXd values(count, static_cast<Eigen::Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Observation& group = observations_.groups[static_cast<std::size_t>(runs_.groups()[static_cast<std::size_t>(rows_[r].group)])];
     double sum = 0.0;
     int known = 0;
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto& prediction = runs_.runs()[static_cast<std::size_t>(k)].predictions[static_cast<std::size_t>(rows_[r].group)];
-      const auto value = value_of(shown_features(prediction, {}, group), rows_[r].feature);
+      const auto value = value_of(shown_features(prediction, {}), rows_[r].feature);
       values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
       if (value) sum += *value, ++known;
     }
@@ -226,8 +224,8 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
     std::vector<FeatureValues> plain, shown;
     for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
       const Observation& group = observations_.groups[static_cast<std::size_t>(runs_.groups()[g])];
-      plain.push_back(shown_features(run.predictions[g], {}, group));
-      shown.push_back(shown_features(run.predictions[g], set.extensions, group));
+      plain.push_back(shown_features(run.predictions[g], {}));
+      shown.push_back(shown_features(run.predictions[g], set.extensions, {.batch_step = group.batch_step}));
     }
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto group = static_cast<std::size_t>(rows_[r].group);
@@ -256,6 +254,17 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
   });
   if (machine) result += machine_change(set, at);
   return result;
+}
+
+FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {
+  FeatureValues slopes;
+  const FractureRun& run = runs_.runs().front();
+  for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
+    const FeatureValues before = shown_features(run.predictions[g], set.extensions, {.batch_step = 0.0}), after = shown_features(run.predictions[g], set.extensions, {.batch_step = 1.0});
+    for (std::size_t f = 0; f < kFeatureCount; ++f)
+      if (before[f] && after[f]) slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]) / static_cast<double>(runs_.groups().size());
+  }
+  return slopes;
 }
 
 }  // namespace nacre::diagnosis

@@ -30,13 +30,15 @@ class FractureSurface {
   const std::vector<SurfaceRow>& rows() const { return rows_; }
   /// Features at a parameter set, measurement side included, one per row().
   Eigen::VectorXd predict(const material::ParameterSet& set) const;
+  /// What the machine adds from one batch to the next, averaged over the groups.
+  FeatureValues batch_step(const material::ParameterSet& set) const;
   /// Mean square error of leaving a run out, per row: over the half of the runs nearest to the centre.
   const Eigen::VectorXd& cross_validated_variance() const { return variance_; }
 
  private:
   struct Point {
     Eigen::VectorXd log_eta;
-    std::map<int, Eigen::VectorXd> effects;  ///< by index in the library, in units of the largest size
+    std::map<int, Eigen::VectorXd> effects;  ///< strengths, by index in the library
   };
   struct Kernel {
     double linear = 0.5, curved = 0.2, noise = 0.05;

@@ -20,6 +20,10 @@ ordered_json json_of(const Candidate& c) {
 
 ordered_json json_of(const Contrast& c) { return {{"name", c.name}, {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise}}; }
 
+ordered_json json_of(const SanityCheck& s) {
+  return {{"changed", s.changed}, {"feature", to_string(s.feature)}, {"largest", s.largest}, {"allowed", s.allowed}, {"numerical", s.numerical}};
+}
+
 ordered_json json_of(const NextExperiment& e);
 ordered_json json_of(const ResidualRow& r);
 
@@ -99,6 +103,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"base_fit", json_of(d.base_fit)},
                                  {"extended_fit", json_of(d.extended_fit)},
                                  {"simulations", d.simulations},
+                                 {"sanity", array_of(d.sanity)},
                                  {"residuals", array_of(d.residuals)}};
   return document.dump(2);
 }

@@ -16,7 +16,7 @@ using tester::TestKind;
 tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
   const auto pulled = tester::test_tensile({group.design, set, group.conditions, fidelity_}, group.curve.strain);
   if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
-  const tester::Curve shown = measurement::observe_curve(*pulled, set.extensions);
+  const tester::Curve shown = measurement::observe_curve(*pulled, set.extensions, {.batch_step = group.batch_step});
   const auto end = strain_at_peak(group.curve);
   return end ? truncated(shown, *end) : shown;
 }
@@ -55,7 +55,7 @@ double FeatureModel::modulus(const Observation& group, const material::Parameter
 void FeatureModel::put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
   FeatureValues values;
-  if (g.test == TestKind::modulus) value_of(values, Feature::log_modulus) = std::log(measurement::observe_modulus(modulus(g, set), set.extensions));
+  if (g.test == TestKind::modulus) value_of(values, Feature::log_modulus) = std::log(measurement::observe_modulus(modulus(g, set), set.extensions, {.batch_step = g.batch_step}));
   if (g.test == TestKind::tensile) values = tensile_features(coupon_curve(g, set));
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[static_cast<std::size_t>(row)].feature);
@@ -64,9 +64,19 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
   }
 }
 
-void FeatureModel::put_history(const material::ParameterSet&, Eigen::Ref<Eigen::VectorXd> rows) const {
-  for (int i = 0; i < observations_.size(); ++i)
-    if (observations_.rows[static_cast<std::size_t>(i)].probe != Probe::mean) rows[i] = 0.0;
+/// What the machine adds to a feature from one batch to the next; with the order inside a batch no effect goes.
+void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
+  for (int i = 0; i < observations_.size(); ++i) {
+    const Row& row = observations_.rows[static_cast<std::size_t>(i)];
+    if (row.probe == Probe::mean) continue;
+    rows[i] = 0.0;
+    if (row.probe != Probe::batch || set.extensions.empty()) continue;
+    if (row.test == TestKind::toughness && surface_ != nullptr) rows[i] = value_of(surface_->batch_step(set), row.feature).value_or(0.0);
+    if (row.test == TestKind::toughness) continue;
+    // A stiffness in the middle of those that are printed stands for all: the machine's own spring makes the slope depend on it a little.
+    constexpr double kTypicalPa = 5e8;
+    rows[i] = std::log(measurement::observe_modulus(kTypicalPa, set.extensions, {.batch_step = 1.0}) / measurement::observe_modulus(kTypicalPa, set.extensions));
+  }
 }
 
 Eigen::MatrixXd FeatureModel::predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const {

@@ -168,13 +168,15 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   const bool homogeneous_moduli = has_coupons(specimens) || !has_layouts(specimens);
   // Replicates in the order of their names: the same bits whatever the order of arrival.
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
+  const std::vector<measurement::PrintContext> contexts = measurement::print_contexts(nominal);
   std::map<GroupKey, std::map<std::string, Measured>> by_group;
   std::set<std::string> batches;
   for (const SpecimenRecord& specimen : nominal) {
     if (!belongs(specimen, homogeneous_moduli)) continue;
     const FeatureValues features = features_of(specimen);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
-    by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, 0.0});
+    const double step = contexts[static_cast<std::size_t>(&specimen - nominal.data())].batch_step;
+    by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, step});
     if (!specimen.batch.empty()) batches.insert(specimen.batch);
   }
   Observations observations;
@@ -185,8 +187,6 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   for (auto& [key, named] : by_group) {
     groups.emplace_back();
     for (auto& [name, measured] : named) {
-      const auto batch = batches.find(measured.specimen->batch);
-      measured.batch_step = batch == batches.end() ? 0.0 : static_cast<double>(std::distance(batches.begin(), batch));
       groups.back().push_back(measured);
     }
     if (groups.back().front().specimen->test == TestKind::tensile) read_to_common_strain(groups.back());

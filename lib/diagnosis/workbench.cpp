@@ -137,7 +137,7 @@ double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
     int count = 0;
     for (std::size_t r = 0; r < surface_->rows().size(); ++r) {
       const SurfaceRow& row = surface_->rows()[r];
-      const auto value = value_of(shown_features(run.predictions[static_cast<std::size_t>(row.group)], {}, observations_.group_of(row.row)), row.feature);
+      const auto value = value_of(shown_features(run.predictions[static_cast<std::size_t>(row.group)], {}), row.feature);
       const double variance = surface_->cross_validated_variance()[static_cast<Eigen::Index>(r)];
       if (!value || variance <= 0.0) continue;
       squares += std::pow(*value - expected[static_cast<std::size_t>(own - sets.begin())][static_cast<Eigen::Index>(r)], 2) / variance;
@@ -162,8 +162,8 @@ tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
     const auto other = to_vector(run.parameters.toughness);
     for (const int i : searched_eta()) distance += std::pow(std::log(eta[static_cast<std::size_t>(i)] / other[static_cast<std::size_t>(i)]), 2);
     for (const material::Effect& effect : material::effect_library()) {
-      const double range = std::max(std::abs(effect.parameters.front().minimum), std::abs(effect.parameters.front().maximum));
-      distance += std::pow((material::extension_value(simulated.extensions, effect.name) - material::extension_value(run.parameters.extensions, effect.name)) / (0.1 * range), 2);
+      const auto strength = [&](const material::ParameterSet& set) { return material::strength_of(effect.parameters.front(), material::extension_value(set.extensions, effect.name)); };
+      distance += std::pow((strength(simulated) - strength(run.parameters)) / 0.1, 2);
     }
     if (nearest == nullptr || distance < least) least = distance, nearest = &run;
   }

@@ -10,6 +10,7 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "measurement/measurement.hpp"
+#include "measurement/planned_set.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/set_row.hpp"
@@ -49,7 +50,7 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
   return heading;
 }
 
-void require_columns(const Heading& heading, const std::string& table, int line) {
+void require_columns(const Heading& heading, const std::string& table, int line, bool planned) {
   for (const Column required : {kSpecimen, kPattern, kTest}) {
     if (heading.position[required] == kAbsent) {
       throw InputError::format(
@@ -58,6 +59,7 @@ void require_columns(const Heading& heading, const std::string& table, int line)
           table, line, kColumns[required], fmt::join(kColumns, ","));
     }
   }
+  if (planned) return;
   const auto absent = [&](Column column) { return heading.position[column] == kAbsent; };
   if (absent(kModulus) && absent(kToughness) && absent(kCurve)) {
     throw InputError::format("{}:{}: no measured value, expected one of the columns modulus_pa, toughness_pa, curve",
@@ -94,7 +96,8 @@ void collect_warnings(const SpecimenRecord& record, const std::string& place, st
 /// Reads rows one after another into a set, and keeps specimen names unique.
 class SetBuilder {
  public:
-  SetBuilder(std::filesystem::path folder, std::string table) : folder_(std::move(folder)), table_(std::move(table)) {}
+  SetBuilder(std::filesystem::path folder, std::string table, bool planned)
+      : folder_(std::move(folder)), table_(std::move(table)), planned_(planned) {}
 
   MeasurementSet read(std::string_view text) {
     CsvLimits limits;
@@ -105,7 +108,7 @@ class SetBuilder {
       if (!reader.next(row)) throw InputError::format("{}: is empty, expected a heading and rows", table_);
     } while (row.blank());
     const Heading heading = read_heading(row, table_, set_.warnings);
-    require_columns(heading, table_, row.line);
+    require_columns(heading, table_, row.line, planned_);
     while (reader.next(row)) {
       if (!row.blank()) add(heading, row);
     }
@@ -119,7 +122,7 @@ class SetBuilder {
       throw InputError::format("{}:{}: the curves have more than {} points together, expected at most that many",
                                table_, row.line, kMostSetPoints);
     }
-    const tl::expected<SpecimenRecord, RejectedRow> record = parse_row(folder_, heading, row);
+    const tl::expected<SpecimenRecord, RejectedRow> record = parse_row(folder_, heading, row, planned_);
     if (!record) {
       set_.rejected.push_back(record.error());
       return;
@@ -152,6 +155,7 @@ class SetBuilder {
 
   std::filesystem::path folder_;
   std::string table_;
+  bool planned_;
   MeasurementSet set_;
   std::size_t point_count_ = 0;
   std::map<std::string, std::pair<std::size_t, int>> index_of_;  ///< specimen -> index, line
@@ -159,7 +163,9 @@ class SetBuilder {
 
 }  // namespace
 
-MeasurementSet read_measurement_set(const std::filesystem::path& folder) {
+namespace {
+
+MeasurementSet read_set(const std::filesystem::path& folder, bool planned) {
   if (!std::filesystem::is_directory(folder)) {
     throw InputError::format("{}: is no folder, expected a measurement set: a folder with {}", folder.string(),
                              kTableName);
@@ -167,7 +173,13 @@ MeasurementSet read_measurement_set(const std::filesystem::path& folder) {
   const Result<std::filesystem::path> table = file_inside(folder, kTableName);
   const std::string shown_name = (folder / kTableName).string();
   if (!table) throw InputError::format("{}: {}", shown_name, table.error().message);
-  return SetBuilder(folder, shown_name).read(read_file_up_to(*table, kMostTableBytes));
+  return SetBuilder(folder, shown_name, planned).read(read_file_up_to(*table, kMostTableBytes));
 }
+
+}  // namespace
+
+MeasurementSet read_measurement_set(const std::filesystem::path& folder) { return read_set(folder, false); }
+
+MeasurementSet read_planned_set(const std::filesystem::path& folder) { return read_set(folder, true); }
 
 }  // namespace nacre::measurement

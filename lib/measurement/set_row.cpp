@@ -12,8 +12,8 @@ namespace {
 /// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
 class RowParser {
  public:
-  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row)
-      : folder_(folder), heading_(heading), row_(row) {}
+  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned)
+      : folder_(folder), heading_(heading), row_(row), planned_(planned) {}
 
   tl::expected<SpecimenRecord, RejectedRow> parse() {
     check_shape();
@@ -178,7 +178,7 @@ class RowParser {
   /// Every test needs a value of its own kind; the notched specimen says nothing of the modulus, and a modulus test
   /// nothing of the toughness.
   void check_consistency(const SpecimenRecord& record) {
-    if (fault_) return;
+    if (fault_ || planned_) return;
     if (record.test == tester::TestKind::modulus && !modulus_of(record)) {
       reject(kModulus, "no modulus, expected modulus_pa, or a curve that rises between 0.05 and 0.25 % strain");
     }
@@ -197,6 +197,7 @@ class RowParser {
   const std::filesystem::path& folder_;
   const Heading& heading_;
   const CsvRow& row_;
+  bool planned_;
   std::optional<RejectedRow> fault_;
 };
 
@@ -209,8 +210,8 @@ std::string lower_case(std::string_view text) {
 }
 
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
-                                                    const CsvRow& row) {
-  return RowParser(folder, heading, row).parse();
+                                                    const CsvRow& row, bool planned) {
+  return RowParser(folder, heading, row, planned).parse();
 }
 
 }  // namespace nacre::measurement

@@ -26,8 +26,9 @@ struct Heading {
 /// ASCII letters in lower case.
 std::string lower_case(std::string_view text);
 
-/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`.
+/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`. `planned`: a row needs
+/// no measured value.
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
-                                                    const CsvRow& row);
+                                                    const CsvRow& row, bool planned = false);
 
 }  // namespace nacre::measurement

@@ -19,11 +19,12 @@ double weighted_mean(const std::vector<double>& weights, std::size_t count, Coun
 
 }  // namespace
 
-Prediction observed(const Prediction& prediction, const material::Extensions& extensions) {
+Prediction observed(const Prediction& prediction, const material::Extensions& extensions,
+                    const measurement::PrintContext& context) {
   Prediction shown = prediction;
-  if (shown.modulus_pa) shown.modulus_pa = measurement::observe_modulus(*shown.modulus_pa, extensions);
+  if (shown.modulus_pa) shown.modulus_pa = measurement::observe_modulus(*shown.modulus_pa, extensions, context);
   if (shown.curve.empty()) return shown;
-  shown.curve = measurement::observe_curve(prediction.curve, extensions);
+  shown.curve = measurement::observe_curve(prediction.curve, extensions, context);
   // As a difference, so that a toughness that was not computed from these very points keeps its value without
   // extensions.
   if (shown.toughness_pa && shown.curve != prediction.curve) {

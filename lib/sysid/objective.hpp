@@ -10,7 +10,8 @@ using measurement::forward_part;
 
 /// A prediction as the testing machine would show it: measurement-side extensions applied to modulus, curve and
 /// toughness.
-Prediction observed(const Prediction& prediction, const material::Extensions& extensions);
+Prediction observed(const Prediction& prediction, const material::Extensions& extensions,
+                    const measurement::PrintContext& context = {});
 
 /// |simulated - measured| / measured; 1 where the simulation gave nothing.
 double relative_error(const std::optional<double>& simulated, double measured);

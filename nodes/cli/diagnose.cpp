@@ -7,8 +7,10 @@
 #include "base/files.hpp"
 #include "command.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
 #include "measurement/measurement.hpp"
+#include "measurement/planned_set.hpp"
 #include "output.hpp"
 #include "shipped_files.hpp"
 #include "progress.hpp"
@@ -26,7 +28,7 @@ struct Options {
   int search_budget = 40;
   std::uint64_t seed = 1;
   int bootstraps = 2000;
-  bool json = false;
+  bool json = false, plan = false;
 };
 
 void print_candidates(const diagnosis::Diagnosis& d) {
@@ -53,11 +55,7 @@ int diagnose_table(const Options& options) {
   return 0;
 }
 
-int diagnose(const Options& options) {
-  if (!options.table.empty()) return diagnose_table(options);
-  if (options.set.empty()) throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
-  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
-  warn_about(set, options.set);
+diagnosis::DiagnosisSettings settings_from(const Options& options) {
   diagnosis::DiagnosisSettings settings;
   settings.start = material::default_parameters();
   if (!options.parameters.empty()) settings.start = material::read_parameters(options.parameters, settings.start);
@@ -68,6 +66,43 @@ int diagnose(const Options& options) {
   settings.fracture_numerics = diagnosis::read_fracture_numerics(numerics_floor_file(options.numerics_floor), settings.fidelity);
   settings.store = options.store;
   settings.search_budget = options.search_budget;
+  return settings;
+}
+
+std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
+
+int plan(const Options& options) {
+  if (options.set.empty()) throw InputError("nacre diagnose --plan needs a measurement set, with or without measured values");
+  const measurement::MeasurementSet set = measurement::read_planned_set(options.set);
+  warn_about(set, options.set);
+  diagnosis::DiagnosisSettings settings = settings_from(options);
+  Progress progress("plan");
+  settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
+  const diagnosis::Plan plan = diagnosis::plan_diagnosis(set.specimens, settings);
+  progress.end();
+  if (options.json) {
+    print_json(nlohmann::ordered_json::parse(to_json(plan)));
+    return 0;
+  }
+  fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and told from every other\n", plan.specimens, plan.groups);
+  for (const diagnosis::PlannedEffect& e : plan.effects) {
+    fmt::print("  {:<22} {:<10} seen from {:>9}  told apart from {:>9}  {:<24} most like {} ({:.2f})\n", e.name, e.status, size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
+               e.nearest_rival.empty() ? "none" : e.nearest_rival, e.rival_cosine);
+  }
+  for (const diagnosis::PlannedAddition& a : plan.additions) {
+    fmt::print("add {} ({} x {} specimens):\n", a.words, a.specimens.size(), a.replicates);
+    for (const auto& c : a.changes) fmt::print("    {}: {} -> {}, told apart from {}\n", c.effect, c.from, c.to, size_or_dash(c.told_apart_from));
+  }
+  return 0;
+}
+
+int diagnose(const Options& options) {
+  if (options.plan) return plan(options);
+  if (!options.table.empty()) return diagnose_table(options);
+  if (options.set.empty()) throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
+  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  warn_about(set, options.set);
+  diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
   const diagnosis::Diagnosis d = diagnosis::diagnose(set.specimens, settings);
@@ -91,6 +126,7 @@ void add_diagnose(CLI::App& app, Action& action) {
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
   command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor, "What the tester's elements leave of an error (data/numerics_floor.toml)");
+  command.add_flag("--plan", options->plan, "Before anything is measured: what these specimens could tell apart, and which few more would help");
   command.add_option("--report", options->report, "One self-contained HTML page for the person who measured");
   command.add_option("--store", options->store, "File that keeps fracture simulations, so that an interrupted diagnosis goes on (the one of nacre calibrate serves too)");
   command.add_option("--search", options->search_budget, "Evaluations of the fracture tests in search of a base fit; 0: begin at --params")->check(CLI::Range(0, 1000))->capture_default_str();

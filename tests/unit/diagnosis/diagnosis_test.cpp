@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/result.hpp"
@@ -52,6 +53,39 @@ TEST(Diagnosis, InterfaceAnisotropyIsNamed) { expect_named(diagnose_effect("inte
 TEST(Diagnosis, DropletMixingIsNamed) { expect_named(diagnose_effect("droplet_mixing", 1.0), "droplet_mixing", 1.0, 0.3); }
 
 TEST(Diagnosis, MachineComplianceIsNamed) { expect_named(diagnose_effect("machine_compliance", 2e-10), "machine_compliance", 2e-10, 0.6e-10); }
+
+TEST(Diagnosis, ADriftFromBatchToBatchIsNamed) { expect_named(diagnose_effect("batch_drift", 0.05), "batch_drift", 0.05, 0.02); }
+
+// Other constants of the materials explain a factor on force exactly.
+TEST(Diagnosis, AnErrorOfTheLoadCellIsInvisibleAndNothingIsNamed) {
+  const Diagnosis diagnosis = diagnose_effect("load_cell_gain", 0.05);
+  EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
+  const auto gain = std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), [](const Candidate& c) { return c.name == "load_cell_gain"; });
+  ASSERT_NE(gain, diagnosis.candidates.end());
+  EXPECT_EQ(gain->status, "invisible");
+  EXPECT_GT(gain->absorption, 0.95);
+}
+
+Diagnosis diagnose_coupons(const std::string& effect, std::vector<double> values) {
+  material::ParameterSet truth = synthetic_truth();
+  if (!effect.empty()) truth.extensions[effect] = std::move(values);
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.fidelity = tester::Fidelity::tiny;
+  return diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5), settings);
+}
+
+TEST(CouponDiagnosis, CouponsOfTheBaseModelAreBaseSufficient) {
+  const Diagnosis diagnosis = diagnose_coupons("", {});
+  EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
+}
+
+TEST(CouponDiagnosis, SlackOfTheGripsIsNamedFromCurvesAlone) {
+  const Diagnosis diagnosis = diagnose_coupons("toe_slack", {0.002});
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects[0].name, "toe_slack");
+  EXPECT_NEAR(diagnosis.effects[0].parameter, 0.002, 0.0002);
+}
 
 TEST(Diagnosis, TheJsonHasTheFieldsOfTheFormat) {
   const auto document = nlohmann::json::parse(to_json(diagnose_effect("interface_anisotropy", 0.25)));

@@ -30,19 +30,44 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
   const auto test = [&](const pattern::Design& design, double orientation_deg) {
     tester::Simulation simulation{design, truth, {}, tester::Fidelity::tiny};
     simulation.conditions.orientation_deg = orientation_deg;
-    const double modulus = measurement::observe_modulus(tester::test_modulus(simulation, {.refinement = set.refinement}).value().modulus_pa, truth.extensions);
+    const double true_modulus = tester::test_modulus(simulation, {.refinement = set.refinement}).value().modulus_pa;
     for (int i = 0; i < set.replicates; ++i) {
       measurement::SpecimenRecord specimen;
       specimen.specimen = design.name() + "-" + std::to_string(static_cast<int>(orientation_deg)) + "-" + std::to_string(i);
       specimen.design = design;
       specimen.conditions = simulation.conditions;
-      specimen.modulus_pa = modulus * std::exp(set.noise * noise.normal());
+      specimen.batch = "batch-" + std::to_string(i + 1);
+      specimen.modulus_pa = measurement::observe_modulus(true_modulus, truth.extensions, {.batch_step = static_cast<double>(i)}) * std::exp(set.noise * noise.normal());
       specimens.push_back(specimen);
     }
   };
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     test(patterns[i], 0.0);
     if (static_cast<int>(i) < set.twins) test(patterns[i], 90.0);
+  }
+  return specimens;
+}
+
+/// Homogeneous coupons pulled to 2 % strain, one of each mixture and rate, as the material point predicts them for `truth`, with lognormal scatter of stress.
+inline std::vector<measurement::SpecimenRecord> synthetic_coupons(const material::ParameterSet& truth, const std::vector<double>& rates_per_s, int replicates, double noise_sd, std::uint64_t seed) {
+  RandomStream noise(seed, "test/coupons");
+  std::vector<measurement::SpecimenRecord> specimens;
+  std::vector<double> strains;
+  for (int i = 0; i <= 60; ++i) strains.push_back(0.02 * i / 60);
+  for (const double fraction : {0.0, 0.25, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+    for (const double rate : rates_per_s) {
+      for (int r = 0; r < replicates; ++r) {
+        measurement::SpecimenRecord specimen;
+        specimen.design = pattern::Mixture{fraction};
+        specimen.test = tester::TestKind::tensile;
+        specimen.conditions.strain_rate_per_s = rate;
+        specimen.specimen = specimen.design.name() + "-" + std::to_string(rate) + "-" + std::to_string(r);
+        specimen.curve = measurement::observe_curve(tester::test_tensile({specimen.design, truth, specimen.conditions, tester::Fidelity::tiny}, strains).value(), truth.extensions);
+        const double factor = std::exp(noise_sd * noise.normal());
+        for (double& stress : specimen.curve.stress_pa) stress *= factor;
+        specimens.push_back(specimen);
+      }
+    }
   }
   return specimens;
 }

@@ -1,0 +1,179 @@
+#include "trial.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/files.hpp"
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "material/extensions.hpp"
+#include "pattern/coupons.hpp"
+#include "pattern/random_pattern.hpp"
+
+namespace nacre::blind_trials {
+namespace {
+
+namespace lab = virtual_laboratory;
+using tester::TestKind;
+
+constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
+constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
+
+lab::ReplicateNoise noise_of(const Trial& trial) {
+  const double factor = trial.noisy ? 2.0 : 1.0;
+  return {.modulus = 0.01 * factor, .toughness = 0.04 * factor, .strain = 0.01 * factor};
+}
+
+/// The size that a trial hides: in the lower or upper third of the logarithm of what the laboratory draws.
+double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
+  RandomStream random(trial.seed, fmt::format("trial/{}/{}", trial.name, kind.name));
+  const bool drawn = kind.drawn_maximum > 0.0;
+  const double low = std::log(drawn ? kind.drawn_minimum : 0.02 * kind.maximum), high = std::log(drawn ? kind.drawn_maximum : 0.2 * kind.maximum);
+  const double third = (high - low) / 3.0;
+  const double value = std::exp(trial.large ? random.uniform(high - third, high) : random.uniform(low, low + third));
+  return kind.either_sign && random.index(2) == 1 ? -value : value;
+}
+
+lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
+  lab::Truth truth{.seed = trial.seed, .fidelity = options.fidelity, .replicates = kReplicates, .noise = noise_of(trial), .modulus = lab::draw_modulus_parameters(trial.seed),
+                   .toughness = lab::draw_toughness_parameters(trial.seed), .effects = {}};
+  for (const lab::EffectKind& kind : lab::effect_kinds())
+    if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) != trial.hidden.end()) truth.effects.*kind.value = hidden_value(trial, kind);
+  return truth;
+}
+
+/// The specimens of a trial without values.
+std::vector<measurement::SpecimenRecord> planned(const std::vector<lab::Question>& questions) {
+  std::vector<measurement::SpecimenRecord> records;
+  for (const lab::Question& q : questions) {
+    for (int r = 0; r < kReplicates; ++r) {
+      measurement::SpecimenRecord record;
+      record.specimen = fmt::format("{}-{}-{:.0f}-{:.2g}-{:.2g}-{}", q.design.name(), tester::to_string(q.test), q.conditions.orientation_deg, q.conditions.strain_rate_per_s, q.conditions.thickness_mm, r + 1);
+      record.design = q.design;
+      record.test = q.test;
+      record.conditions = q.conditions;
+      record.batch = fmt::format("batch-{}", r + 1);
+      record.print_order = static_cast<int>(records.size()) + 1;
+      records.push_back(record);
+    }
+  }
+  return records;
+}
+
+/// What the specimens could show of each hidden effect that the library knows, at the true constants.
+std::string sealed_signals(const Trial& trial, const TrialOptions& options, const lab::Truth& truth, const std::vector<lab::Question>& questions) {
+  std::vector<lab::Question> moduli;
+  for (const lab::Question& q : questions)
+    if (q.test == TestKind::modulus) moduli.push_back(q);
+  diagnosis::DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.start.modulus = truth.modulus;
+  settings.start.toughness = truth.toughness;
+  settings.fidelity = options.fidelity;
+  settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
+  diagnosis::PlannedScatter scatter{.modulus = truth.noise.modulus, .stress = truth.noise.toughness, .strain = truth.noise.strain};
+  const diagnosis::Plan plan = diagnosis::plan_diagnosis(planned(moduli), settings, scatter, false);
+  std::string text;
+  for (const lab::EffectKind& kind : lab::effect_kinds()) {
+    const double value = truth.effects.*kind.value;
+    const auto known = std::find_if(plan.effects.begin(), plan.effects.end(), [&](const auto& e) { return e.name == kind.name; });
+    if (value == 0.0 || known == plan.effects.end()) continue;
+    const double strength = std::abs(material::strength_of(material::find_effect(kind.name)->parameters.front(), value));
+    const double s = diagnosis::signal_at(*known, strength), distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
+    text += fmt::format("\n[[modulus_signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", kind.name, s, known->rival_cosine, known->nearest_rival,
+                        0.5 * std::erfc(-distance / std::sqrt(2.0)));
+  }
+  return fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind, text);
+}
+
+}  // namespace
+
+std::vector<Trial> all_trials(const TrialOptions& options) {
+  std::vector<Trial> trials;
+  std::uint64_t seed = options.first_seed;
+  const auto add = [&](const std::string& kind, const std::string& what, std::vector<std::string> hidden, bool large, bool noisy) {
+    trials.push_back({fmt::format("{}-{}-{}{}-{}", kind, what, large ? "large" : "small", noisy ? "-noisy" : "", seed), kind, seed, large, noisy, std::move(hidden)});
+    ++seed;
+  };
+  for (int i = 0; i < options.nulls; ++i) add("null", "nothing", {}, true, i % 2 == 1);
+  std::vector<std::string> inside, outside;
+  for (const lab::EffectKind& kind : lab::effect_kinds()) (kind.in_library ? inside : outside).emplace_back(kind.name);
+  for (const std::string& name : inside)
+    for (const bool large : {true, false})
+      for (const bool noisy : {false, true})
+        for (int i = 0; i < options.seeds_per_effect; ++i) add("effect", name, {name}, large, noisy);
+  for (int i = 0; i < options.outside && !outside.empty(); ++i) add("outside", outside[static_cast<std::size_t>(i) % outside.size()], {outside[static_cast<std::size_t>(i) % outside.size()]}, true, i % 2 == 1);
+  RandomStream random(options.first_seed, "trials/doubles");
+  for (int i = 0; i < options.doubles; ++i) {
+    const int a = random.index(static_cast<int>(inside.size()));
+    const int b = (a + 1 + random.index(static_cast<int>(inside.size()) - 1)) % static_cast<int>(inside.size());
+    const std::string &first = inside[static_cast<std::size_t>(a)], &second = inside[static_cast<std::size_t>(b)];
+    add("double", first + "+" + second, {first, second}, true, false);
+  }
+  for (int i = 0; i < options.pairs; ++i) add("pair", i % 2 == 0 ? "droplet_mixing" : "rigid_overprint", {i % 2 == 0 ? "droplet_mixing" : "rigid_overprint"}, true, false);
+  return trials;
+}
+
+std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& options) {
+  const std::uint64_t design = trial.seed % kDesigns;
+  RandomStream random(design, "blind trials/design");
+  const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);
+  std::vector<lab::Question> questions;
+  std::vector<TestKind> tests = {TestKind::modulus};
+  if (options.fracture) tests.push_back(TestKind::toughness);
+  for (const TestKind test : tests) {
+    const auto add = [&](const pattern::Design& layout, const tester::TestConditions& conditions) {
+      questions.push_back({.design = layout, .test = test, .conditions = conditions, .fidelity = options.fidelity});
+    };
+    for (const pattern::Pattern& each : patterns) add(each, {});
+    if (trial.kind == "pair") continue;
+    for (int i = 0; i < kTwins; ++i) add(patterns[static_cast<std::size_t>(i)], {.orientation_deg = 90.0});
+    for (int i = kTwins; i < kTwins + 2; ++i) {
+      tester::TestConditions faster, thinner;
+      faster.strain_rate_per_s *= kSecondRate;
+      thinner.thickness_mm *= kSecondThickness;
+      add(patterns[static_cast<std::size_t>(i)], faster);
+      add(patterns[static_cast<std::size_t>(i + 2)], thinner);
+    }
+    for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
+  }
+  return questions;
+}
+
+void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder) {
+  const lab::Truth truth = truth_of(trial, options);
+  const std::vector<lab::Question> questions = questions_of(trial, options);
+  const std::string signals = sealed_signals(trial, options, truth, questions);
+  std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
+  parallel_for(static_cast<int>(questions.size()), [&](int i) { responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]); });
+  std::vector<measurement::SpecimenRecord> records = planned(questions);
+  // Printed in an order drawn from the seed.
+  std::vector<int> order;
+  for (std::size_t i = 0; i < records.size(); ++i) order.push_back(static_cast<int>(i) + 1);
+  RandomStream random(trial.seed, "trial/print order");
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::size_t q = i / kReplicates;
+    records[i] = lab::record_specimen(truth, questions[q], responses[q], {records[i].specimen, records[i].batch, order[i]});
+  }
+  std::filesystem::create_directories(folder);
+  measurement::write_measurement_set(folder / "set", records);
+  write_file_atomically(folder / "set.truth.toml", lab::to_toml(truth) + signals);
+}
+
+void diagnose(const TrialOptions& options, const std::filesystem::path& folder) {
+  const std::string answer = (folder / "diagnosis.json").string();
+  const std::string command = fmt::format("'{}/nacre' diagnose '{}' --fidelity {} --store '{}' --json > '{}.part' 2> '{}'", NACRE_BINARY_DIR, (folder / "set").string(), tester::to_string(options.fidelity),
+                                          (folder / "store").string(), answer, (folder / "log").string());
+  const int status = std::system(command.c_str());
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());
+  std::filesystem::rename(answer + ".part", answer);
+}
+
+}  // namespace nacre::blind_trials

@@ -1,0 +1,47 @@
+#pragma once
+// Trials of the diagnosis: what is hidden, which specimens are printed, and how a trial is played.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "diagnosis/plan.hpp"
+#include "virtual_lab/laboratory.hpp"
+
+namespace nacre::blind_trials {
+
+/// One trial before it is played. Everything follows from it: designs, constants, scatter.
+struct Trial {
+  std::string name;     ///< unique, a file name
+  std::string kind;     ///< null, effect, outside, double, pair
+  std::uint64_t seed = 1;
+  bool large = true;    ///< size of the effects: the upper or the lower third of what the laboratory draws
+  bool noisy = false;   ///< twice the scatter
+  std::vector<std::string> hidden;  ///< names of the laboratory's effects
+};
+
+struct TrialOptions {
+  tester::Fidelity fidelity = tester::Fidelity::tiny;
+  bool fracture = false;  ///< toughness specimens beside the moduli
+  int nulls = 149, outside = 40, doubles = 30, pairs = 20;
+  int seeds_per_effect = 3;
+  std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
+};
+
+/// All trials of a study, nulls first.
+std::vector<Trial> all_trials(const TrialOptions& options);
+
+/// One of three fixed designs of 16 layouts, by the trial's seed: random patterns over the strata, turned twins, checkerboards, a second rate and a thinner
+/// twin. Pairs are played without what tells their causes apart: no twins, no checkerboards.
+std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
+
+/// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens could show
+/// what is hidden (signal-to-noise, nearest rival, chance that all rivals lose), computed before scatter is drawn.
+void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
+
+/// `nacre diagnose FOLDER/set` as a program of its own, answer in FOLDER/diagnosis.json; fracture simulations are kept in FOLDER/store. Throws InputError when
+/// it fails.
+void diagnose(const TrialOptions& options, const std::filesystem::path& folder);
+
+}  // namespace nacre::blind_trials

@@ -1,0 +1,277 @@
+#include "diagnosis/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/result.hpp"
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/experiments.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+using measurement::SpecimenRecord;
+using tester::TestKind;
+
+constexpr int kTypicalSize = 2;  // index of 0.3 among the sizes of a signature
+constexpr int kAddedReplicates = 3;
+
+/// What the specimens would show if the start parameters were the truth: values for whatever they lack.
+void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
+  sysid::LocalSimulator simulator(settings.fidelity, settings.threads, settings.store);
+  std::vector<measurement::Replicates> notched;
+  std::vector<SpecimenRecord*> of;
+  for (SpecimenRecord& specimen : specimens) {
+    specimen.valid = true;
+    specimen.modulus_pa.reset();
+    specimen.toughness_pa.reset();
+    if (specimen.test == TestKind::modulus) {
+      const auto result = tester::test_modulus({specimen.design, settings.start, specimen.conditions, settings.fidelity});
+      if (result) specimen.modulus_pa = result->modulus_pa;
+    } else if (specimen.test == TestKind::tensile) {
+      const std::vector<double> history = specimen.curve.empty() ? unload_history() : specimen.curve.strain;
+      if (auto curve = tester::test_tensile({specimen.design, settings.start, specimen.conditions, settings.fidelity}, history)) specimen.curve = *std::move(curve);
+    } else if (specimen.design.layout()) {
+      measurement::Replicates one;
+      one.design = specimen.design;
+      one.conditions = specimen.conditions;
+      notched.push_back(one);
+      of.push_back(&specimen);
+    }
+  }
+  if (notched.empty()) return;
+  std::vector<std::size_t> items(notched.size());
+  for (std::size_t i = 0; i < items.size(); ++i) items[i] = i;
+  material::ParameterSet start = settings.start;
+  start.extensions.clear();
+  const auto answers = simulator.simulate(notched, {{"planned", start, false, true, items}});
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    of[i]->toughness_pa = answers[0][i].toughness_pa;
+    of[i]->curve = answers[0][i].curve;
+    of[i]->valid = answers[0][i].toughness_pa.has_value();
+  }
+}
+
+SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
+  SpecimenRecord specimen;
+  specimen.design = test.design;
+  specimen.test = test.test;
+  specimen.conditions = test.conditions;
+  specimen.specimen = fmt::format("added {} {} {} {} {} {}", test.design.name(), tester::to_string(test.test), test.conditions.orientation_deg, test.conditions.strain_rate_per_s,
+                                  test.conditions.thickness_mm, replicate);
+  return specimen;
+}
+
+/// Tests that a person would order together, by what they are called.
+std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations, tester::Fidelity fidelity) {
+  constexpr std::size_t kMost = 3;
+  std::map<std::string, std::vector<PossibleTest>> result;
+  for (const PossibleTest& test : possible_tests(observations, fidelity)) {
+    const bool twin = test.words.find("twin") != std::string::npos;
+    if (!twin && test.test == TestKind::toughness) continue;  // the same as a modulus says, for more
+    std::string name = test.words;
+    if (name.find("checkerboard") != std::string::npos) name = "checkerboards of period 1, 2 and 5";
+    if (name.find("laminate") != std::string::npos) name = "laminates of period 1, 2 and 5, across and along the pull";
+    if (name.find("pure coupon") != std::string::npos) name = "pure coupons at two rates, unloaded on the way";
+    if (twin) name += fmt::format(", {} tests", tester::to_string(test.test));
+    auto& tests = result[name];
+    if (!twin || tests.size() < kMost) tests.push_back(test);
+  }
+  return result;
+}
+
+void assume_scatter(Observations& observations, const PlannedScatter& scatter) {
+  for (std::size_t t = 0; t < observations.scatter.size(); ++t) {
+    Eigen::MatrixXd& covariance = observations.scatter[t].covariance;
+    covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
+    for (int i = 0; i < kFeatureCount; ++i) {
+      const auto feature = static_cast<Feature>(i);
+      const bool strain = feature == Feature::toe_strain || feature == Feature::set_strain;
+      double sd = feature == Feature::log_modulus ? scatter.modulus : strain ? scatter.toe_strain : feature == Feature::log_peak_strain ? scatter.strain : scatter.stress;
+      if (feature == Feature::knee) sd = scatter.strain;
+      covariance(i, i) = sd * sd;
+    }
+    // Stresses of one specimen go together: a thicker print is stiffer from the first strain to the last.
+    constexpr double kTogether = 0.9;
+    const auto stress = [](int i) {
+      const auto f = static_cast<Feature>(i);
+      return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 || f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
+    };
+    for (int i = 0; i < kFeatureCount; ++i)
+      for (int j = 0; j < kFeatureCount; ++j)
+        if (i != j && stress(i) && stress(j)) covariance(i, j) = kTogether * scatter.stress * scatter.stress;
+  }
+}
+
+/// Signatures of all acting effects over all rows, base and covariance: what every subset of rows is judged by.
+struct Sheet {
+  const Observations& observations;
+  Fit base;
+  std::vector<Signature> signatures;
+  Eigen::MatrixXd covariance;
+};
+
+Fit restricted(const Fit& fit, const std::vector<Eigen::Index>& rows) {
+  Fit part = fit;
+  part.predicted = fit.predicted(rows);
+  part.jacobian = fit.jacobian(rows, Eigen::all);
+  return part;
+}
+
+/// Smallest size, as a strength, at which `judged` reaches `wanted`: between the sizes of a signature in log scale; nothing beyond them.
+std::optional<double> smallest(const std::vector<double>& judged, double wanted) {
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (judged[i] < wanted) continue;
+    if (i == 0) return kSizes[0] * wanted / judged[0];
+    const double t = std::log(wanted / std::max(judged[i - 1], 1e-9)) / std::log(judged[i] / std::max(judged[i - 1], 1e-9));
+    return std::exp(std::log(kSizes[i - 1]) + t * std::log(kSizes[i] / kSizes[i - 1]));
+  }
+  return std::nullopt;
+}
+
+std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
+  const Fit base = restricted(sheet.base, rows);
+  const Whitener whitener(sheet.covariance(rows, rows));
+  constexpr std::size_t kCount = std::size(kSizes);
+  std::vector<Eigen::MatrixXd> projected;
+  std::vector<double> absorption;
+  for (const Signature& signature : sheet.signatures) {
+    std::vector<Eigen::VectorXd> changes;
+    for (std::size_t i = 0; i < kCount; ++i) changes.emplace_back(signature.changes[i](rows));
+    projected.push_back(projected_signatures(base, changes, whitener));
+    absorption.push_back(signature_size(base, changes[kTypicalSize], whitener).absorption());
+  }
+  std::vector<PlannedEffect> effects;
+  for (const material::Effect& effect : material::effect_library()) {
+    PlannedEffect planned{std::string(effect.name), std::string(effect.family), std::string(effect.parameters.front().unit), "not_shown", {}, {}, 0.0, 0.0, "", 0.0, {}};
+    const auto found = std::find_if(sheet.signatures.begin(), sheet.signatures.end(), [&](const Signature& s) { return s.effect == effect.name; });
+    const auto k = static_cast<std::size_t>(found - sheet.signatures.begin());
+    if (found == sheet.signatures.end() || projected[k].col(kTypicalSize).norm() < 1e-6) {
+      effects.push_back(planned);
+      continue;
+    }
+    std::vector<double> signal, distance;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const auto own = projected[k].col(static_cast<Eigen::Index>(i));
+      double nearest = 0.0;
+      std::string rival;
+      for (std::size_t j = 0; j < projected.size(); ++j) {
+        const auto other = projected[j].col(kTypicalSize);
+        const double lengths = own.norm() * other.norm();
+        if (j == k || lengths < 1e-6) continue;
+        const double cosine = std::min(1.0, std::abs(own.dot(other)) / lengths);
+        if (cosine > nearest) nearest = cosine, rival = sheet.signatures[j].effect;
+      }
+      signal.push_back(own.norm());
+      distance.push_back(own.norm() * std::sqrt((1.0 - nearest) / 2.0));
+      if (i == kTypicalSize) planned.nearest_rival = rival, planned.rival_cosine = nearest;
+    }
+    const material::EffectParameter& parameter = effect.parameters.front();
+    const auto value = [&](const std::optional<double>& strength) { return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt; };
+    planned.absorption = absorption[k];
+    planned.signal_to_noise = signal[kTypicalSize];
+    planned.signals = signal;
+    const auto seen = smallest(signal, kVisibleSignal), apart = smallest(distance, kToldApart);
+    planned.smallest_seen = value(seen);
+    planned.smallest_told_apart = seen && apart ? value(std::max(*seen, *apart)) : std::nullopt;
+    planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
+    effects.push_back(planned);
+  }
+  return effects;
+}
+
+double strength_told_apart(const PlannedEffect& effect) {
+  if (!effect.smallest_told_apart) return 1.0;
+  return std::clamp(material::strength_of(material::find_effect(effect.name)->parameters.front(), *effect.smallest_told_apart), 1e-3, 1.0);
+}
+
+PlannedAddition compare(const std::string& words, const std::vector<PossibleTest>& tests, const std::vector<PlannedEffect>& before, const std::vector<PlannedEffect>& after) {
+  PlannedAddition addition;
+  addition.words = words;
+  addition.replicates = kAddedReplicates;
+  for (const PossibleTest& test : tests)
+    addition.specimens.push_back(fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(), test.conditions.orientation_deg,
+                                             test.conditions.strain_rate_per_s, test.conditions.thickness_mm));
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const double gained = std::log(strength_told_apart(before[k]) / strength_told_apart(after[k]));
+    addition.score += std::max(gained, 0.0);
+    const bool worth_telling = before[k].status != after[k].status || gained > std::log(1.5);
+    if (worth_telling) addition.changes.push_back({before[k].name, before[k].status, after[k].status, after[k].smallest_told_apart});
+  }
+  return addition;
+}
+
+}  // namespace
+
+double signal_at(const PlannedEffect& effect, double strength) {
+  if (effect.signals.empty() || strength <= 0.0) return 0.0;
+  std::size_t i = 1;
+  while (i + 1 < effect.signals.size() && kSizes[i] < strength) ++i;
+  const double low = std::max(effect.signals[i - 1], 1e-9), high = std::max(effect.signals[i], 1e-9);
+  return low * std::pow(high / low, std::log(strength / kSizes[i - 1]) / std::log(kSizes[i] / kSizes[i - 1]));
+}
+
+Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings, const PlannedScatter& scatter, bool additions) {
+  fill_in(specimens, settings);
+  const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics);
+  const auto added = additions ? bundles(alone, settings.fidelity) : std::map<std::string, std::vector<PossibleTest>>{};
+  std::vector<SpecimenRecord> all = specimens, more;
+  for (const auto& [words, tests] : added)
+    for (const PossibleTest& test : tests)
+      for (int r = 0; r < kAddedReplicates; ++r) more.push_back(specimen_of(test, r));
+  fill_in(more, settings);
+  all.insert(all.end(), more.begin(), more.end());
+  DiagnosisSettings given = settings;
+  given.search_budget = 0;
+  Workbench workbench(all, given);
+  Observations& observations = workbench.observations();
+  assume_scatter(observations, scatter);
+  const CoordinateMap map = workbench.model().base_map();
+  Sheet sheet{observations, linearised(workbench.model(), map.coordinates(settings.start)), {}, {}};
+  if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
+    observations.numerics_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, sheet.base.u);
+    observations.numerics_sd = settings.floor.mesh_remainder_sd;
+  }
+  sheet.covariance = observations.covariance();
+  sheet.signatures = signatures_on(workbench.model(), sheet.base, workbench.effects());
+
+  const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
+    std::vector<Eigen::Index> rows;
+    for (int i = 0; i < observations.size(); ++i) {
+      const Row& row = observations.rows[static_cast<std::size_t>(i)];
+      const auto is = [&](const auto& other) { return other.design == observations.group_of(i).design && other.test == row.test && other.conditions == observations.group_of(i).conditions; };
+      if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is) || std::any_of(tests.begin(), tests.end(), is)) rows.push_back(i);
+    }
+    return rows;
+  };
+  Plan plan;
+  plan.specimens = static_cast<int>(specimens.size());
+  plan.groups = static_cast<int>(alone.groups.size());
+  plan.effects = judge(sheet, rows_with({}));
+  for (const auto& [words, tests] : added) {
+    PlannedAddition addition = compare(words, tests, plan.effects, judge(sheet, rows_with(tests)));
+    if (!addition.changes.empty()) plan.additions.push_back(std::move(addition));
+  }
+  std::stable_sort(plan.additions.begin(), plan.additions.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  return plan;
+}
+
+std::string to_json(const Plan& plan) {
+  using nlohmann::ordered_json;
+  const auto or_null = [](const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(nullptr); };
+  ordered_json effects = ordered_json::array(), additions = ordered_json::array();
+  for (const PlannedEffect& e : plan.effects) {
+    effects.push_back({{"name", e.name}, {"family", e.family}, {"status", e.status}, {"smallest_seen", or_null(e.smallest_seen)}, {"smallest_told_apart", or_null(e.smallest_told_apart)},
+                       {"unit", e.unit}, {"absorption", e.absorption}, {"signal_to_noise", e.signal_to_noise}, {"nearest_rival", e.nearest_rival}, {"rival_cosine", e.rival_cosine}});
+  }
+  for (const PlannedAddition& a : plan.additions) {
+    ordered_json changes = ordered_json::array();
+    for (const auto& c : a.changes) changes.push_back({{"effect", c.effect}, {"from", c.from}, {"to", c.to}, {"smallest_told_apart", or_null(c.told_apart_from)}});
+    additions.push_back({{"words", a.words}, {"specimens", a.specimens}, {"replicates", a.replicates}, {"score", a.score}, {"changes", changes}});
+  }
+  return ordered_json{{"specimens", plan.specimens}, {"groups", plan.groups}, {"effects", effects}, {"additions", additions}}.dump(2);
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,91 @@
+#include "diagnosis/sanity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+using tester::TestKind;
+
+struct Variant {
+  const char* words;
+  tester::Numerics numerics;
+  double gamma = 1.0;  ///< factor: the filter of Eq. 2.4 amounts to a viscosity gamma h^2
+};
+
+std::vector<Variant> variants() {
+  Variant step{"half the time step", {}}, rate{"half the simulated rate", {}}, recording{"doubled recording", {}}, element{"half the element size", {}, 4.0};
+  step.numerics.time_step_scale = 0.5;
+  rate.numerics.rate_scale = 0.5;
+  recording.numerics.recording_scale = 2;
+  element.numerics.refinement = 2;
+  return {step, rate, recording, element};
+}
+
+/// Upright layouts of one test: least, middling and most rigid.
+std::vector<int> three_groups(const Observations& observations, TestKind test) {
+  std::vector<int> groups;
+  for (std::size_t g = 0; g < observations.groups.size(); ++g) {
+    const Observation& group = observations.groups[g];
+    if (group.test == test && group.design.layout() && group.conditions == tester::TestConditions{}) groups.push_back(static_cast<int>(g));
+  }
+  std::stable_sort(groups.begin(), groups.end(), [&](int a, int b) {
+    return observations.groups[static_cast<std::size_t>(a)].design.rigid_fraction() < observations.groups[static_cast<std::size_t>(b)].design.rigid_fraction();
+  });
+  if (groups.size() <= 3) return groups;
+  return {groups.front(), groups[groups.size() / 2], groups.back()};
+}
+
+FeatureValues features_with(const Observation& group, material::ParameterSet set, tester::Fidelity fidelity, const Variant& variant) {
+  FeatureValues values;
+  set.toughness.gamma_per_s *= variant.gamma;
+  const tester::Simulation simulation{group.design, set, group.conditions, fidelity};
+  if (group.test == TestKind::modulus) {
+    if (const auto result = tester::test_modulus(simulation, variant.numerics)) value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
+  } else if (const auto result = tester::test_toughness(simulation, variant.numerics)) {
+    values = fracture_features(result->curve);
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<SanityCheck> check_numerics(const Observations& observations, const material::ParameterSet& set, tester::Fidelity fidelity) {
+  std::vector<Variant> tried = {{"", {}, 1.0}};
+  for (const Variant& variant : variants()) tried.push_back(variant);
+  const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
+  std::vector<SanityCheck> checks;
+  for (const auto test : {TestKind::modulus, TestKind::toughness}) {
+    const std::vector<int> groups = three_groups(observations, test);
+    std::vector<std::vector<FeatureValues>> values(groups.size(), std::vector<FeatureValues>(tried.size()));
+    parallel_for(static_cast<int>(groups.size() * tried.size()), [&](int job) {
+      const std::size_t g = static_cast<std::size_t>(job) / tried.size(), v = static_cast<std::size_t>(job) % tried.size();
+      // A static test has neither time step nor rate.
+      if (test == TestKind::modulus && v != 0 && tried[v].numerics.refinement == 1) return;
+      values[g][v] = features_with(observations.groups[static_cast<std::size_t>(groups[g])], set, fidelity, tried[v]);
+    });
+    for (std::size_t v = 1; v < tried.size(); ++v) {
+      for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
+        SanityCheck check{tried[v].words, feature, 0.0, 0.0, false};
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+          const auto &before = value_of(values[g][0], feature), &after = value_of(values[g][v], feature);
+          if (!before || !after) continue;
+          check.largest = std::max(check.largest, std::abs(*after - *before));
+          for (int i = 0; i < observations.size(); ++i) {
+            const Row& row = observations.rows[static_cast<std::size_t>(i)];
+            if (row.group == groups[g] && row.feature == feature) check.allowed = std::max(check.allowed, deviations[i]);
+          }
+        }
+        if (check.allowed == 0.0) continue;
+        check.numerical = check.largest > 2.0 * check.allowed;
+        checks.push_back(check);
+      }
+    }
+  }
+  return checks;
+}
+
+}  // namespace nacre::diagnosis

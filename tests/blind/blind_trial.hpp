@@ -1,0 +1,108 @@
+#pragma once
+// Sealed trials: printed and measured by the virtual laboratory, diagnosed by `nacre diagnose` as a program of its own, opened for scoring.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/random.hpp"
+#include "measurement/measurement.hpp"
+#include "pattern/coupons.hpp"
+#include "pattern/random_pattern.hpp"
+#include "virtual_lab/laboratory.hpp"
+
+namespace nacre::blind {
+
+inline constexpr int kReplicates = 4;
+
+/// A scratch folder of its own, removed at the end.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "nacre-blind-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Modulus specimens of random patterns over the strata, turned twins of the first, checkerboards of the periods given.
+inline std::vector<virtual_laboratory::Question> printed(std::uint64_t seed, int patterns, int twins, const std::vector<int>& checkerboards) {
+  RandomStream random(seed, "blind trial patterns");
+  const std::vector<pattern::Pattern> drawn = pattern::stratified_patterns(patterns, random);
+  std::vector<virtual_laboratory::Question> questions;
+  const auto add = [&](const pattern::Design& design, double orientation_deg) {
+    virtual_laboratory::Question question;
+    question.design = design;
+    question.conditions.orientation_deg = orientation_deg;
+    questions.push_back(question);
+  };
+  for (const pattern::Pattern& each : drawn) add(each, 0.0);
+  for (int i = 0; i < twins; ++i) add(drawn[static_cast<std::size_t>(i)], 90.0);
+  for (const int period : checkerboards) add(pattern::checkerboard(period), 0.0);
+  return questions;
+}
+
+/// LAB.toml; `noise` is the content of its table [noise].
+inline std::string laboratory_file(int seed, const std::string& fidelity, const std::string& noise, const std::string& effect = "", const std::string& value = "") {
+  std::string toml = "seed = " + std::to_string(seed) + "\nfidelity = \"" + fidelity + "\"\nreplicates = 4\n[noise]\n" + noise;
+  if (!effect.empty()) toml += "[[effect]]\nname = \"" + effect + "\"\nvalue = " + value + "\n";
+  return toml;
+}
+
+struct Trial {
+  nlohmann::json diagnosis;
+  virtual_laboratory::Truth truth;
+};
+
+using Questions = std::function<std::vector<virtual_laboratory::Question>(std::uint64_t seed)>;
+
+/// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and the opened truth.
+inline Trial run_trial(const std::string& laboratory, const Questions& questions, const std::string& fidelity) {
+  const Scratch scratch;
+  Trial trial;
+  trial.truth = virtual_laboratory::parse_laboratory(laboratory, "trial");
+  std::vector<measurement::SpecimenRecord> records;
+  int print_order = 0;
+  for (const auto& question : questions(trial.truth.seed)) {
+    const auto response = virtual_laboratory::respond(trial.truth, question);
+    for (int i = 0; i < kReplicates; ++i) {
+      const std::string name = question.design.name() + "-" + std::string(tester::to_string(question.test)) + (question.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
+      records.push_back(virtual_laboratory::record_specimen(trial.truth, question, response, {name, "batch " + std::to_string(i), ++print_order}));
+    }
+  }
+  measurement::write_measurement_set(scratch.folder() / "set", records);
+  const std::string command = std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + (scratch.folder() / "set").string() + " --fidelity " + fidelity + " --json";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string output;
+  std::array<char, 4096> buffer{};
+  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;) output.append(buffer.data(), count);
+  trial.diagnosis = nlohmann::json::parse(output);
+  return trial;
+}
+
+/// The hidden effect alone is named, its size lies within `tolerance` (relative), and the extended model predicts held-out patterns better.
+inline void expect_found(const Trial& trial, const std::string& effect, double value, double tolerance) {
+  const nlohmann::json& d = trial.diagnosis;
+  ASSERT_EQ(d["verdict"], "named") << d["summary"] << d["candidates"].dump(1);
+  ASSERT_EQ(d["effects"].size(), 1u) << d["summary"];
+  EXPECT_EQ(d["effects"][0]["name"], effect);
+  EXPECT_NEAR(d["effects"][0]["parameter"].get<double>(), value, tolerance * std::abs(value));
+  EXPECT_LT(d["gain"]["held_out_error_after"].get<double>(), d["gain"]["held_out_error_before"].get<double>());
+}
+
+}  // namespace nacre::blind
