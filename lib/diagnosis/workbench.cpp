@@ -18,6 +18,13 @@ constexpr double kSpread = 0.3;
 constexpr double kRunSizes[] = {0.1, 0.3, 0.6};
 constexpr double kJitter = 0.05;
 
+constexpr double kNothing = 1e-9;
+
+/// Effects whose traces in E are calibrated against the numerics so far, and those of the machine; the others need a test beside moduli to be named by.
+bool tells_on_moduli(const material::Effect& effect) {
+  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" || effect.name == "droplet_mixing";
+}
+
 void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
   material::ToughnessVector eta = to_vector(parameters);
   for (std::size_t k = 0; k < searched_eta().size(); ++k) eta[static_cast<std::size_t>(searched_eta()[k])] *= std::exp(sign * spread * normal[k]);
@@ -73,12 +80,22 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
     u.head(start.size()) = start;
     const int own = map.base_count();
     for (int i = own + 1; i < map.size(); ++i) u[i] = map.usual(i);
-    double largest = 0.0;
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(observations.size());
     for (const double size : {0.1, 0.6}) {
       u[own] = std::clamp(size, map.lower(own), map.upper(own));
-      largest = std::max(largest, (model.predict(map, u) - plain).cwiseAbs().maxCoeff());
+      change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
     }
-    if (largest > 1e-9 && observations.size() > 0) acting.push_back(names.front());
+    if (tells_on_moduli(effect)) {
+      if (change.maxCoeff() > kNothing) acting.push_back(names.front());
+      continue;
+    }
+    for (int i = 0; i < observations.size(); ++i) {
+      const Row& row = observations.rows[static_cast<std::size_t>(i)];
+      const bool modulus_of_layout = row.probe == Probe::mean && row.test == tester::TestKind::modulus && observations.group_of(i).design.layout();
+      if (modulus_of_layout || change[i] <= kNothing) continue;
+      acting.push_back(names.front());
+      break;
+    }
   }
   return acting;
 }
