@@ -5,26 +5,6 @@
 #include <numeric>
 
 namespace nacre {
-namespace {
-
-/// Ranks from 1; equal values share the mean of the ranks they span.
-std::vector<double> ranks_of(std::span<const double> values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::vector<double> ranks(values.size());
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t last = first;
-    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) ++last;
-    const double shared = 1.0 + 0.5 * static_cast<double>(first + last);
-    for (std::size_t i = first; i <= last; ++i) ranks[order[i]] = shared;
-    first = last + 1;
-  }
-  return ranks;
-}
-
-}  // namespace
-
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -49,6 +29,21 @@ double quantile(std::vector<double> values, double share) {
   const auto below = static_cast<std::size_t>(place);
   if (below + 1 >= values.size()) return values.back();
   return std::lerp(values[below], values[below + 1], place - static_cast<double>(below));
+}
+
+std::vector<double> ranks_of(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t last = first;
+    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) ++last;
+    const double shared = 1.0 + 0.5 * static_cast<double>(first + last);
+    for (std::size_t i = first; i <= last; ++i) ranks[order[i]] = shared;
+    first = last + 1;
+  }
+  return ranks;
 }
 
 double rank_correlation(std::span<const double> a, std::span<const double> b) {

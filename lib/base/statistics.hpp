@@ -18,6 +18,9 @@ double standard_deviation(std::span<const double> values);
 /// The value below which a share in [0, 1] of the values lies, interpolated between neighbours. At least one value.
 double quantile(std::vector<double> values, double share);
 
+/// Ranks from 1; equal values share the mean of the ranks they span.
+std::vector<double> ranks_of(std::span<const double> values);
+
 /// Spearman's rank correlation, ties sharing their mean rank; 0 below three pairs or when one side does not vary. Both
 /// sides of the same length.
 double rank_correlation(std::span<const double> a, std::span<const double> b);

@@ -2,22 +2,12 @@
 
 #include <optional>
 
-#include "base/files.hpp"
-#include "base/result.hpp"
-
-#include <toml++/toml.h>
+#include "base/toml_file.hpp"
 
 namespace nacre::diagnosis {
 
 ModulusFloor read_modulus_floor(const std::filesystem::path& file, tester::Fidelity fidelity) {
-  const std::string text = read_file(file);
-  const toml::parse_result table = [&] {
-    try {
-      return toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
-  }();
+  const toml::table table = read_toml_file(file);
   const auto section = table[tester::to_string(fidelity)];
   const auto number = [&](const char* key, double largest, std::optional<double> otherwise) {
     const auto value = section[key] ? section[key].value<double>() : otherwise;

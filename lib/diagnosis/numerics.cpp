@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "base/files.hpp"
-#include "base/result.hpp"
-
-#include <toml++/toml.h>
+#include "base/toml_file.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -36,14 +33,7 @@ double FractureNumerics::covariance(Feature a, Feature b, double z_a, double z_b
 }
 
 FractureNumerics read_fracture_numerics(const std::filesystem::path& file, tester::Fidelity fidelity) {
-  const std::string text = read_file(file);
-  const toml::parse_result document = [&] {
-    try {
-      return toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
-  }();
+  const toml::table document = read_toml_file(file);
   FractureNumerics floor;
   const toml::table* table = document[tester::to_string(fidelity)]["curve"].as_table();
   if (table == nullptr) return floor;

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/random.hpp"
 #include "base/result.hpp"
@@ -12,21 +11,10 @@
 namespace nacre::families {
 namespace {
 
-/// Ranks, ties sharing their mean, centred.
 Eigen::VectorXd centred_ranks(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
-  Eigen::VectorXd ranks(static_cast<Eigen::Index>(values.size()));
-  for (std::size_t begin = 0; begin < order.size();) {
-    std::size_t end = begin;
-    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
-    for (std::size_t k = begin; k < end; ++k)
-      ranks[static_cast<Eigen::Index>(order[k])] = 0.5 * static_cast<double>(begin + end - 1);
-    begin = end;
-  }
-  ranks.array() -= ranks.mean();
-  return ranks;
+  const std::vector<double> ranks = ranks_of(values);
+  const Eigen::Map<const Eigen::VectorXd> vector(ranks.data(), static_cast<Eigen::Index>(ranks.size()));
+  return vector.array() - vector.mean();
 }
 
 double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {

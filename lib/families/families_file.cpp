@@ -1,11 +1,9 @@
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <set>
 
-#include "base/files.hpp"
-#include "base/result.hpp"
+#include "base/toml_file.hpp"
 #include "families/grouping.hpp"
 
 namespace nacre::families {
@@ -53,14 +51,7 @@ std::string to_toml(const std::vector<Family>& families) {
 }
 
 std::vector<Family> read_families(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
-  const toml::parse_result document = [&] {
-    try {
-      return toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
-  }();
+  const toml::table document = read_toml_file(file);
   const toml::array* tables = document["family"].as_array();
   if (tables == nullptr) throw InputError::format("{}: expected [[family]] tables", file.string());
   std::vector<Family> families;

@@ -1,21 +1,12 @@
-#include <toml++/toml.h>
-
 #include <cmath>
 
-#include "base/files.hpp"
+#include "base/toml_file.hpp"
 #include "sysid/calibration.hpp"
 
 namespace nacre::sysid {
 
 NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity) {
-  const std::string text = read_file(file);
-  const toml::parse_result document = [&] {
-    try {
-      return toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-      throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
-  }();
+  const toml::table document = read_toml_file(file);
   const toml::table* table = document[tester::to_string(fidelity)].as_table();
   NumericsFloor floor;
   if (table == nullptr) return floor;

@@ -11,6 +11,7 @@
 #include "played_game.hpp"
 #include "program_test.hpp"
 #include "runtime/run_copy.hpp"
+#include "short_game.hpp"
 #include "store/database_care.hpp"
 #include "store/run_schema.hpp"
 
@@ -18,26 +19,6 @@ namespace nacre {
 namespace {
 
 constexpr double kPatienceS = 240.0;
-constexpr const char* kGame = R"(
-name = "durable"
-rounds = 1
-fidelity = "tiny"
-[proposal]
-samples = 10
-seeds = 1
-population = 5
-designs = 1
-[validation]
-random_patterns = 2
-replicates = 2
-calibration_evaluations = 3
-modulus_evaluations = 6
-mixtures = [0.5]
-[diagnosis]
-discrimination_orders = 0
-bootstraps = 1000
-)";
-
 /// The whole content of a database as SQL.
 std::string content(const fs::path& database) {
   SQLite::Database db(database.string(), SQLite::OPEN_READONLY, 10'000);
@@ -62,7 +43,7 @@ class Durability : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = fresh_folder("durability");
-    std::ofstream(folder_ / "durable.toml") << kGame;
+    std::ofstream(folder_ / "durable.toml") << short_game("durable", 1);
     game_ = std::make_unique<PlayedGame>(folder_ / "durable.toml", folder_ / "logs", "game");
     game_->play_until([] { return journal_bytes(game_->folder(), "validation_agent") > 20'000; }, kPatienceS);
     is_playing_at_backup_ = !game_->is_over();

@@ -23,32 +23,13 @@
 #include "disturber.hpp"
 #include "program.hpp"
 #include "runtime/journal.hpp"
+#include "short_game.hpp"
 
 namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-constexpr const char* kGame = R"(
-name = "campaign"
-rounds = 1
-fidelity = "tiny"
-[proposal]
-samples = 10
-seeds = 1
-population = 5
-designs = 1
-[validation]
-random_patterns = 2
-replicates = 2
-calibration_evaluations = 3
-modulus_evaluations = 6
-mixtures = [0.5]
-[diagnosis]
-discrimination_orders = 0
-bootstraps = 1000
-)";
 
 constexpr double kPatienceS = 300.0;  // for one disturbed game
 constexpr int kMostResumptions = 40;
@@ -208,7 +189,7 @@ int run_campaign(const Options& options) {
   fs::create_directories(options.folder);
   const fs::path folder = fs::canonical(options.folder), scenario = folder / "campaign.toml",
                  table = folder / "games.csv";
-  std::ofstream(scenario) << kGame;
+  std::ofstream(scenario) << short_game("campaign", 1);
   const Traces expected = undisturbed_game(scenario, folder / "undisturbed");
   if (!fs::exists(table)) std::ofstream(table) << kHead;
   const std::set<int> known = seeds_played(table);

@@ -18,6 +18,7 @@
 #include "runtime/log_file.hpp"
 #include "runtime/round_history.hpp"
 #include "runtime/run_folder.hpp"
+#include "short_game.hpp"
 #include "wire/channels.hpp"
 #include "wire/codec.hpp"
 #include "wire/header.hpp"
@@ -26,30 +27,6 @@ namespace nacre {
 namespace {
 
 constexpr double kPatienceS = 240.0;  // for one game, on a machine that does other things too
-
-constexpr const char* kShortGame = R"(
-name = "short"
-seed = 1
-rounds = 2
-fidelity = "tiny"
-
-[proposal]
-samples = 10
-seeds = 1
-population = 5
-designs = 1
-
-[validation]
-random_patterns = 2
-replicates = 2
-calibration_evaluations = 3
-modulus_evaluations = 6
-mixtures = [0.5]
-
-[diagnosis]
-discrimination_orders = 0
-bootstraps = 1000
-)";
 
 fs::path written(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
@@ -62,7 +39,7 @@ class Game : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = fresh_folder("games");
-    short_game_ = written(folder_ / "short.toml", kShortGame);
+    short_game_ = written(folder_ / "short.toml", short_game("short", 2));
     undisturbed_ = std::make_unique<PlayedGame>(short_game_, folder_ / "logs", "undisturbed");
     undisturbed_->play_to_end(kPatienceS);
   }
@@ -203,7 +180,7 @@ std::vector<measurement::SpecimenRecord> specimens_of_round(const fs::path& run,
 }
 
 TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
-  std::string text = kShortGame;
+  std::string text = short_game("short", 2);
   text += "\n[laboratory]\nvirtual_lab = false\n";
   PlayedGame game(written(folder_ / "by_hand.toml", text), logs(), "by_hand");
   const auto ordered = [&](int round) {
@@ -284,8 +261,7 @@ class ScatteredLaboratory {
 };
 
 TEST_F(Game, EndsByEquilibriumBeforeItsRoundLimit) {
-  std::string text = kShortGame;
-  text.replace(text.find("rounds = 2"), 10, "rounds = 5");
+  std::string text = short_game("short", 5);
   text += "\n[laboratory]\nvirtual_lab = false\n";
   PlayedGame game(written(folder_ / "scattered.toml", text), logs(), "scattered");
   ScatteredLaboratory laboratory(folder_, game.folder());

@@ -13,6 +13,7 @@
 #include "material/parameters.hpp"
 #include "played_game.hpp"
 #include "program_test.hpp"
+#include "short_game.hpp"
 #include "simulator_farm/question.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
@@ -278,29 +279,9 @@ TEST_F(Cluster, AQuestionThatKillsItsTasksStopsTheFarmWithTheReason) {
   EXPECT_THAT(said, AllOf(HasSubstr("never came back"), HasSubstr("cannot load this library")));
 }
 
-constexpr const char* kGame = R"(
-name = "cluster"
-rounds = 1
-fidelity = "tiny"
-[proposal]
-samples = 10
-seeds = 1
-population = 5
-designs = 1
-[validation]
-random_patterns = 2
-replicates = 2
-calibration_evaluations = 3
-modulus_evaluations = 6
-mixtures = [0.5]
-[diagnosis]
-discrimination_orders = 0
-bootstraps = 1000
-)";
-
 TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
-  std::ofstream(folder_ / "threads.toml") << kGame;
-  std::ofstream(folder_ / "slurm.toml") << kGame << "[farm]\nexecutor = \"slurm\"\nbatch_s = 1\n";
+  std::ofstream(folder_ / "threads.toml") << short_game("cluster", 1);
+  std::ofstream(folder_ / "slurm.toml") << short_game("cluster", 1) << "[farm]\nexecutor = \"slurm\"\nbatch_s = 1\n";
   std::map<std::string, SaidInGame> said;
   for (const std::string executor : {"threads", "slurm"}) {
     PlayedGame game(folder_ / (executor + ".toml"), folder_ / executor, "game");
