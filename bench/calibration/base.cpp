@@ -19,7 +19,7 @@ void study_base_materials(const Options& options) {
   if (table.has({options.fidelity, "rigid"})) return;
   const std::vector<measurement::Replicates> measured =
       game::read_base_materials(NACRE_SOURCE_DIR "/data/thesis/base_materials.csv");
-  sysid::LocalSimulator simulator = kept_simulator(options);
+  sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   sysid::CalibrationSettings settings;
   settings.target = material::FitTarget::base;
   settings.start = material::default_parameters();

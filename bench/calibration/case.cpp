@@ -47,10 +47,10 @@ Case measured_case(std::uint64_t seed, const Options& options, const std::functi
   return result;
 }
 
-sysid::LocalSimulator kept_simulator(const Options& options) {
-  const auto fidelity = tester::fidelity_from_string(options.fidelity);
-  if (!fidelity) throw InputError(fidelity.error().message);
-  return {*fidelity, 0, fmt::format("{}/simulations-{}.bin", options.work, options.fidelity)};
+sysid::LocalSimulator kept_simulator(const Options& options, const std::string& fidelity) {
+  const auto named = tester::fidelity_from_string(fidelity);
+  if (!named) throw InputError(named.error().message);
+  return {*named, 0, fmt::format("{}/simulations-{}.bin", options.work, fidelity)};
 }
 
 }  // namespace nacre::calibration_study

@@ -22,6 +22,7 @@ std::function<void()> deadline(double minutes);
 /// Measures what is not measured yet.
 Case measured_case(std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on);
 
-sysid::LocalSimulator kept_simulator(const Options& options);
+/// A simulator at `fidelity` (by its name) that keeps its simulations in the work folder.
+sysid::LocalSimulator kept_simulator(const Options& options, const std::string& fidelity);
 
 }  // namespace nacre::calibration_study

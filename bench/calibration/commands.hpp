@@ -10,7 +10,7 @@
 namespace nacre::calibration_study {
 
 struct Options {
-  std::string fidelity = "preview";
+  std::string fidelity = "preview", begin_at;
   int first_seed = 1, seeds = 5;
   int fitted = 18;
   std::vector<std::string> searches = {"posterior"};

@@ -100,30 +100,43 @@ void append(std::vector<std::string>& cells, std::initializer_list<double> value
   for (const double value : values) cells.push_back(number(value));
 }
 
+sysid::NumericsFloor floor_at(const std::string& fidelity) {
+  return sysid::read_numerics_floor("data/numerics_floor.toml", tester::fidelity_from_string(fidelity).value());
+}
+
+Calibrated calibrate(const Case& study_case, const sysid::CalibrationSettings& settings, const Options& options,
+                     sysid::LocalSimulator& simulator, const std::function<void()>& may_go_on) {
+  const auto progress = [&](double, std::string_view) { may_go_on(); };
+  if (options.begin_at.empty()) return sysid::run_calibration(study_case.fitted, settings, simulator, progress);
+  sysid::LocalSimulator cheaper = kept_simulator(options, options.begin_at);
+  return sysid::calibrate_cheaply_first(study_case.fitted, settings, cheaper, floor_at(options.begin_at), simulator,
+                                        progress);
+}
+
 void study_one(const Options& options, std::uint64_t seed, const std::string& search, Table& table, Table& curves,
                const std::function<void()>& may_go_on) {
   std::string effect = options.effects.empty() ? "none" : "";
   for (const std::string& each : options.effects) effect += (effect.empty() ? "" : "+") + each;
-  std::vector<std::string> cells = {options.fidelity,
-                                    effect,
-                                    std::to_string(seed),
-                                    search,
-                                    std::to_string(options.fitted),
-                                    std::to_string(options.budget)};
+  std::vector<std::string> cells = {
+      options.fidelity,
+      effect,
+      std::to_string(seed),
+      options.begin_at.empty() ? search : fmt::format("{} after {}", search, options.begin_at),
+      std::to_string(options.fitted),
+      std::to_string(options.budget)};
   if (table.has(cells)) return;
   const Case study_case = measured_case(seed, options, may_go_on);
-  sysid::LocalSimulator simulator = kept_simulator(options);
+  sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   sysid::CalibrationSettings settings;
   settings.start = material::default_parameters();
-  settings.floor = sysid::read_numerics_floor("data/numerics_floor.toml", *tester::fidelity_from_string(options.fidelity));
+  settings.floor = floor_at(options.fidelity);
   settings.toughness_budget = options.budget;
   const auto named = sysid::toughness_search_from_string(search);
   if (!named) throw InputError(named.error().message);
   settings.toughness_search = *named;
   settings.ensemble_size = options.ensemble;
   settings.seed = seed;
-  const Calibrated calibrated =
-      sysid::run_calibration(study_case.fitted, settings, simulator, [&](double, std::string_view) { may_go_on(); });
+  const Calibrated calibrated = calibrate(study_case, settings, options, simulator, may_go_on);
   std::vector<material::ParameterSet> sets = {settings.start, calibrated.parameters};
   sets.insert(sets.end(), calibrated.ensemble.begin(), calibrated.ensemble.end());
   auto predictions = sysid::predict(sets, study_case.held_out, simulator, may_go_on);
@@ -165,13 +178,13 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
       "{} {} seed {} {:12} n {} budget {}: T objective {:.3f}  E held out {:.4f}  T held out {:.3f} (mean of ensemble "
       "{:.3f}; line {:.3f}, floor {:.3f})  "
       "spearman {:.2f} ({:.2f}; floor {:.2f})  covered {}/{}\n",
-      options.fidelity, effect, seed, search, options.fitted, options.budget, calibrated.toughness_objective_after,
+      options.fidelity, effect, seed, cells[3], options.fitted, options.budget, calibrated.toughness_objective_after,
       after.modulus_mean, after.toughness_mean, mean.toughness_mean, baselines.toughness_line, floor.toughness,
       after.toughness_spearman, mean.toughness_spearman, floor.toughness_spearman, coverage.covered,
       coverage.determined);
   std::fflush(stdout);
   for (std::size_t k = 0; k < calibrated.toughness_objectives.size(); ++k) {
-    curves.add({options.fidelity, effect, std::to_string(seed), search, std::to_string(options.fitted),
+    curves.add({options.fidelity, effect, std::to_string(seed), cells[3], std::to_string(options.fitted),
                 std::to_string(options.budget), std::to_string(k + 1), number(calibrated.toughness_objectives[k])});
   }
 }

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   Options options;
   const auto add_common = [&](CLI::App& command) {
     command.add_option("--fidelity", options.fidelity, "tiny, preview or full")->capture_default_str();
+    command.add_option("--begin-at", options.begin_at, "cheaper fidelity to calibrate at first");
     command.add_option("--first-seed", options.first_seed)->capture_default_str();
     command.add_option("--seeds", options.seeds, "laboratories")->capture_default_str();
     command.add_option("--fitted", options.fitted, "designs to calibrate on")->capture_default_str();

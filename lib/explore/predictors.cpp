@@ -43,12 +43,10 @@ std::size_t settled_samples(std::size_t size) {
   return stage;
 }
 
-std::shared_ptr<const Predictor> fit_patches(std::span<const pattern::Pattern> deciding,
-                                             std::span<const double> deciding_values, const LogSamples& learnt,
-                                             const std::vector<double>& learnt_values, std::uint64_t seed,
-                                             std::shared_ptr<const Predictor> base) {
-  const auto kernel = surrogate::fit_patch_kernel({deciding, deciding_values}, seed, base.get());
-  return surrogate::make_patch_process({learnt.patterns, learnt_values}, kernel, std::move(base));
+std::shared_ptr<const Predictor> fit_patches(const surrogate::Samples& deciding, const surrogate::Samples& learnt,
+                                             std::uint64_t seed, std::shared_ptr<const Predictor> base) {
+  const auto kernel = surrogate::fit_patch_kernel(deciding, seed, base.get());
+  return surrogate::make_patch_process(learnt, kernel, std::move(base));
 }
 
 /// What a predictor of the remainder adds to a base.
@@ -107,11 +105,13 @@ Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettin
   const std::size_t stage = settled_samples(samples.size());
   if (settings.learned.predictor == "networks") return fit_networks(all, stage, settings, base);
   const LogSamples learnt = logarithms(best_by_rank(samples, static_cast<std::size_t>(settings.learned.most_samples)));
-  const std::span<const pattern::Pattern> deciding(all.patterns.data(), stage);
-  return {fit_patches(deciding, std::span(all.log_modulus).first(stage), learnt, learnt.log_modulus, settings.seed,
-                      base.modulus),
-          fit_patches(deciding, std::span(all.log_toughness).first(stage), learnt, learnt.log_toughness, settings.seed,
-                      base.toughness)};
+  const auto fit = [&](const std::vector<double> LogSamples::*property, surrogate::PriorMean prior_mean,
+                       const std::shared_ptr<const Predictor>& of_base) {
+    return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), prior_mean},
+                       {learnt.patterns, learnt.*property, prior_mean}, settings.seed, of_base);
+  };
+  return {fit(&LogSamples::log_modulus, surrogate::PriorMean::fraction_and_conductance, base.modulus),
+          fit(&LogSamples::log_toughness, surrogate::PriorMean::fraction, base.toughness)};
 }
 
 std::vector<optimize::Performance> believed(const Predictors& predictors, std::span<const pattern::Pattern> at,

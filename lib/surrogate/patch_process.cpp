@@ -22,10 +22,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The prior's mean: least squares on 1, phi, phi^2, two conductances and what `base` predicts.
+/// The prior's mean: least squares on 1, phi, phi^2, two conductances where they count, and what `base` predicts.
 class Trend {
  public:
-  Trend(const Samples& samples, const Predictor* base) : base_(base) {
+  Trend(const Samples& samples, const Predictor* base)
+      : conducts_(samples.prior_mean == PriorMean::fraction_and_conductance), base_(base) {
     const MatrixXd terms = terms_at(samples.patterns);
     const Eigen::Map<const VectorXd> values(samples.values.data(), static_cast<Index>(samples.values.size()));
     // The ridge decides only where the samples do not (all of one fraction, fewer samples than terms).
@@ -38,22 +39,24 @@ class Trend {
 
  private:
   MatrixXd terms_at(std::span<const pattern::Pattern> at) const {
-    // Soft pixels as nearly nothing, and as a good part of the whole: chains of rigid pixels, and the mixture.
-    constexpr double kNearlyNothing = 1e-3, kGoodPart = 0.05;
-    constexpr int kOwnTerms = 5;
-    MatrixXd terms(static_cast<Index>(at.size()), base_ ? kOwnTerms + 1 : kOwnTerms);
+    const int own_terms = conducts_ ? 5 : 3;
+    MatrixXd terms(static_cast<Index>(at.size()), base_ ? own_terms + 1 : own_terms);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double fraction = at[i].rigid_fraction() - 0.7;  // about the middle of the design space
-      terms.row(static_cast<Index>(i)).head<kOwnTerms>() << 1.0, fraction, fraction * fraction,
-          log_conductance(at[i], kNearlyNothing), log_conductance(at[i], kGoodPart);
+      auto row = terms.row(static_cast<Index>(i));
+      row.head<3>() << 1.0, fraction, fraction * fraction;
+      // Soft pixels as nearly nothing, and as a good part of the whole: chains of rigid pixels, and the mixture.
+      constexpr double kNearlyNothing = 1e-3, kGoodPart = 0.05;
+      if (conducts_) row.segment<2>(3) << log_conductance(at[i], kNearlyNothing), log_conductance(at[i], kGoodPart);
     }
     if (base_) {
       const std::vector<double> base = base_->means(at);
-      terms.col(kOwnTerms) = Eigen::Map<const VectorXd>(base.data(), terms.rows());
+      terms.col(own_terms) = Eigen::Map<const VectorXd>(base.data(), terms.rows());
     }
     return terms;
   }
 
+  bool conducts_;
   const Predictor* base_;
   VectorXd coefficients_;
 };

@@ -10,10 +10,16 @@
 
 namespace nacre::surrogate {
 
+/// What the mean of the prior is linear in, beside the base: a parabola in the rigid fraction, and two
+/// log_conductance()s where the quantity hangs on them (the modulus does; for toughness they are a distraction:
+/// docs/studies/search.md).
+enum class PriorMean { fraction, fraction_and_conductance };
+
 /// Samples of one quantity: values[i] at patterns[i].
 struct Samples {
   std::span<const pattern::Pattern> patterns;
   std::span<const double> values;
+  PriorMean prior_mean = PriorMean::fraction;
 };
 
 /// At most so many samples decide on a kernel.
@@ -23,10 +29,9 @@ inline constexpr int kKernelSamples = 300;
 /// by `seed`. `base` as below. Some tenths of a second.
 PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const Predictor* base = nullptr);
 
-/// The posterior: mean of the prior is a parabola in the rigid fraction and a line in two log_conductance()s. O(n^3 /
-/// 3) to make, O(n) per mean, O(n^2) per deviation. `base`, when given, is a predictor of a kindred quantity (another
-/// model's, another fidelity's): the prior's mean then has a term b base(x), and the process learns only what that one
-/// gets wrong. Needs one sample.
+/// The posterior. O(n^3 / 3) to make, O(n) per mean, O(n^2) per deviation. `base`, when given, is a predictor of a
+/// kindred quantity (another model's, another fidelity's): the prior's mean then has a term b base(x), and the process
+/// learns only what that one gets wrong. Needs one sample.
 std::unique_ptr<Predictor> make_patch_process(const Samples& samples, const PatchKernel& kernel,
                                               std::shared_ptr<const Predictor> base = nullptr);
 

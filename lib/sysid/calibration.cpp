@@ -139,7 +139,7 @@ struct Calibration::State {
 
   std::unique_ptr<Fit> make_toughness_fit(const FitSettings& fit_settings) const {
     FitData data = data_of(measured, weights, settings.weights, toughness.items);
-    std::vector<Point> others = other_starts(fit_settings.start);
+    std::vector<Point> others = settings.other_starts.empty() ? other_starts(fit_settings.start) : given_starts();
     switch (settings.toughness_search) {
       case ToughnessSearch::posterior:
         return make_posterior_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others));
@@ -152,6 +152,13 @@ struct Calibration::State {
     }
     return make_objective_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others),
                               algorithm_of(settings.toughness_search));
+  }
+
+  std::vector<Point> given_starts() const {
+    std::vector<Point> others;
+    for (const ParameterSet& set : settings.other_starts)
+      others.push_back(to_point(to_vector(set.toughness), toughness_ranges(), kToughnessDimensions));
+    return others;
   }
 
   /// The middle of the ranges, and the start with another interface: what the first batch holds beside

@@ -71,8 +71,7 @@ Result<ToughnessSearch> toughness_search_from_string(std::string_view name);
 struct NumericsFloor {
   double log_modulus_sd = 0.006, log_toughness_sd = 0.22, log_peak_sd = 0.10;
   double log_modulus_common_sd = 0.06, log_toughness_common_sd = 0.27, log_peak_common_sd = 0.10;
-  double log_modulus_trend_sd =
-      0.024;  ///< over the designs: thin soft joints are computed softer than thick ones
+  double log_modulus_trend_sd = 0.024;  ///< over the designs: thin soft joints are computed softer than thick ones
   double log_toughness_trend_sd = 0.05, log_peak_trend_sd = 0.07;  ///< per 0.1 of rigid fraction
 };
 /// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
@@ -82,14 +81,17 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
   material::ParameterSet start;  ///< where to begin; its extensions are kept as they are
-  int modulus_budget = 120;      ///< evaluations of the modulus set; 0 keeps theta
-  int toughness_budget = 25;     ///< evaluations of the toughness set, of each search; 0 keeps eta
-  int batch = 3;                 ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
+  std::vector<material::ParameterSet>
+      other_starts;           ///< beside it in the first batch for eta; empty: chosen in the ranges
+  int modulus_budget = 120;   ///< evaluations of the modulus set; 0 keeps theta
+  int toughness_budget = 25;  ///< evaluations of the toughness set, of each search; 0 keeps eta
+  int batch = 3;              ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
   ToughnessSearch toughness_search = ToughnessSearch::posterior;
   int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported
   int ensemble_size = 0;  ///< further parameter sets drawn from what the data leave possible
   NumericsFloor floor;
-  std::vector<double> weights;  ///< of the measured designs in place of (2.9)-(2.11), 0..1: a weight of 0.1 counts as a tenth of a design
+  std::vector<double> weights;  ///< of the measured designs in place of (2.9)-(2.11), 0..1: a weight of 0.1 counts as a
+                                ///< tenth of a design
   std::uint64_t seed = 1;
 };
 

@@ -1,5 +1,7 @@
 #include "sysid/offline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -94,6 +96,20 @@ Calibrated run_calibration(const std::vector<Replicates>& measured, const Calibr
   return finish(Calibration(measured, settings), measured, simulator, progress);
 }
 
+Calibrated calibrate_cheaply_first(const std::vector<Replicates>& measured, const CalibrationSettings& settings,
+                                   LocalSimulator& cheaper, const NumericsFloor& cheaper_floor,
+                                   LocalSimulator& simulator, const ProgressCallback& progress) {
+  CalibrationSettings first = settings, second = settings;
+  first.floor = cheaper_floor;
+  first.searches = 1;
+  first.ensemble_size =
+      std::max(1, settings.batch) - 1;  // with the parameters themselves, the first batch of the second
+  const Calibrated begun = run_calibration(measured, first, cheaper, progress);
+  second.start = begun.parameters;
+  second.other_starts = begun.ensemble;
+  return run_calibration(measured, second, simulator, progress);
+}
+
 std::vector<std::vector<Prediction>> predict(const std::vector<material::ParameterSet>& parameters,
                                              const std::vector<Replicates>& measured, LocalSimulator& simulator,
                                              const std::function<void()>& done) {
@@ -148,7 +164,16 @@ OfflineCalibration calibrate_offline(const measurement::MeasurementSet& set, con
   OfflineCalibration result;
   result.base_materials = split.base_materials;
   if (split.base_materials) calibration.target = material::FitTarget::base;
-  result.calibrated = run_calibration(split.fitted, calibration, simulator, progress);
+  if (settings.begin_at && !split.base_materials) {
+    std::filesystem::path store = settings.store;
+    if (!store.empty()) store += fmt::format(".{}", tester::to_string(*settings.begin_at));
+    LocalSimulator cheaper(*settings.begin_at, settings.threads, store);
+    result.calibrated =
+        calibrate_cheaply_first(split.fitted, calibration, cheaper, settings.begin_at_floor, simulator, progress);
+    result.begun_simulations = cheaper.simulations();
+  } else {
+    result.calibrated = run_calibration(split.fitted, calibration, simulator, progress);
+  }
   result.before_fitted = result.calibrated.before;
   result.after_fitted = result.calibrated.after;
   if (progress) progress(1.0, "predicting what was held out");

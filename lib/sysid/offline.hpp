@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,10 @@ namespace nacre::sysid {
 struct OfflineSettings {
   CalibrationSettings calibration;  ///< its seed also chooses the patterns held out
   tester::Fidelity fidelity = tester::Fidelity::full;
-  int hold_out = 0;  ///< whole patterns kept out of the fit
-  int threads = 0;   ///< 0 all allowed cores
+  std::optional<tester::Fidelity> begin_at;  ///< a cheaper one that is calibrated first: see calibrate_cheaply_first
+  int hold_out = 0;                          ///< whole patterns kept out of the fit
+  NumericsFloor begin_at_floor;              ///< of `begin_at`
+  int threads = 0;                           ///< 0 all allowed cores
   std::filesystem::path
       store;  ///< file that keeps simulations, so that the same calibration goes on from them; empty: none
 };
@@ -30,6 +33,7 @@ struct OfflineCalibration {
   std::vector<std::string> fitted, held_out;      ///< names of designs
   std::vector<measurement::Replicates> measured;  ///< what was fitted, as Calibrated::predictions orders it
   int simulations = 0;                            ///< really done, held-out ones included
+  int begun_simulations = 0;                      ///< of OfflineSettings::begin_at
 };
 
 /// Called after every simulation with the share done (0..1) and what is being done.
@@ -59,6 +63,14 @@ class LocalSimulator {
 /// end.
 Calibrated run_calibration(const std::vector<measurement::Replicates>& measured, const CalibrationSettings& settings,
                            LocalSimulator& simulator, const ProgressCallback& progress = {});
+
+/// Calibrates on smaller specimens (`cheaper`, with the numerics floor of its fidelity), and begins the real
+/// calibration where that one ended: at its parameters and at draws of what it left possible. Small specimens find the
+/// region at a tenth of the cost; the larger ones then only correct what depends on size.
+Calibrated calibrate_cheaply_first(const std::vector<measurement::Replicates>& measured,
+                                   const CalibrationSettings& settings, LocalSimulator& cheaper,
+                                   const NumericsFloor& cheaper_floor, LocalSimulator& simulator,
+                                   const ProgressCallback& progress = {});
 
 /// What the testers say of every measured design (the tests that were measured), one vector per parameter set,
 /// measurement-side extensions applied.

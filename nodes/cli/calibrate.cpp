@@ -19,7 +19,7 @@ struct Options {
   std::string set;
   std::string start;
   std::string out;
-  std::string fidelity = "full";
+  std::string fidelity = "full", begin_at;
   int budget = 60;
   int modulus_budget = 120;
   int hold_out = 0;
@@ -90,6 +90,7 @@ nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
           {"after", after},
           {"parameters", parameters},
           {"simulations", result.simulations},
+          {"begun_simulations", result.begun_simulations},
           {"fitted", result.fitted},
           {"held_out", result.held_out},
           {"objective",
@@ -133,7 +134,9 @@ void print_table(const sysid::OfflineCalibration& result) {
   }
   print_fit("E", result.calibrated.modulus_fit);
   print_fit("T", result.calibrated.toughness_fit);
-  fmt::print("{} simulations\n", result.simulations);
+  fmt::print("{} simulations", result.simulations);
+  if (result.begun_simulations > 0) fmt::print(" and {} smaller ones", result.begun_simulations);
+  fmt::print("\n");
 }
 
 int calibrate(const Options& options) {
@@ -155,6 +158,11 @@ int calibrate(const Options& options) {
   settings.store = options.store;
   settings.calibration.floor =
       sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
+  if (!options.begin_at.empty()) {
+    settings.begin_at = fidelity_from_option(options.begin_at);
+    settings.begin_at_floor =
+        sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), *settings.begin_at);
+  }
   Progress progress("calibrate");
   const sysid::OfflineCalibration result = sysid::calibrate_offline(
       set, settings, [&](double share, std::string_view doing) { progress.set_share(share, std::string(doing)); });
@@ -203,6 +211,8 @@ void add_calibrate(CLI::App& app, Action& action) {
                      "File that keeps simulations: an interrupted calibration goes on from it");
   command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
       ->capture_default_str();
+  command.add_option("--begin-at", options->begin_at,
+                     "Cheaper fidelity to calibrate at first; the calibration then begins where that one ended");
   command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();
   command.add_option("--out", options->out, "Parameter file to write")->required();
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
+#include "surrogate/pixel_network.hpp"
 
 namespace nacre::surrogate {
 namespace {
@@ -147,6 +148,23 @@ TEST(PatchProcess, LearnsOnlyWhatAKindredPredictorGetsWrong) {
   const auto with = make_patch_process({few, values}, fit_patch_kernel({few, values}, 1, base.get()), base);
   const auto without = make_patch_process({few, values}, fit_patch_kernel({few, values}, 1));
   EXPECT_GT(rank_correlation(with->means(unseen), truth), rank_correlation(without->means(unseen), truth) + 0.1);
+}
+
+TEST(PatchProcess, AQuantityThatHangsOnConductanceIsLearntFromFewSamples) {
+  const auto few = random_patterns(30, 10), unseen = random_patterns(200, 11);
+  const auto conductances = [](const std::vector<pattern::Pattern>& patterns) {
+    std::vector<double> values;
+    for (const pattern::Pattern& pattern : patterns) values.push_back(log_conductance(pattern, 0.01));
+    return values;
+  };
+  const auto values = conductances(few);
+  const auto rank_with = [&](PriorMean prior_mean) {
+    const Samples samples = {few, values, prior_mean};
+    return rank_correlation(make_patch_process(samples, fit_patch_kernel(samples, 1))->means(unseen),
+                            conductances(unseen));
+  };
+  EXPECT_GT(rank_with(PriorMean::fraction_and_conductance), 0.97);
+  EXPECT_GT(rank_with(PriorMean::fraction_and_conductance), rank_with(PriorMean::fraction) + 0.03);
 }
 
 TEST(PatchProcess, OneSampleAndEqualSamplesAreNoProblem) {

@@ -170,6 +170,23 @@ TEST(Calibration, ModulusAloneLeavesToughnessParametersUntouched) {
   EXPECT_EQ(result.after.toughness_count, 0);
 }
 
+TEST(Calibration, BeginsAtTheSetsThatItIsGiven) {
+  CalibrationSettings with = settings();
+  ParameterSet elsewhere = with.start;
+  elsewhere.toughness.w_if_j_per_m3 *= 1.7;
+  with.other_starts = {elsewhere};
+  with.batch = 2;
+  with.modulus_budget = 1;
+  const Calibration calibration(measured_designs(6), with);
+  std::vector<double> asked;
+  for (const WantedEvaluation& wanted : calibration.wanted()) {
+    if (wanted.toughness) asked.push_back(wanted.parameters.toughness.w_if_j_per_m3);
+  }
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_DOUBLE_EQ(asked[0], with.start.toughness.w_if_j_per_m3);
+  EXPECT_NEAR(asked[1] / elsewhere.toughness.w_if_j_per_m3, 1.0, 1e-9);
+}
+
 TEST(Calibration, FailedSimulationsDoNotStopIt) {
   const std::vector<Replicates> measured = measured_designs(5);
   Calibration calibration(measured, settings());
