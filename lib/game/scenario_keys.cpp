@@ -204,7 +204,7 @@ std::vector<ScenarioKey> make_top_level_keys() {
            "1 to 40 of the characters A-Z, a-z, 0-9, _ and -", is_plain_name, at(&Scenario::name)),
       whole_number<std::uint64_t>("", "seed", "every random choice of the run follows from it", 0, kLargestSeed,
                                   at(&Scenario::seed)),
-      whole_number<int>("", "rounds", "number of the last round; round 0 is the base materials", 0, 1000,
+      whole_number<int>("", "rounds", "number of the last round; round 0 is the base materials", 0, 100000,
                         at(&Scenario::rounds)),
       fidelity_key(),
       flag("", "stop_at_equilibrium", "end before the last round when measurements and predictions agree",
