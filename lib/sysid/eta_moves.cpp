@@ -12,19 +12,6 @@ constexpr double kScaleReach = 3.0;  // radii that the common scales may move
 constexpr int kScaleSteps = 9;       // of the grid over the two scales, per axis
 constexpr int kSearchEvaluations = 600;
 
-Move best_on_scale_grid(const std::function<double(const Move&)>& cost, double reach) {
-  Move best{};
-  double smallest = cost(best);
-  for (int i = 0; i < kScaleSteps * kScaleSteps; ++i) {
-    Move move{};
-    move[0] = reach * (2.0 * (i / kScaleSteps) / (kScaleSteps - 1) - 1.0);
-    move[1] = reach * (2.0 * (i % kScaleSteps) / (kScaleSteps - 1) - 1.0);
-    const double here = cost(move);
-    if (here < smallest) smallest = here, best = move;
-  }
-  return best;
-}
-
 double asked_by_nlopt(const std::vector<double>& at, std::vector<double>&, void* cost) {
   Move move{};
   std::copy(at.begin(), at.end(), move.begin());
@@ -48,8 +35,21 @@ Point moved(const Point& from, const Move& move, std::span<const double> spans) 
   return point;
 }
 
+Move best_scales(const std::function<double(const Move&)>& cost, double reach) {
+  Move best{};
+  double smallest = cost(best);
+  for (int i = 0; i < kScaleSteps * kScaleSteps; ++i) {
+    Move move{};
+    move[0] = reach * (2.0 * (i / kScaleSteps) / (kScaleSteps - 1) - 1.0);
+    move[1] = reach * (2.0 * (i % kScaleSteps) / (kScaleSteps - 1) - 1.0);
+    const double here = cost(move);
+    if (here < smallest) smallest = here, best = move;
+  }
+  return best;
+}
+
 Move best_move(const std::function<double(const Move&)>& cost, double radius) {
-  const Move start = best_on_scale_grid(cost, kScaleReach * radius);
+  const Move start = best_scales(cost, kScaleReach * radius);
   nlopt::opt search(nlopt::LN_SBPLX, kMoveCount);
   std::vector<double> bound(kMoveCount, radius), step(kMoveCount, 0.3 * radius);
   bound[0] = bound[1] = kScaleReach * radius;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/random.hpp"
+#include "optimize/sobol.hpp"
 #include "sysid/emulator.hpp"
 #include "sysid/eta_moves.hpp"
 #include "sysid/feature_posterior.hpp"
@@ -17,7 +18,12 @@ constexpr double kFirstRadius = 0.7;  // of the trust region, in natural logarit
 constexpr double kLargestRadius = 1.0;
 constexpr double kSmallestRadius = 0.2;  // below it the jumps decide; evaluations then average over them
 constexpr double kLeastGain = 0.5;       // in -log posterior
-constexpr int kIdleBatches = 4;          // in a row within the smallest radius without that gain: nothing more is to be found
+constexpr int kIdleBatches = 4;  // in a row within the smallest radius without that gain: nothing more is to be found
+
+/// Parameters that decide how a load is shared between the materials. Level and shape of all curves follow from the
+/// common scales of moduli and failure energies; what these leave has valleys longer than a trust region's way.
+constexpr std::array<std::size_t, 5> kSplits = {kE0, kE0 + 2, kW0, kW0 + 2, kGamma};
+constexpr std::size_t kSpread = 9;  // points spread over the splits before the search narrows
 
 class PosteriorFit final : public RecordedFit {
  public:
@@ -26,7 +32,8 @@ class PosteriorFit final : public RecordedFit {
         spans_(std::move(spans)),
         others_(std::move(others)),
         emulator_(spans_, data_.measured.size()),
-        posterior_(data_, settings.start, settings.floor) {}
+        posterior_(data_, settings.start, settings.floor),
+        splits_(static_cast<int>(kSplits.size()), settings.seed) {}
 
   std::vector<Point> ask() override {
     if (asked_.empty() && !finished_) asked_ = propose();
@@ -42,7 +49,7 @@ class PosteriorFit final : public RecordedFit {
     asked_.clear();
     const double before = smallest_cost_;
     learn();
-    if (trials_.size() <= others_.size() + 1) return;
+    if (is_spreading()) return;
     const bool gained = smallest_cost_ < before - kLeastGain;
     idle_batches_ = gained || radius_ > kSmallestRadius ? 0 : idle_batches_ + 1;
     radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : std::max(kSmallestRadius, 0.6 * radius_);
@@ -72,6 +79,10 @@ class PosteriorFit final : public RecordedFit {
       }
       return points;
     }
+    if (is_spreading()) {
+      while (static_cast<int>(points.size()) < count) points.push_back(spread_point());
+      return points;
+    }
     // A point that was simulated already would give the same answer again, and count twice.
     const Point likeliest = most_probable();
     if (is_new(likeliest)) points.push_back(likeliest);
@@ -79,6 +90,19 @@ class PosteriorFit final : public RecordedFit {
     for (Point& point : draws(likeliest, count - static_cast<int>(points.size()), random))
       points.push_back(std::move(point));
     return points;
+  }
+
+  bool is_spreading() const { return trials_.size() < 1 + others_.size() + kSpread; }
+
+  /// The next point of Sobol's sequence over the splits, moduli and failure energies scaled together to where the
+  /// emulator expects the measured curves.
+  Point spread_point() {
+    Point point = settings_.start;
+    const Point split = splits_.next();
+    for (std::size_t k = 0; k < kSplits.size(); ++k) point[kSplits[k]] = split[k];
+    const auto cost = [&](const Move& move) { return smooth_cost(moved(point, move, spans_)); };
+    constexpr double kReach = 2.5;  // natural logarithms
+    return moved(point, best_scales(cost, kReach), spans_);
   }
 
   /// Around the trial that is most probable so far; twice, since which trial that is depends on the centre a little.
@@ -159,6 +183,7 @@ class PosteriorFit final : public RecordedFit {
   std::vector<Point> others_;
   FeatureEmulator emulator_;
   FeaturePosterior posterior_;
+  optimize::SobolPoints splits_;
   std::vector<FeatureChange> changes_;
   double radius_ = kFirstRadius;
   double smallest_cost_ = HUGE_VAL;

@@ -302,6 +302,31 @@ TEST(PosteriorSearch, AveragesOverTheJumpsOfSingleFractures) {
   EXPECT_LT(posterior, emulator);
 }
 
+TEST(PosteriorSearch, LooksAllOverTheRangesBeforeItNarrows) {
+  const std::vector<Replicates> measured = measured_designs(8);
+  CalibrationSettings with = settings();
+  with.modulus_budget = 0;
+  Calibration calibration(measured, with);
+  std::vector<material::ToughnessVector> asked;
+  while (asked.size() < 12) {
+    const std::vector<WantedEvaluation> wanted = calibration.wanted();
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      std::vector<Prediction> predictions;
+      for (const std::size_t item : wanted[k].items)
+        predictions.push_back(answer(measured[item], wanted[k].parameters, wanted[k].modulus));
+      if (wanted[k].toughness) asked.push_back(to_vector(wanted[k].parameters.toughness));
+      calibration.tell(k, predictions);
+    }
+  }
+  const auto ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  for (const std::size_t j : {0, 6, 9}) {  // modulus and failure energy of soft, damping
+    std::vector<double> unit;
+    for (const auto& eta : asked) unit.push_back(material::to_unit(ranges[j], eta[j]));
+    EXPECT_LT(*std::min_element(unit.begin(), unit.end()), 0.3) << j;
+    EXPECT_GT(*std::max_element(unit.begin(), unit.end()), 0.7) << j;
+  }
+}
+
 TEST(PosteriorSearch, StopsWhenNothingMoreIsToBeFound) {
   CalibrationSettings with = settings();
   with.toughness_budget = 300;
