@@ -1,4 +1,4 @@
-# Shared by launch/game and tests/run: installs what is missing and builds. Source it with NACRE_ROOT set.
+# Shared by launch/game and tests/run: installs what is missing, builds, and bundles the dashboard's page. Source it with NACRE_ROOT set.
 
 say() { printf '%s\n' "nacre: $*" >&2; }
 give_up() { say "$*"; exit 2; }
@@ -63,4 +63,31 @@ build() {
     grep -m 20 -E 'error|FAILED' "$log" >&2 || true
     give_up "building failed; the whole output is in build/setup.log"
   fi
+}
+
+# has_npm: whether Node.js 18 or later and npm are there, whoever installed them.
+has_npm() {
+  command -v npm >/dev/null && [ "$(node -p 'process.versions.node.split(".")[0]' 2>/dev/null || echo 0)" -ge 18 ]
+}
+
+# install_npm: Debian's nodejs and npm, where neither Debian nor anybody else has installed them. The C++ build needs neither.
+install_npm() {
+  has_npm && return 0
+  { [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null; } || return 1
+  say "packages: installing nodejs and npm for the dashboard's page (NACRE_PAGE=0 leaves it out)"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends nodejs npm >/dev/null 2>&1 && has_npm
+}
+
+# build_page [required]: bundles web/ into build/web when its sources are newer. Without npm, or without a network, everything but
+# `nacre dashboard` works all the same; `required` gives up then.
+build_page() {
+  [ "${NACRE_PAGE:-1}" != 0 ] || { say "page: left out"; return 0; }
+  local web="$NACRE_ROOT/web" log="$NACRE_ROOT/build/page.log" page="$NACRE_ROOT/build/web/page.js"
+  [ -f "$page" ] && [ -z "$(find "$web" -path "$web/node_modules" -prune -o -type f -newer "$page" -print -quit)" ] &&
+    { [ "${1:-}" != required ] || [ -d "$web/node_modules/playwright-core" ]; } && return 0
+  say "page: bundling web/"
+  if install_npm && { [ "$web/node_modules/.package-lock.json" -nt "$web/package-lock.json" ] || npm --prefix "$web" ci; } >"$log" 2>&1 &&
+    npm --prefix "$web" run build >>"$log" 2>&1; then return 0; fi
+  [ "${1:-}" != required ] || { tail -n 20 "$log" >&2; give_up "the page could not be built; the whole output is in build/page.log"; }
+  say "page: not built (see build/page.log); everything but nacre dashboard works without it"
 }

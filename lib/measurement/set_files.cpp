@@ -46,7 +46,27 @@ Result<double> number_at(const CsvRow& row, std::size_t index, const char* colum
   return value;
 }
 
-Result<tester::Curve> parse_curve(std::string_view text, const std::string& shown_name) {
+}  // namespace
+
+Result<std::filesystem::path> file_inside(const std::filesystem::path& folder, std::string_view name) {
+  const std::filesystem::path relative{std::string(name)};
+  if (name.find('\0') != std::string_view::npos) return fail("a file name holds a zero byte");
+  if (relative.is_absolute()) return fail("`{}` is an absolute path, expected one relative to the set", name);
+  if (std::find(relative.begin(), relative.end(), "..") != relative.end()) {
+    return fail("`{}` leads outside the set, expected a path without `..`", name);
+  }
+  std::error_code failure;
+  const std::filesystem::path root = std::filesystem::canonical(folder, failure);
+  if (failure) return fail("{}: cannot be read: {}", folder.string(), failure.message());
+  const std::filesystem::path target = std::filesystem::canonical(root / relative, failure);
+  if (failure) return fail("`{}` cannot be read: {}", name, failure.message());
+  const auto [end_of_root, unused] = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+  if (end_of_root != root.end())
+    return fail("`{}` leads outside the set through a link, expected a file inside it", name);
+  return target;
+}
+
+Result<tester::Curve> curve_from_csv(std::string_view text, const std::string& shown_name) {
   CsvLimits limits;
   limits.rows = kMostCurveRows + 1;
   CsvReader reader(text, shown_name, limits);
@@ -74,29 +94,9 @@ Result<tester::Curve> parse_curve(std::string_view text, const std::string& show
   return curve;
 }
 
-}  // namespace
-
-Result<std::filesystem::path> file_inside(const std::filesystem::path& folder, std::string_view name) {
-  const std::filesystem::path relative{std::string(name)};
-  if (name.find('\0') != std::string_view::npos) return fail("a file name holds a zero byte");
-  if (relative.is_absolute()) return fail("`{}` is an absolute path, expected one relative to the set", name);
-  if (std::find(relative.begin(), relative.end(), "..") != relative.end()) {
-    return fail("`{}` leads outside the set, expected a path without `..`", name);
-  }
-  std::error_code failure;
-  const std::filesystem::path root = std::filesystem::canonical(folder, failure);
-  if (failure) return fail("{}: cannot be read: {}", folder.string(), failure.message());
-  const std::filesystem::path target = std::filesystem::canonical(root / relative, failure);
-  if (failure) return fail("`{}` cannot be read: {}", name, failure.message());
-  const auto [end_of_root, unused] = std::mismatch(root.begin(), root.end(), target.begin(), target.end());
-  if (end_of_root != root.end())
-    return fail("`{}` leads outside the set through a link, expected a file inside it", name);
-  return target;
-}
-
 Result<tester::Curve> read_curve(const std::filesystem::path& path, const std::string& shown_name) {
   try {
-    return parse_curve(read_file_up_to(path, kMostCurveBytes), shown_name);
+    return curve_from_csv(read_file_up_to(path, kMostCurveBytes), shown_name);
   } catch (const InputError& error) {
     return fail("{}", error.what());
   }

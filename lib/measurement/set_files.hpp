@@ -27,6 +27,9 @@ Result<std::filesystem::path> file_inside(const std::filesystem::path& folder, s
 /// strain above -1, nominal. Errors name `shown_name`, line and column.
 Result<tester::Curve> read_curve(const std::filesystem::path& path, const std::string& shown_name);
 
+/// The same from text.
+Result<tester::Curve> curve_from_csv(std::string_view text, const std::string& shown_name);
+
 /// The same format as text, numbers written so that reading gives the same bits.
 std::string to_csv(const tester::Curve& curve);
 

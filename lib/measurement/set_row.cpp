@@ -12,8 +12,8 @@ namespace {
 /// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
 class RowParser {
  public:
-  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned)
-      : folder_(folder), heading_(heading), row_(row), planned_(planned) {}
+  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned, const CurveSource& curves)
+      : folder_(folder), heading_(heading), row_(row), planned_(planned), curves_(curves) {}
 
   tl::expected<SpecimenRecord, RejectedRow> parse() {
     check_shape();
@@ -158,14 +158,15 @@ class RowParser {
   tester::Curve curve() {
     const std::string name = text(kCurve);
     if (name.empty() || fault_) return {};
-    const Result<std::filesystem::path> path = file_inside(folder_, name);
-    if (!path) {
-      reject(kCurve, path.error().message);
-      return {};
-    }
-    Result<tester::Curve> curve = read_curve(*path, name);
+    Result<tester::Curve> curve = curves_ ? curves_(name) : curve_of_set(name);
     if (!curve) reject(kCurve, curve.error().message);
     return std::move(curve).value_or(tester::Curve{});
+  }
+
+  Result<tester::Curve> curve_of_set(const std::string& name) const {
+    const Result<std::filesystem::path> path = file_inside(folder_, name);
+    if (!path) return tl::unexpected(path.error());
+    return read_curve(*path, name);
   }
 
   void keep_other_columns(SpecimenRecord& record) const {
@@ -198,6 +199,7 @@ class RowParser {
   const Heading& heading_;
   const CsvRow& row_;
   bool planned_;
+  const CurveSource& curves_;
   std::optional<RejectedRow> fault_;
 };
 
@@ -210,8 +212,8 @@ std::string lower_case(std::string_view text) {
 }
 
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
-                                                    const CsvRow& row, bool planned) {
-  return RowParser(folder, heading, row, planned).parse();
+                                                    const CsvRow& row, bool planned, const CurveSource& curves) {
+  return RowParser(folder, heading, row, planned, curves).parse();
 }
 
 }  // namespace nacre::measurement

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,9 +27,12 @@ struct Heading {
 /// ASCII letters in lower case.
 std::string lower_case(std::string_view text);
 
-/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`. `planned`: a row needs
-/// no measured value.
+/// Where the curve that a row names is read from, by its name there.
+using CurveSource = std::function<Result<tester::Curve>(const std::string& name)>;
+
+/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`, curves too unless `curves` has
+/// them. `planned`: a row needs no measured value.
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
-                                                    const CsvRow& row, bool planned = false);
+                                                    const CsvRow& row, bool planned = false, const CurveSource& curves = {});
 
 }  // namespace nacre::measurement

@@ -114,8 +114,8 @@ void keep(SQLite::Database& db, const diagnosis_t& d) {
 
 /// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured designs.
 void keep(SQLite::Database& db, const wire::SimulateResult& s) {
-  int round = 0;
-  if (std::sscanf(s.request_id.c_str(), "analyser/r%d/measured", &round) != 1) return;
+  int round = 0, matched = 0;
+  if (std::sscanf(s.request_id.c_str(), "analyser/r%d/measured%n", &round, &matched) != 1 || matched == 0) return;
   for (const wire::SimulatedDesign& d : s.results) {
     run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", round, d.design.name(), d.modulus_pa, d.toughness_pa, d.failure, packed(d.curve));
   }
@@ -123,8 +123,8 @@ void keep(SQLite::Database& db, const wire::SimulateResult& s) {
 
 /// Answers to the analyser's own question `analyser/rN/films`: how the designs proposed in round N break.
 void keep(SQLite::Database& db, const wire::Fracture& f) {
-  int round = 0;
-  if (std::sscanf(f.request_id.c_str(), "analyser/r%d/films", &round) != 1) return;
+  int round = 0, matched = 0;
+  if (std::sscanf(f.request_id.c_str(), "analyser/r%d/films%n", &round, &matched) != 1 || matched == 0) return;
   const auto of_path = [&](auto value) { return f.crack.path ? std::optional<double>(value(*f.crack.path)) : std::nullopt; };
   std::vector<std::int32_t> path, breaks;
   if (f.crack.path) path.assign(f.crack.path->elements.begin(), f.crack.path->elements.end());

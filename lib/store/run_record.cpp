@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <charconv>
 #include <cstring>
 
 #include "base/result.hpp"
@@ -64,14 +65,17 @@ void read_summaries(SQLite::Database& db, RunRecord& run) {
   });
 }
 
+void read_gamuts(SQLite::Database& db, RunRecord& run) {
+  each_row(db, "SELECT round, modulus_pa, toughness_pa FROM gamut ORDER BY round, pattern", [&](SQLite::Statement& q) {
+    run.rounds[q.getColumn(0).getInt()].gamut.push_back({q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
+  });
+}
+
 void read_model(SQLite::Database& db, RunRecord& run) {
   each_row(db, "SELECT round, name, value FROM parameter",
            [&](SQLite::Statement& q) { run.rounds[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble(); });
   each_row(db, "SELECT round, modulus_pa, toughness_pa FROM benchmark ORDER BY round, position", [&](SQLite::Statement& q) {
     run.rounds[q.getColumn(0).getInt()].benchmark.push_back({q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
-  });
-  each_row(db, "SELECT round, modulus_pa, toughness_pa FROM gamut ORDER BY round, pattern", [&](SQLite::Statement& q) {
-    run.rounds[q.getColumn(0).getInt()].gamut.push_back({q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
   });
   each_row(db, "SELECT round, design, reason, modulus_pa, toughness_pa FROM proposal ORDER BY round, position", [&](SQLite::Statement& q) {
     run.rounds[q.getColumn(0).getInt()].proposals.push_back(
@@ -165,22 +169,57 @@ void read_specimens(SQLite::Database& db, RunRecord& run) {
   });
 }
 
-}  // namespace
-
-RunRecord read_run_record(const std::filesystem::path& path) {
+/// What `read` makes of the file, opened read-only.
+template <class Read>
+auto read_from(const std::filesystem::path& path, const Read& read) {
   try {
     SQLite::Database db(path.string(), SQLite::OPEN_READONLY, 10'000);
     distrust(db);
+    return read(db);
+  } catch (const SQLite::Exception& error) {
+    throw InputError::format("{}: cannot be read: {}", path.string(), error.what());
+  }
+}
+
+}  // namespace
+
+RunRecord read_run_record(const std::filesystem::path& path, bool with_gamuts) {
+  return read_from(path, [&](SQLite::Database& db) {
     RunRecord run;
     read_summaries(db, run);
     read_model(db, run);
+    if (with_gamuts) read_gamuts(db, run);
     read_cracks(db, run);
     read_diagnoses(db, run);
     read_specimens(db, run);
     return run;
-  } catch (const SQLite::Exception& error) {
-    throw InputError::format("{}: cannot be read: {}", path.string(), error.what());
-  }
+  });
+}
+
+std::map<int, int> read_gamut_sizes(const std::filesystem::path& path) {
+  return read_from(path, [](SQLite::Database& db) {
+    std::map<int, int> sizes;
+    each_row(db, "SELECT round, count(*) FROM gamut GROUP BY round",
+             [&](SQLite::Statement& q) { sizes[q.getColumn(0).getInt()] = q.getColumn(1).getInt(); });
+    return sizes;
+  });
+}
+
+RecordedGamut read_gamut(const std::filesystem::path& path, int round) {
+  return read_from(path, [&](SQLite::Database& db) {
+    RecordedGamut gamut;
+    SQLite::Statement query(db, "SELECT pattern, modulus_pa, toughness_pa FROM gamut WHERE round = ? ORDER BY pattern");
+    query.bind(1, round);
+    while (query.executeStep()) {
+      const std::string key = query.getColumn(0).getString();
+      std::uint64_t bits = 0;
+      const auto [end, fault] = std::from_chars(key.data(), key.data() + key.size(), bits, 16);
+      if (fault != std::errc{} || end != key.data() + key.size() || bits >> pattern::kFreePixels != 0) continue;
+      gamut.patterns.push_back(bits);
+      gamut.performances.push_back({query.getColumn(1).getDouble(), query.getColumn(2).getDouble()});
+    }
+    return gamut;
+  });
 }
 
 }  // namespace nacre::store

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <numeric>
 
-#include "base/statistics.hpp"
-#include "game/standings.hpp"
 #include "material/extensions.hpp"
 
 namespace nacre::analyser {
@@ -69,42 +66,6 @@ std::optional<double> line_at(std::span<const optimize::Performance> line, doubl
 }
 
 }  // namespace
-
-std::optional<int> newest_round(const store::RunRecord& run) {
-  return run.rounds.empty() ? std::nullopt : std::optional<int>(run.rounds.rbegin()->first);
-}
-
-std::optional<int> newest_closed_round(const store::RunRecord& run) {
-  for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
-    if (round->second.summary) return round->first;
-  }
-  return std::nullopt;
-}
-
-std::vector<MeasuredPattern> measured_patterns(const store::RunRecord& run, int round) {
-  const int newest = newest_round(run).value_or(0);
-  std::vector<measurement::SpecimenRecord> known;
-  std::map<std::string, int> first_round;
-  for (const store::MeasuredSpecimen& specimen : run.specimens) {
-    const int measured_in = specimen.round < 0 ? newest : specimen.round;
-    if (measured_in > round) continue;
-    known.push_back(specimen.record);
-    const auto [place, is_new] = first_round.emplace(specimen.record.design.name(), measured_in);
-    if (!is_new) place->second = std::min(place->second, measured_in);
-  }
-  std::vector<MeasuredPattern> patterns;
-  for (const auto& [pattern, values] : game::measured_values(known)) {
-    if (values.modulus_pa.empty() || values.toughness_pa.empty()) continue;
-    patterns.push_back({.pattern = pattern,
-                        .mean = {mean(values.modulus_pa), mean(values.toughness_pa)},
-                        .modulus_sd_pa = standard_deviation(values.modulus_pa),
-                        .toughness_sd_pa = standard_deviation(values.toughness_pa),
-                        .modulus_count = static_cast<int>(values.modulus_pa.size()),
-                        .toughness_count = static_cast<int>(values.toughness_pa.size()),
-                        .round = first_round.at(pattern.key())});
-  }
-  return patterns;
-}
 
 Baselines baselines(std::span<const double> rigid_fraction, std::span<const double> modulus_pa,
                     std::span<const double> toughness_pa) {

@@ -34,6 +34,7 @@ void add_fabricate(CLI::App& app, Action& action);
 void add_import(CLI::App& app, Action& action);
 void add_launch(CLI::App& app, Action& action);
 void add_record(CLI::App& app, Action& action);
+void add_dashboard(CLI::App& app, Action& action);
 void add_status(CLI::App& app, Action& action);
 void add_echo(CLI::App& app, Action& action);
 void add_inject(CLI::App& app, Action& action);

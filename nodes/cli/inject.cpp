@@ -14,14 +14,13 @@
 #include "progress.hpp"
 #include "run_access.hpp"
 #include "runtime/interrupts.hpp"
-#include "wire/convert.hpp"
+#include "specimen_messages.hpp"
 #include "wire/header.hpp"
 
 namespace nacre::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr const char* kChannel = "MEASUREMENT";
 
 struct Options {
   std::string set;
@@ -29,44 +28,6 @@ struct Options {
   double timeout_s = 60.0;
   bool json = false;
 };
-
-/// Every n-th point of a curve that is too long for one message, both ends kept.
-tester::Curve thinned(const tester::Curve& curve, std::size_t most) {
-  if (curve.size() <= most) return curve;
-  tester::Curve thin;
-  for (std::size_t i = 0; i < most; ++i) {
-    const std::size_t k = i * (curve.size() - 1) / (most - 1);
-    thin.strain.push_back(curve.strain[k]);
-    thin.stress_pa.push_back(curve.stress_pa[k]);
-  }
-  return thin;
-}
-
-/// The specimen's history that a message has no field for, for its note: `[date: ...; operator: ...]`.
-std::string history_of(const measurement::SpecimenRecord& specimen) {
-  std::string history;
-  for (const char* name : {"date", "operator", "machine", "path"}) {
-    const auto cell = specimen.other_columns.find(name);
-    if (cell != specimen.other_columns.end())
-      history += fmt::format("{}{}: {}", history.empty() ? "[" : "; ", name, cell->second);
-  }
-  return history.empty() ? "" : history + "]";
-}
-
-runtime::Message message_of(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
-  wire::Measurement measurement;
-  measurement.fidelity = fidelity;
-  measurement.record = specimen;
-  const std::string history = history_of(specimen);
-  if (!history.empty()) measurement.record.note += (specimen.note.empty() ? "" : " ") + history;
-  if (specimen.curve.size() > wire::kMaximumCurvePoints) {
-    // The area under the curve as recorded, not as thinned.
-    if (specimen.test == tester::TestKind::toughness)
-      measurement.record.toughness_pa = measurement::toughness_of(specimen);
-    measurement.record.curve = thinned(specimen.curve, wire::kMaximumCurvePoints);
-  }
-  return {kChannel, wire::write(measurement)};
-}
 
 /// What became of the specimens of a set.
 struct Delivery {
@@ -76,16 +37,6 @@ struct Delivery {
   std::vector<std::string> conflicting;  ///< it has other specimens of these names, which stay
   std::vector<measurement::RejectedRow> rejected;
 };
-
-/// Content hash of the measurement that the validation agent has of each specimen; the first one counts.
-std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
-  std::map<std::string, std::string> hashes;
-  for (const std::string& payload : received_by_validation_agent(run, kChannel)) {
-    const auto measurement = wire::read<wire::Measurement>(payload);
-    if (measurement) hashes.emplace(measurement->record.specimen, wire::message_hash(kChannel, payload));
-  }
-  return hashes;
-}
 
 /// Repeats the offered messages until the validation agent has them all; the analyser gets a few seconds more.
 void wait_for_validation_agent(runtime::Endpoint& endpoint, const std::vector<std::string>& hashes, double timeout_s) {
@@ -134,10 +85,10 @@ Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, cons
   std::vector<std::string> hashes;
   std::set<std::string> repeated;
   for (const measurement::SpecimenRecord& specimen : set.specimens) {
-    const runtime::Message message = message_of(specimen, run.scenario.fidelity);
+    const runtime::Message message = measurement_message(specimen, run.scenario.fidelity);
     const auto same_name = known.find(specimen.specimen);
     const bool is_known = same_name != known.end();
-    if (is_known && same_name->second != wire::message_hash(kChannel, message.payload)) {
+    if (is_known && same_name->second != wire::message_hash(message.channel, message.payload)) {
       warn(
           fmt::format("specimen {}: the run has another measurement of this name, which stays; expected a new name, or "
                       "`nacre review` to judge the old one",

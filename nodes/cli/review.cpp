@@ -11,6 +11,7 @@
 #include "nacre/review_t.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
+#include "specimen_messages.hpp"
 #include "wire/codec.hpp"
 
 namespace nacre::cli {
@@ -39,16 +40,6 @@ struct Judgement {
   bool valid = false;
   std::string why;
 };
-
-/// One more than the highest revision so far, so that this judgement wins.
-int next_revision(const RunAccess& run, const std::string& specimen) {
-  int highest = 0;
-  for (const std::string& payload : received_by_validation_agent(run, "REVIEW")) {
-    const auto review = wire::decode_safe<review_t>(payload);
-    if (review && review->specimen == specimen) highest = std::max<int>(highest, review->revision);
-  }
-  return highest + 1;
-}
 
 int judge_in_run(const Options& options, const Judgement& judgement) {
   const RunAccess run = open_run(options.run);

@@ -108,6 +108,20 @@ void add_batches(const Corpus& corpus) {
   corpus.add("batch", "listing", "nacre-1|0|RUNNING|None\nnacre-1|1|PENDING|launch failed requeued held\n");
 }
 
+void add_requests(const Corpus& corpus) {
+  const std::string host = "host: 127.0.0.1:8765\n", cookie = "cookie: nacre_8765=0123456789abcdef\n";
+  const std::string entry = host + cookie + "x-nacre: 1\ncontent-type: application/json\ncontent-length: 9\norigin: http://127.0.0.1:8765\n\n";
+  corpus.add("dashboard", "gamut", "GET /api/gamut\n" + host + cookie + "?round=1\n\n");
+  corpus.add("dashboard", "design", "GET /api/design\n" + host + "authorization: Bearer 0123456789abcdef\n?design=577fffe9fffdef\n\n");
+  corpus.add("dashboard", "between", "GET /api/between\n" + host + "?patterns=577fffe9fffdef,3ffc9b4ad4d2d9\n?weights=0.25,0.75\n\n");
+  corpus.add("dashboard", "map", "GET /api/map\n" + host + "?id=family-1/577fffe9fffdef\n\n");
+  corpus.add("dashboard", "link", "GET /\n" + host + "?token=0123456789abcdef\n\n");
+  corpus.add("dashboard", "measurement", "POST /api/measurement\n" + entry +
+                 R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
+  corpus.add("dashboard", "review", "POST /api/review\n" + entry + R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
+  corpus.add("dashboard", "approval", "POST /api/approval\n" + entry + R"({"design":"577fffe9fffdef","round":2,"approved":true,"by":"Ada","why":""})");
+}
+
 void add_texts(const Corpus& corpus) {
   corpus.add("measurement_set", "table",
              "specimen,pattern,test,modulus_pa,curve,valid,note\na,577fffe9fffdef,modulus,1e9,,1,\"x, y\"\n"
@@ -142,4 +156,5 @@ int main(int argc, char** argv) {
   nacre::add_databases(corpus);
   nacre::add_batches(corpus);
   nacre::add_texts(corpus);
+  nacre::add_requests(corpus);
 }

@@ -1,0 +1,286 @@
+#include "dashboard/dashboard.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/files.hpp"
+#include "dashboard/entries.hpp"
+#include "dashboard/gamut_view.hpp"
+#include "runtime/bus.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+constexpr double kPlaying_s = 5.0;
+constexpr std::size_t kMostReportBytes = 64u << 20;
+
+/// A request that cannot be answered as it is; becomes its status.
+struct Unanswerable {
+  int status;
+  std::string message;
+};
+
+std::string parameter(const Request& request, const char* name) {
+  const auto found = request.query.find(name);
+  if (found == request.query.end()) throw Unanswerable{400, fmt::format("expected the parameter {}", name)};
+  return found->second;
+}
+
+/// A round, or the name of a family, whose model is meant.
+int number(const std::string& text, const char* name) {
+  int value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (fault != std::errc{} || end != text.data() + text.size() || value < 0 || value > 1'000'000)
+    throw Unanswerable{400, fmt::format("{}: expected a whole number from 0 on", name)};
+  return value;
+}
+
+int round_of(const Request& request) { return number(parameter(request, "round"), "round"); }
+
+pattern::Design design_of(const Request& request) {
+  const auto design = pattern::design_from_name(parameter(request, "design"));
+  if (!design) throw Unanswerable{400, "design: " + design.error().message};
+  return *design;
+}
+
+/// `model`: the number of a round or the name of a family.
+std::string model_of(const Request& request) {
+  const std::string model = parameter(request, "model");
+  if (!is_plain_name(model)) throw Unanswerable{400, "model: expected the number of a round or the name of a family"};
+  return model;
+}
+
+bool is_round(const std::string& model) { return model.find_first_not_of("0123456789") == std::string::npos; }
+
+template <class T>
+T or_refuse(Result<T> result) {
+  if (!result) throw Unanswerable{400, result.error().message};
+  return std::move(*result);
+}
+
+Response binary(std::shared_ptr<const std::string> bytes) {
+  return {.type = "application/octet-stream", .body = *bytes, .headers = {}};
+}
+
+}  // namespace
+
+Dashboard::Dashboard(Settings settings, Desk& desk)
+    : settings_(std::move(settings)),
+      desk_(desk),
+      data_(settings_.run_folder),
+      page_(settings_.page_folder),
+      families_(settings_.family_folder),
+      films_(settings_.run_folder, settings_.scenario.fidelity) {}
+
+const std::map<std::string, Dashboard::Route>& Dashboard::readings() {
+  static const std::map<std::string, Route> routes = {{"/api/run", &Dashboard::run},
+                                                      {"/api/live", &Dashboard::live},
+                                                      {"/api/rounds", &Dashboard::rounds},
+                                                      {"/api/gamut", &Dashboard::gamut},
+                                                      {"/api/design", &Dashboard::design},
+                                                      {"/api/film", &Dashboard::film},
+                                                      {"/api/simulation", &Dashboard::simulation},
+                                                      {"/api/laboratory", &Dashboard::laboratory},
+                                                      {"/api/diagnosis", &Dashboard::diagnosis},
+                                                      {"/api/maps", &Dashboard::maps},
+                                                      {"/api/map", &Dashboard::map},
+                                                      {"/api/between", &Dashboard::between},
+                                                      {"/report", &Dashboard::report}};
+  return routes;
+}
+
+const std::map<std::string, Dashboard::Route>& Dashboard::entries() {
+  static const std::map<std::string, Route> routes = {{"/api/measurement", &Dashboard::enter},
+                                                      {"/api/review", &Dashboard::judge},
+                                                      {"/api/approval", &Dashboard::decide},
+                                                      {"/api/simulate", &Dashboard::simulate}};
+  return routes;
+}
+
+Response Dashboard::handle(const Request& request) {
+  try {
+    const bool writes = request.method == "POST";
+    const auto& routes = writes ? entries() : readings();
+    if (const auto route = routes.find(request.path); route != routes.end()) return (this->*route->second)(request);
+    if (auto file = writes ? std::nullopt : page_.find(request.path)) return *file;
+    if ((writes ? readings() : entries()).contains(request.path)) return error_response(405, writes ? "expected GET" : "expected POST");
+    return error_response(404, "there is nothing here");
+  } catch (const Unanswerable& refusal) {
+    return error_response(refusal.status, refusal.message);
+  } catch (const std::exception& error) {
+    return error_response(500, error.what());
+  }
+}
+
+Response Dashboard::run(const Request&) {
+  const game::Scenario& s = settings_.scenario;
+  return json_response({{"run", settings_.run_id},
+                        {"scenario", s.name},
+                        {"fidelity", tester::to_string(s.fidelity)},
+                        {"rounds", s.rounds},
+                        {"approval", s.validation.approval},
+                        {"virtual_lab", s.laboratory.virtual_lab},
+                        {"replicates", s.validation.replicates},
+                        {"started", settings_.started},
+                        {"nacre_version", settings_.nacre_version},
+                        {"commit", settings_.commit},
+                        {"report", std::filesystem::exists(settings_.run_folder / "report.html")},
+                        {"user", settings_.user}});
+}
+
+Response Dashboard::live(const Request&) {
+  const auto nodes = desk_.nodes();
+  bool playing = false;
+  for (const NodeReport& report : nodes) playing = playing || report.age_s < kPlaying_s;
+  return json_response({{"playing", playing}, {"data", data_.version()}, {"nodes", nodes_json(nodes)}});
+}
+
+Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
+
+Response Dashboard::gamut(const Request& request) {
+  const int round = round_of(request);
+  return {.type = "application/octet-stream", .body = gamut_bytes(*data_.gamut(round), round), .headers = {}};
+}
+
+Response Dashboard::design(const Request& request) { return json_response(design_json(*data_.record(), design_of(request))); }
+
+Json Dashboard::simulation_state(const std::string& design, const std::string& model) {
+  if (is_round(model) && films_.name_in_run(*data_.record(), design, number(model, "model")))
+    return {{"state", "ready"}, {"source", "run"}};
+  const Background::State state = films_.made(design, model);
+  Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
+  if (state.result) {
+    const auto modulus = unpacked(*state.result).modulus_pa;
+    json["modulus_pa"] = modulus ? Json(*modulus) : Json(nullptr);
+  }
+  if (!state.problem.empty()) json["problem"] = state.problem;
+  return json;
+}
+
+Response Dashboard::simulation(const Request& request) {
+  return json_response(simulation_state(design_of(request).name(), model_of(request)));
+}
+
+Response Dashboard::film(const Request& request) {
+  const std::string design = design_of(request).name(), model = model_of(request);
+  if (is_round(model)) {
+    if (const auto film = films_.of_run(*data_.record(), design, number(model, "model"))) return binary(film);
+  }
+  const Background::State state = films_.made(design, model);
+  if (!state.result) return error_response(404, "there is no film of this design yet");
+  return binary(std::make_shared<const std::string>(unpacked(*state.result).film));
+}
+
+Response Dashboard::simulate(const Request& request) {
+  const SimulationWish wish = or_refuse(wish_from_json(request.body));
+  std::optional<material::ParameterSet> parameters;
+  if (is_round(wish.model)) {
+    const std::lock_guard lock(desk_mutex_);
+    parameters = desk_.model(number(wish.model, "model"));
+  } else {
+    parameters = or_refuse(families_.model(wish.model));
+  }
+  if (!parameters) return error_response(409, fmt::format("round {} has no model yet", wish.model));
+  if (!films_.make(wish.design, wish.model, *parameters)) return error_response(503, "too many simulations are waiting already");
+  return json_response(simulation_state(wish.design.name(), wish.model), 202);
+}
+
+Response Dashboard::laboratory(const Request&) {
+  constexpr std::int64_t kLeastFresh_us = 500'000, kFreshPerCost = 10;  // however long the journal, most of the time is for others
+  const std::lock_guard lock(desk_mutex_);
+  const std::int64_t begun_us = runtime::steady_us();
+  if (begun_us >= laboratory_fresh_until_us_) {
+    laboratory_ = laboratory_json(desk_.laboratory());
+    const std::int64_t now_us = runtime::steady_us();
+    laboratory_fresh_until_us_ = now_us + std::max(kLeastFresh_us, kFreshPerCost * (now_us - begun_us));
+  }
+  return json_response(laboratory_);
+}
+
+Response Dashboard::diagnosis(const Request& request) {
+  const int round = round_of(request);
+  const std::lock_guard lock(desk_mutex_);
+  return json_response(diagnosis_json(*data_.record(), desk_.diagnosis(round), round));
+}
+
+Response Dashboard::maps(const Request&) {
+  Json gamuts = Json::array();
+  for (const auto& [round, size] : data_.gamut_sizes()) gamuts.push_back(fmt::format("gamut/{}", round));
+  return json_response({{"families", families_.families()}, {"gamuts", gamuts}});
+}
+
+Response Dashboard::map(const Request& request) {
+  const std::string id = parameter(request, "id");
+  if (!id.starts_with("gamut/")) {
+    const auto map = families_.map(id);
+    return map ? json_response({{"state", "ready"}, {"map", to_json(*map)}}) : error_response(404, map.error().message);
+  }
+  const int round = number(id.substr(6), "id");
+  const auto gamut = data_.gamut(round);
+  const std::string key = fmt::format("{}@{}", id, gamut->patterns.size());
+  Background::State state = maps_.state(key);
+  if (state.stage == Background::Stage::unknown) {
+    maps_.ask(key, [gamut, round](const auto& progress) -> Result<std::string> {
+      const auto map = map_of_gamut(*gamut, round, progress);
+      if (!map) return tl::unexpected(map.error());
+      return to_json(*map).dump();
+    });
+    state = maps_.state(key);
+  }
+  if (state.result) return {.body = R"({"state":"ready","map":)" + *state.result + "}", .headers = {}};
+  if (state.stage == Background::Stage::failed) return error_response(404, state.problem);
+  return json_response({{"state", to_string(state.stage)}, {"progress", state.progress < 0.0 ? Json(nullptr) : Json(state.progress)}});
+}
+
+Response Dashboard::between(const Request& request) {
+  return json_response(or_refuse(dashboard::between(parameter(request, "patterns"), parameter(request, "weights"))));
+}
+
+Response Dashboard::report(const Request&) {
+  const std::filesystem::path file = settings_.run_folder / "report.html";
+  std::error_code unreadable;
+  if (std::filesystem::symlink_status(file, unreadable).type() != std::filesystem::file_type::regular)
+    return error_response(404, "there is no report yet; the analyser writes it after the first round");
+  return {.type = "text/html; charset=utf-8",
+          .body = read_file_up_to(file, kMostReportBytes),
+          .headers = {{"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
+}
+
+Response Dashboard::answered(Answer answer) {
+  laboratory_fresh_until_us_ = 0;
+  const int status = answer == Answer::unanswered ? 504 : answer == Answer::conflicting ? 409 : 200;
+  Json json = {{"answer", to_string(answer)}};
+  if (answer == Answer::unanswered) json["error"] = "the validation agent did not answer: does the game play? Handing it in again is safe.";
+  if (answer == Answer::conflicting) json["error"] = "the run has another measurement of this name, which stays: take a new name, or judge the old one";
+  return json_response(json, status);
+}
+
+Response Dashboard::enter(const Request& request) {
+  const auto specimen = or_refuse(specimen_from_json(request.body));
+  const std::lock_guard lock(desk_mutex_);
+  return answered(desk_.enter(specimen));
+}
+
+Response Dashboard::judge(const Request& request) {
+  const auto judgement = or_refuse(judgement_from_json(request.body));
+  const std::lock_guard lock(desk_mutex_);
+  return answered(desk_.judge(judgement));
+}
+
+Response Dashboard::decide(const Request& request) {
+  const auto decision = or_refuse(decision_from_json(request.body));
+  const std::lock_guard lock(desk_mutex_);
+  return answered(desk_.decide(decision));
+}
+
+std::string_view to_string(Answer answer) {
+  switch (answer) {
+    case Answer::accepted: return "accepted";
+    case Answer::repeated: return "repeated";
+    case Answer::conflicting: return "conflicting";
+    case Answer::unanswered: break;
+  }
+  return "unanswered";
+}
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,74 @@
+#pragma once
+// The dashboard of one run: requests in, answers out. The routes are listed in docs/FORMATS.md.
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+
+#include "dashboard/background.hpp"
+#include "dashboard/desk.hpp"
+#include "dashboard/films.hpp"
+#include "dashboard/http.hpp"
+#include "dashboard/maps.hpp"
+#include "dashboard/page_files.hpp"
+#include "dashboard/run_data.hpp"
+#include "game/scenario.hpp"
+
+namespace nacre::dashboard {
+
+struct Settings {
+  std::filesystem::path run_folder;
+  std::filesystem::path page_folder;
+  std::filesystem::path family_folder;  ///< of `nacre families`; need not exist
+  std::string run_id, started, nacre_version, commit;
+  std::string user;  ///< who hands in, unless the page says otherwise
+  game::Scenario scenario;
+};
+
+/// Answers requests from any number of threads.
+class Dashboard {
+ public:
+  /// `desk` must outlive it.
+  Dashboard(Settings settings, Desk& desk);
+  /// Never throws: what is wrong comes back as a status with `{"error": ...}`.
+  Response handle(const Request& request);
+
+ private:
+  using Route = Response (Dashboard::*)(const Request&);
+  static const std::map<std::string, Route>& readings();
+  static const std::map<std::string, Route>& entries();
+
+  Response run(const Request&);
+  Response live(const Request&);
+  Response rounds(const Request&);
+  Response gamut(const Request&);
+  Response design(const Request&);
+  Response film(const Request&);
+  Response simulation(const Request&);
+  Response laboratory(const Request&);
+  Response diagnosis(const Request&);
+  Response maps(const Request&);
+  Response map(const Request&);
+  Response between(const Request&);
+  Response report(const Request&);
+  Response enter(const Request&);
+  Response judge(const Request&);
+  Response decide(const Request&);
+  Response simulate(const Request&);
+
+  Json simulation_state(const std::string& design, const std::string& model);
+  Response answered(Answer answer);
+
+  Settings settings_;
+  Desk& desk_;
+  std::mutex desk_mutex_;  ///< the desk serves one at a time
+  Json laboratory_;        ///< as last read; reading a long journal takes a while
+  std::int64_t laboratory_fresh_until_us_ = 0;
+  RunData data_;
+  PageFiles page_;
+  FamilyFolder families_;
+  Films films_;
+  Background maps_;
+};
+
+}  // namespace nacre::dashboard

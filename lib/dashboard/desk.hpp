@@ -1,0 +1,71 @@
+#pragma once
+// What the dashboard asks of a run beside its database, and hands in on behalf of a person. A small interface, so that routes are
+// tested without a network.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/design_states.hpp"
+#include "material/parameters.hpp"
+#include "nacre/diagnosis_t.hpp"
+#include "nacre/node_status_t.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::dashboard {
+
+/// What became of something that was handed in.
+enum class Answer {
+  accepted,     ///< the validation agent has it
+  repeated,     ///< it had it already
+  conflicting,  ///< it has a specimen of this name with other content, which stays
+  unanswered,   ///< it did not answer in time
+};
+std::string_view to_string(Answer answer);
+
+/// A person's yes or no to a proposed design; round -1: a design of the person's own, to be measured too.
+struct Decision {
+  std::string design;
+  int round = -1;
+  bool approved = true;
+  std::string by, why;
+};
+
+/// A person's judgement on one specimen.
+struct Judgement {
+  std::string specimen;
+  bool valid = true;
+  std::string by, why;
+};
+
+/// The run as its laboratory sees it.
+struct Laboratory {
+  game::LaboratoryFacts facts;
+  std::optional<wire::Proposal> newest_proposal;
+};
+
+/// What a node last said of itself.
+struct NodeReport {
+  std::string node;
+  node_status_t status{};
+  double age_s = 0.0;  ///< since it said so
+};
+
+class Desk {
+ public:
+  virtual ~Desk() = default;
+  /// May throw InputError, like all calls here.
+  virtual Laboratory laboratory() = 0;
+  /// The model adopted in a round; nothing when none was.
+  virtual std::optional<material::ParameterSet> model(int round) = 0;
+  /// The analyser's newest word on a round.
+  virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
+  /// Nodes that have spoken in the last seconds; none when the run does not play.
+  virtual std::vector<NodeReport> nodes() = 0;
+  // Handing in: waits for the validation agent for some seconds.
+  virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
+  virtual Answer judge(const Judgement& judgement) = 0;
+  virtual Answer decide(const Decision& decision) = 0;
+};
+
+}  // namespace nacre::dashboard

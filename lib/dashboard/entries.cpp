@@ -1,0 +1,134 @@
+#include "dashboard/entries.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "dashboard/maps.hpp"
+#include "measurement/entry.hpp"
+#include "pattern/design.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+constexpr std::size_t kLongestText = 500;
+constexpr int kLastRound = 1'000'000;
+constexpr int kDeepest = 4;
+
+/// The object in `text`; nested values are refused before they are built.
+Result<Json> object_in(std::string_view text) {
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; };
+  const Json document = Json::parse(text, shallow, false);
+  if (!document.is_object()) return fail("expected a JSON object");
+  return document;
+}
+
+/// A short text without control characters; empty when the member is absent.
+Result<std::string> text_of(const Json& object, const char* name, bool required = false) {
+  const auto found = object.find(name);
+  if (found == object.end() || found->is_null()) {
+    if (required) return fail("{}: is missing, expected a text", name);
+    return std::string();
+  }
+  if (!found->is_string()) return fail("{}: expected a text", name);
+  const auto& text = found->get_ref<const std::string&>();
+  if (text.size() > kLongestText) return fail("{}: is longer than {} bytes", name, kLongestText);
+  for (const char letter : text)
+    if (static_cast<unsigned char>(letter) < 0x20) return fail("{}: holds a control character", name);
+  if (required && text.find_first_not_of(' ') == std::string::npos) return fail("{}: is empty, expected a text", name);
+  return text;
+}
+
+Result<bool> flag_of(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  if (found == object.end() || !found->is_boolean()) return fail("{}: expected true or false", name);
+  return found->get<bool>();
+}
+
+Result<int> round_of(const Json& object, int absent) {
+  const auto found = object.find("round");
+  if (found == object.end() || found->is_null()) return absent;
+  if (!found->is_number_integer()) return fail("round: expected a whole number");
+  // A number beyond int64 is unsigned, and would wrap.
+  if (found->is_number_unsigned() && found->get<std::uint64_t>() > static_cast<std::uint64_t>(kLastRound))
+    return fail("round: {} is too large", found->get<std::uint64_t>());
+  const auto round = found->get<std::int64_t>();
+  if (round < -1 || round > kLastRound) return fail("round: {}, expected -1 or more", round);
+  return static_cast<int>(round);
+}
+
+Result<pattern::Design> design_of(const Json& object, const char* name) {
+  const Result<std::string> text = text_of(object, name, true);
+  if (!text) return tl::unexpected(text.error());
+  const auto design = pattern::design_from_name(*text);
+  if (!design) return fail("{}: {}", name, design.error().message);
+  return *design;
+}
+
+/// A cell of a table: text as it is, numbers to the last bit.
+Result<std::string> cell_of(const std::string& name, const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return std::string(value.get<bool>() ? "1" : "0");
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) return fmt::format("{}", value.get<double>());
+  if (value.is_null()) return std::string();
+  return fail("{}: expected a text or a number", name);
+}
+
+}  // namespace
+
+Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  std::map<std::string, std::string> fields;
+  std::string curve;
+  for (const auto& [name, value] : object->items()) {
+    Result<std::string> cell = cell_of(name, value);
+    if (!cell) return tl::unexpected(cell.error());
+    (name == "curve_csv" ? curve : fields[name]) = std::move(*cell);
+  }
+  auto specimen = measurement::specimen_from_fields(fields, curve);
+  if (!specimen) {
+    const measurement::RejectedRow& row = specimen.error();
+    return fail("{}{}{}", row.column, row.column.empty() ? "" : ": ", row.reason);
+  }
+  return std::move(*specimen);
+}
+
+Result<Judgement> judgement_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto specimen = text_of(*object, "specimen", true), by = text_of(*object, "by", true), why = text_of(*object, "why", true);
+  const auto valid = flag_of(*object, "valid");
+  for (const auto* each : {&specimen, &by, &why})
+    if (!*each) return tl::unexpected(each->error());
+  if (!valid) return tl::unexpected(valid.error());
+  return Judgement{*specimen, *valid, *by, *why};
+}
+
+Result<Decision> decision_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto design = design_of(*object, "design");
+  const auto round = round_of(*object, -1);
+  const auto approved = flag_of(*object, "approved");
+  const auto by = text_of(*object, "by", true), why = text_of(*object, "why");
+  if (!design) return tl::unexpected(design.error());
+  if (!round) return tl::unexpected(round.error());
+  if (!approved) return tl::unexpected(approved.error());
+  if (!by) return tl::unexpected(by.error());
+  if (!why) return tl::unexpected(why.error());
+  if (*round < 0 && !*approved) return fail("approved: a design of one's own is only ever asked for, expected true");
+  return Decision{design->name(), *round, *approved, *by, *why};
+}
+
+Result<SimulationWish> wish_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto design = design_of(*object, "design");
+  const auto model = text_of(*object, "model", true);
+  if (!design) return tl::unexpected(design.error());
+  if (!model) return tl::unexpected(model.error());
+  if (!is_plain_name(*model)) return fail("model: expected the number of a round or the name of a family");
+  return SimulationWish{*design, *model};
+}
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,29 @@
+#pragma once
+// What people hand in, from JSON that may be anything.
+
+#include <string_view>
+
+#include "base/result.hpp"
+#include "dashboard/desk.hpp"
+#include "measurement/measurement.hpp"
+
+namespace nacre::dashboard {
+
+/// A specimen: the columns of a measurement set as members (text or numbers; `valid` may be a boolean), and `curve_csv`, the text
+/// of a curve file. The error names the column and what was expected.
+Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text);
+
+/// `specimen`, `valid`, `by`, `why` (not empty).
+Result<Judgement> judgement_from_json(std::string_view text);
+
+/// `design` (canonical name), `round` (-1 or absent: a design of the person's own), `approved`, `by`, `why`.
+Result<Decision> decision_from_json(std::string_view text);
+
+/// Which design to simulate with which model: `design`, `model` (the number of a round, or the name of a family).
+struct SimulationWish {
+  pattern::Design design;
+  std::string model;
+};
+Result<SimulationWish> wish_from_json(std::string_view text);
+
+}  // namespace nacre::dashboard

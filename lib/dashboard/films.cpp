@@ -1,0 +1,72 @@
+#include "dashboard/films.hpp"
+
+#include <cstring>
+
+#include "base/files.hpp"
+#include "film/film_file.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+constexpr std::size_t kMostFilmBytes = 64u << 20;
+
+/// `HEX.film`, as the farm writes them: the name comes out of a database.
+bool is_film_name(const std::string& name) {
+  constexpr std::string_view kSuffix = ".film";
+  const std::size_t length = name.size() < kSuffix.size() ? 0 : name.size() - kSuffix.size();
+  return length > 0 && length <= 64 && name.ends_with(kSuffix) && name.find_first_not_of("0123456789abcdef") == length;
+}
+
+std::string key_of(const std::string& design, const std::string& model) { return design + "@" + model; }
+
+/// Both tests, and the specimen pulled once more for its film.
+Result<std::string> simulated_film(const tester::Simulation& simulation) {
+  const auto modulus = tester::test_modulus(simulation);
+  const auto toughness = tester::test_toughness(simulation);
+  if (!toughness) return fail("the fracture test gives no result: {}", toughness.error().message);
+  const auto film = film::record_film(simulation, *toughness);
+  if (!film) return fail("no film: {}", film.error().message);
+  const double modulus_pa = modulus ? modulus->modulus_pa : 0.0;
+  std::string made(sizeof(double), '\0');
+  std::memcpy(made.data(), &modulus_pa, sizeof(double));
+  return made + film::encode(*film);
+}
+
+}  // namespace
+
+MadeFilm unpacked(const std::string& made) {
+  double modulus_pa = 0.0;
+  std::memcpy(&modulus_pa, made.data(), sizeof(double));
+  return {modulus_pa > 0.0 ? std::optional<double>(modulus_pa) : std::nullopt, std::string_view(made).substr(sizeof(double))};
+}
+
+std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const std::string& design, int round) const {
+  const auto of_round = run.rounds.find(round);
+  if (of_round == run.rounds.end()) return std::nullopt;
+  const auto found = of_round->second.cracks.find(design);
+  if (found == of_round->second.cracks.end() || !is_film_name(found->second.film)) return std::nullopt;
+  std::error_code unreadable;
+  // A link could lead anywhere.
+  if (std::filesystem::symlink_status(folder_ / found->second.film, unreadable).type() != std::filesystem::file_type::regular) return std::nullopt;
+  return found->second.film;
+}
+
+std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, const std::string& design, int round) const {
+  const auto name = name_in_run(run, design, round);
+  if (!name) return nullptr;
+  try {
+    return std::make_shared<const std::string>(read_file_up_to(folder_ / *name, kMostFilmBytes));
+  } catch (const InputError&) {
+    return nullptr;
+  }
+}
+
+bool Films::make(const pattern::Design& design, const std::string& model, const material::ParameterSet& parameters) {
+  const tester::Simulation simulation{design, parameters, {}, fidelity_};
+  return background_.ask(key_of(design.name(), model), [simulation](const auto&) { return simulated_film(simulation); });
+}
+
+Background::State Films::made(const std::string& design, const std::string& model) const { return background_.state(key_of(design, model)); }
+
+}  // namespace nacre::dashboard

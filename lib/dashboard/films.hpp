@@ -1,0 +1,41 @@
+#pragma once
+// Fracture films by design and model: those of the run's folder, and those that are made here because somebody looks.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "dashboard/background.hpp"
+#include "dashboard/views.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::dashboard {
+
+class Films {
+ public:
+  Films(std::filesystem::path run_folder, tester::Fidelity fidelity) : folder_(std::move(run_folder) / "films"), fidelity_(fidelity) {}
+
+  /// The film that the farm made of a design with the model of a round; nullptr when there is none or its file cannot be read.
+  std::shared_ptr<const std::string> of_run(const store::RunRecord& run, const std::string& design, int round) const;
+  /// Name of that film's file when it is there.
+  std::optional<std::string> name_in_run(const store::RunRecord& run, const std::string& design, int round) const;
+
+  /// Starts simulating and filming; `model` names the parameters among those of this design. False when too much waits already.
+  bool make(const pattern::Design& design, const std::string& model, const material::ParameterSet& parameters);
+  Background::State made(const std::string& design, const std::string& model) const;
+
+ private:
+  std::filesystem::path folder_;
+  tester::Fidelity fidelity_;
+  Background background_;
+};
+
+/// Modulus, as text before the film of a made result, and the film's bytes.
+struct MadeFilm {
+  std::optional<double> modulus_pa;
+  std::string_view film;
+};
+MadeFilm unpacked(const std::string& made);
+
+}  // namespace nacre::dashboard

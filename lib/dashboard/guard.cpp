@@ -1,0 +1,117 @@
+#include "dashboard/guard.hpp"
+
+#include <sys/random.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "base/result.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+constexpr std::size_t kLongestPath = 512;
+
+/// Takes as long for every answer of one length.
+bool same_secret(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  unsigned char difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) difference |= static_cast<unsigned char>(a[i] ^ b[i]);
+  return difference == 0;
+}
+
+/// Value of a cookie in a Cookie header; empty when it is not there.
+std::string cookie(const std::string& header, const std::string& name) {
+  std::size_t begin = 0;
+  while (begin < header.size()) {
+    const std::size_t end = std::min(header.find(';', begin), header.size());
+    const std::size_t first = header.find_first_not_of(' ', begin);
+    if (first < end && header.compare(first, name.size(), name) == 0 && first + name.size() < end && header[first + name.size()] == '=')
+      return header.substr(first + name.size() + 1, end - first - name.size() - 1);
+    begin = end + 1;
+  }
+  return "";
+}
+
+/// An IP address with or without port: nobody can make a name of theirs look like one.
+bool is_address(const std::string& host) {
+  const bool brackets = !host.empty() && host.front() == '[';
+  return !host.empty() && host.find_first_not_of(brackets ? "0123456789abcdefABCDEF.:[]" : "0123456789.:") == std::string::npos;
+}
+
+bool is_named(const AccessRules& rules, const std::string& host) {
+  if (std::find(rules.hosts.begin(), rules.hosts.end(), host) != rules.hosts.end()) return true;
+  return !rules.token.empty() && is_address(host);
+}
+
+/// Lets a browser in that followed the link with the token: the token leaves the address bar and stays in a cookie.
+std::optional<Response> welcome(const AccessRules& rules, const Request& request) {
+  const auto given = request.query.find("token");
+  if (request.method != "GET" || request.path != "/" || given == request.query.end() || !same_secret(given->second, rules.token)) return std::nullopt;
+  return Response{.status = 303,
+                  .type = "text/plain; charset=utf-8",
+                  .body = "",
+                  .headers = {{"Location", "/"},
+                              {"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", rules.cookie_name, rules.token)}}};
+}
+
+bool knows_token(const AccessRules& rules, const Request& request) {
+  if (rules.token.empty()) return true;
+  return same_secret(request.header("authorization"), "Bearer " + rules.token) ||
+         same_secret(cookie(request.header("cookie"), rules.cookie_name), rules.token);
+}
+
+std::optional<Response> refused_post(const Request& request) {
+  if (request.header("x-nacre") != "1") return error_response(403, "expected the header X-Nacre: 1");
+  const std::string origin = request.header("origin"), site = request.header("sec-fetch-site");
+  if (!origin.empty() && origin != "http://" + request.header("host")) return error_response(403, "this request comes from another page");
+  if (!site.empty() && site != "same-origin" && site != "none") return error_response(403, "this request comes from another page");
+  if (!request.header("content-type").starts_with("application/json") || !request.header("content-encoding").empty())
+    return error_response(415, "expected application/json, not compressed");
+  if (request.header("content-length").empty() || !request.header("transfer-encoding").empty())
+    return error_response(411, "expected a Content-Length");
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> host_names(const std::string& host, int port) {
+  std::array<char, 256> own{};
+  std::vector<std::string> names = {"localhost", "127.0.0.1", "[::1]", host.find(':') == std::string::npos ? host : "[" + host + "]"};
+  if (::gethostname(own.data(), own.size() - 1) == 0) names.emplace_back(own.data());
+  std::vector<std::string> with_port;
+  for (const std::string& name : names) {
+    with_port.push_back(fmt::format("{}:{}", name, port));
+    if (port == 80) with_port.push_back(name);
+  }
+  return with_port;
+}
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) throw InputError("the system gives no random numbers");
+  std::string token;
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
+std::optional<Response> refused(const AccessRules& rules, const Request& request) {
+  if (request.path.size() > kLongestPath) return error_response(414, "the path is too long");
+  if (!is_named(rules, request.header("host"))) return error_response(421, "this server does not go by that name");
+  if (!rules.token.empty()) {
+    if (auto answer = welcome(rules, request)) return answer;
+    if (!knows_token(rules, request))
+      return Response{.status = 401,
+                      .type = "text/plain; charset=utf-8",
+                      .body = "This dashboard asks for a token: open the link that nacre dashboard printed.\n",
+                      .headers = {{"WWW-Authenticate", "Bearer"}}};
+  }
+  if (request.method == "POST") return refused_post(request);
+  if (request.method != "GET" && request.method != "HEAD") return error_response(405, "expected GET or POST");
+  return std::nullopt;
+}
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,50 @@
+#pragma once
+// Listens to the STATUS messages of a run that plays.
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "dashboard/desk.hpp"
+#include "runtime/bus.hpp"
+
+namespace nacre::dashboard {
+
+class LiveFeed {
+ public:
+  struct Source {
+    /// Opens a bus that listens to STATUS. May throw InputError.
+    std::function<std::unique_ptr<runtime::Bus>()> open;
+    /// Which bus it would be: a resumed run may play on another port.
+    std::function<std::string()> identity;
+  };
+  explicit LiveFeed(Source source);
+  ~LiveFeed();
+
+  /// Nodes that have spoken within a minute, by name, with the age of what they said.
+  std::vector<NodeReport> nodes() const;
+  /// Whether any node has spoken within the last seconds.
+  bool playing() const;
+  /// Why nothing can be heard; empty when all is well.
+  std::string problem() const;
+
+ private:
+  struct Heard {
+    node_status_t status;
+    std::int64_t when_us = 0;
+  };
+  void listen();
+  void receive_until_moved(runtime::Bus& bus, const std::string& identity);
+  Source source_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Heard> heard_;
+  std::string problem_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,112 @@
+// The game by rounds.
+
+#include <set>
+
+#include "dashboard/views.hpp"
+#include "store/measured_patterns.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+constexpr int kCurvePoints = 400;
+
+Json point_json(const optimize::Performance& point) { return {point.modulus_pa, point.toughness_pa}; }
+
+Json points_json(const std::vector<optimize::Performance>& points) {
+  Json array = Json::array();
+  for (const auto& point : points) array.push_back(point_json(point));
+  return array;
+}
+
+Json summary_json(const wire::RoundSummary& s) {
+  return {{"fidelity", tester::to_string(s.fidelity)},
+          {"calibration_count", s.calibration_count},
+          {"measured_hypervolume", s.measured_hypervolume_staircase},
+          {"measured_hypervolume_polygon", s.measured_hypervolume_polygon},
+          {"gamut_hypervolume", s.gamut_hypervolume_staircase},
+          {"gamut_hypervolume_polygon", s.gamut_hypervolume_polygon},
+          {"hypervolume_error", s.hypervolume_error},
+          {"gap", s.gap},
+          {"signed_gap", s.signed_gap},
+          {"before", errors_json(s.before)},
+          {"after", errors_json(s.after)},
+          {"held_out", errors_json(s.held_out)},
+          {"equilibrium", s.equilibrium},
+          {"last", s.last},
+          {"decided_by", s.decided_by}};
+}
+
+Json proposal_json(const store::RecordedProposal& proposal) {
+  return {{"design", proposal.design},
+          {"modulus_pa", proposal.predicted.modulus_pa},
+          {"toughness_pa", proposal.predicted.toughness_pa},
+          {"reason", proposal.reason}};
+}
+
+std::vector<optimize::Performance> means(const std::vector<store::MeasuredPattern>& patterns) {
+  std::vector<optimize::Performance> points;
+  for (const auto& each : patterns) points.push_back(each.mean);
+  return points;
+}
+
+Json measured_json(const store::MeasuredPattern& m) {
+  return {{"design", m.pattern.key()},
+          {"round", m.round},
+          {"rigid_fraction", m.pattern.rigid_fraction()},
+          {"modulus_pa", m.mean.modulus_pa},
+          {"modulus_sd_pa", m.modulus_sd_pa},
+          {"modulus_count", m.modulus_count},
+          {"toughness_pa", m.mean.toughness_pa},
+          {"toughness_sd_pa", m.toughness_sd_pa},
+          {"toughness_count", m.toughness_count}};
+}
+
+}  // namespace
+
+Json curve_json(const tester::Curve& curve) {
+  if (curve.empty()) return nullptr;
+  const std::size_t count = curve.size(), most = kCurvePoints, shown = std::min(count, most);
+  Json strain = Json::array(), stress = Json::array();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t k = count <= most ? i : i * (count - 1) / (most - 1);
+    strain.push_back(curve.strain[k]);
+    stress.push_back(curve.stress_pa[k]);
+  }
+  return {{"strain", strain}, {"stress_pa", stress}};
+}
+
+Json errors_json(const sysid::PredictionErrors& e) {
+  if (e.modulus_count == 0 && e.toughness_count == 0) return nullptr;
+  return {{"modulus_count", e.modulus_count},     {"modulus_mean", e.modulus_mean},     {"modulus_max", e.modulus_max},
+          {"toughness_count", e.toughness_count}, {"toughness_mean", e.toughness_mean}, {"toughness_max", e.toughness_max},
+          {"toughness_spearman", e.toughness_spearman}};
+}
+
+Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes) {
+  const auto gamut_size = [&](int round) { return gamut_sizes.contains(round) ? gamut_sizes.at(round) : 0; };
+  Json rounds = Json::array();
+  std::set<int> numbers;
+  for (const auto& [number, round] : run.rounds) numbers.insert(number);
+  for (const auto& [number, size] : gamut_sizes) numbers.insert(number);
+  static const store::RoundRecord kUnheard;
+  for (const int number : numbers) {
+    const auto known = run.rounds.find(number);
+    const store::RoundRecord& round = known == run.rounds.end() ? kUnheard : known->second;
+    Json proposals = Json::array(), parameters = Json::object();
+    for (const auto& proposal : round.proposals) proposals.push_back(proposal_json(proposal));
+    for (const auto& [name, value] : round.parameters) parameters[name] = value;
+    rounds.push_back({{"round", number},
+                      {"summary", round.summary ? summary_json(*round.summary) : Json(nullptr)},
+                      {"gamut_count", gamut_size(number)},
+                      {"measured_front", points_json(optimize::pareto_front(means(store::measured_patterns(run, number))))},
+                      {"benchmark", points_json(round.benchmark)},
+                      {"proposals", proposals},
+                      {"parameters", parameters},
+                      {"verdict", round.diagnosis ? Json(round.diagnosis->verdict) : Json(nullptr)}});
+  }
+  Json measured = Json::array();
+  for (const auto& pattern : store::measured_patterns(run, store::newest_round(run).value_or(0))) measured.push_back(measured_json(pattern));
+  return {{"rounds", rounds}, {"measured", measured}};
+}
+
+}  // namespace nacre::dashboard

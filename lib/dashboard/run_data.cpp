@@ -1,0 +1,56 @@
+#include "dashboard/run_data.hpp"
+
+#include <sys/stat.h>
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace nacre::dashboard {
+
+std::string RunData::version() const {
+  // Without asking SQLite: a write changes the write-ahead log, a checkpoint the file.
+  std::string version;
+  for (const char* companion : {"", "-wal"}) {
+    struct stat status {};
+    if (::stat((database_.string() + companion).c_str(), &status) != 0) continue;
+    version += fmt::format("{:x}-{:x}-{:x}.", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+  }
+  return version;
+}
+
+void RunData::refresh() {
+  // The version is taken before reading: what is written meanwhile is read once more, never missed.
+  const std::string now = version();
+  if (now == read_version_ || !std::filesystem::exists(database_)) return;
+  record_ = std::make_shared<const store::RunRecord>(store::read_run_record(database_, false));
+  const std::map<int, int> before = std::exchange(gamut_sizes_, store::read_gamut_sizes(database_));
+  std::erase_if(gamuts_, [&](const auto& kept) { return !before.contains(kept.first) || before.at(kept.first) != gamut_sizes_[kept.first]; });
+  read_version_ = now;
+}
+
+std::shared_ptr<const store::RunRecord> RunData::record() {
+  const std::lock_guard lock(mutex_);
+  refresh();
+  return record_;
+}
+
+std::map<int, int> RunData::gamut_sizes() {
+  const std::lock_guard lock(mutex_);
+  refresh();
+  return gamut_sizes_;
+}
+
+std::shared_ptr<const store::RecordedGamut> RunData::gamut(int round) {
+  constexpr std::size_t kMostKept = 16;
+  const std::lock_guard lock(mutex_);
+  refresh();
+  if (!gamut_sizes_.contains(round)) return std::make_shared<const store::RecordedGamut>();
+  auto& kept = gamuts_[round];
+  if (!kept) kept = std::make_shared<const store::RecordedGamut>(store::read_gamut(database_, round));
+  const auto gamut = kept;
+  while (gamuts_.size() > kMostKept) gamuts_.erase(gamuts_.begin()->first == round ? std::prev(gamuts_.end()) : gamuts_.begin());
+  return gamut;
+}
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,88 @@
+#include "dashboard/server.hpp"
+
+#include <poll.h>
+
+#include <thread>
+
+#include <httplib.h>
+
+#include "base/result.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+constexpr std::size_t kMostBodyBytes = 4u << 20;
+constexpr std::size_t kThreads = 24;  // a browser keeps six connections a tab, and a connection keeps a thread
+constexpr int kTimeout_s = 5, kIdle_s = 2, kTurn_ms = 100;
+constexpr std::size_t kRequestsPerConnection = 1000;
+
+std::string lower_case(std::string text) {
+  for (char& letter : text) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  return text;
+}
+
+Request request_of(const httplib::Request& from) {
+  Request request{.method = from.method, .path = from.path, .query = {}, .headers = {}, .body = from.body};
+  for (const auto& [name, value] : from.params) request.query.emplace(name, value);
+  for (const auto& [name, value] : from.headers) request.headers.emplace(lower_case(name), value);
+  return request;
+}
+
+void answer(const Response& from, httplib::Response& to) {
+  to.status = from.status;
+  to.set_header("X-Content-Type-Options", "nosniff");
+  to.set_header("Referrer-Policy", "no-referrer");
+  to.set_header("X-Frame-Options", "DENY");
+  to.set_header("Cross-Origin-Resource-Policy", "same-origin");
+  to.set_header("Cache-Control", "no-store");
+  bool has_policy = false;
+  for (const auto& [name, value] : from.headers) {
+    to.set_header(name, value);
+    has_policy = has_policy || name == "Content-Security-Policy";
+  }
+  if (!has_policy)
+    to.set_header("Content-Security-Policy",
+                  "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self'; font-src "
+                  "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+  to.set_content(from.body, from.type);
+}
+
+}  // namespace
+
+void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready, const std::function<bool()>& stop) {
+  httplib::Server server;
+  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  server.set_payload_max_length(kMostBodyBytes);
+  server.set_read_timeout(kTimeout_s);
+  server.set_write_timeout(kTimeout_s);
+  server.set_keep_alive_timeout(kIdle_s);
+  server.set_keep_alive_max_count(kRequestsPerConnection);
+  server.set_tcp_nodelay(true);
+  // Not SO_REUSEPORT, the library's default: a second dashboard would take half of the first one's visitors.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  const int port = settings.port == 0 ? server.bind_to_any_port(settings.host) : server.bind_to_port(settings.host, settings.port) ? settings.port : -1;
+  if (port <= 0) throw InputError::format("{}:{}: cannot be listened to: is another dashboard there? (--port 0 takes any free port)", settings.host, settings.port);
+  const AccessRules rules{.hosts = host_names(settings.host, port), .token = settings.token, .cookie_name = fmt::format("nacre_{}", port)};
+
+  // Before the body is read.
+  server.set_pre_routing_handler([&](const httplib::Request& from, httplib::Response& to) {
+    const auto refusal = refused(rules, request_of(from));
+    if (!refusal) return httplib::Server::HandlerResponse::Unhandled;
+    answer(*refusal, to);
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  const auto handle = [&](const httplib::Request& from, httplib::Response& to) { answer(dashboard.handle(request_of(from)), to); };
+  server.Get(".*", handle);
+  server.Post(".*", handle);
+
+  ready(port);
+  std::thread listening([&] { server.listen_after_bind(); });
+  while (!stop()) ::poll(nullptr, 0, kTurn_ms);
+  server.stop();
+  listening.join();
+}
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,34 @@
+#pragma once
+// What the page shows, as JSON (docs/FORMATS.md, "Dashboard"). SI units.
+
+#include <nlohmann/json.hpp>
+
+#include "dashboard/desk.hpp"
+#include "store/run_record.hpp"
+
+namespace nacre::dashboard {
+
+using Json = nlohmann::ordered_json;
+
+/// Strains and stresses as two arrays, at most 400 points; null for an empty curve.
+Json curve_json(const tester::Curve& curve);
+
+/// Errors of one moment; null when nothing was compared.
+Json errors_json(const sysid::PredictionErrors& errors);
+
+/// Per round: standing, errors, model, size of the gamut, proposals, measured front; and every measured pattern.
+Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes);
+
+/// All that a run knows of one design: proposals, specimens with curves, what models said, cracks.
+Json design_json(const store::RunRecord& run, const pattern::Design& design);
+
+/// Specimens, groups of replicates with proposed outliers, orders, proposed designs with their state.
+Json laboratory_json(const Laboratory& laboratory);
+
+/// The verdict of a round: from the message where there is one, else from the database; null when there is neither.
+Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t>& message, int round);
+
+/// Nodes with state, progress, time left and counters.
+Json nodes_json(const std::vector<NodeReport>& nodes);
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,80 @@
+// nacre dashboard: a run as a live page in the browser.
+
+#include "dashboard/dashboard.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include "command.hpp"
+#include "dashboard/server.hpp"
+#include "output.hpp"
+#include "run_access.hpp"
+#include "run_desk.hpp"
+#include "runtime/interrupts.hpp"
+#include "runtime/process.hpp"
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+  std::string run = "logs/latest";
+  std::string host = "127.0.0.1";
+  int port = 8765;
+  std::string token;
+  std::string families;
+  std::string page;
+};
+
+/// Only this machine reaches such an address.
+bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
+
+/// The page as built beside the program: build/web.
+std::filesystem::path built_page() { return runtime::this_program().parent_path().parent_path() / "web"; }
+
+dashboard::Settings settings_of(const RunAccess& run, const Options& options) {
+  return {.run_folder = run.folder,
+          .page_folder = options.page.empty() ? built_page() : std::filesystem::path(options.page),
+          .family_folder = options.families.empty() ? run.folder / "families" : std::filesystem::path(options.families),
+          .run_id = run.manifest.run_id,
+          .started = run.manifest.started,
+          .nacre_version = run.manifest.nacre_version,
+          .commit = run.manifest.commit,
+          .user = user_name(),
+          .scenario = run.scenario};
+}
+
+int show_dashboard(const Options& options) {
+  const RunAccess run = open_run(options.run);
+  RunDesk desk(run);
+  dashboard::Dashboard page(settings_of(run, options), desk);
+  dashboard::ServerSettings server{.host = options.host, .port = options.port, .token = options.token};
+  if (server.token.empty() && !is_loopback(options.host)) server.token = dashboard::random_token();
+  const runtime::Interrupts interrupts;
+  const auto ready = [&](int port) {
+    const std::string token = server.token.empty() ? "" : "?token=" + server.token;
+    fmt::print("http://{}:{}/{}\n", options.host, port, token);
+    std::fflush(stdout);
+    remark(fmt::format("{} is shown there; Ctrl-C ends the page, not the game", run.manifest.run_id));
+  };
+  dashboard::serve(page, server, ready, [&] { return interrupts.any(); });
+  return 0;
+}
+
+}  // namespace
+
+void add_dashboard(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = add_command(app, action, "dashboard", "Show a run, playing or finished, as a live page in the browser", options, show_dashboard);
+  command.add_option("RUN", options->run, "Folder of the run")->capture_default_str();
+  command.add_option("--port", options->port, "Port of the page; 0: any free one")->check(CLI::Range(0, 65535))->capture_default_str();
+  command.add_option("--host", options->host, "Address to listen to; another than this machine's own asks for a token")->capture_default_str();
+  command.add_option("--token", options->token, "Ask for this token; default for other hosts: a random one, printed")->check([](const std::string& token) {
+    const bool plain = token.size() >= 16 && token.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") == std::string::npos;
+    return plain ? std::string() : std::string("expected at least 16 letters, digits, - and _");
+  });
+  command.add_option("--families", options->families, "Folder of `nacre families` for the explorer; default: RUN/families");
+  command.add_option("--page", options->page, "Folder of the built page; default: build/web");
+  command.footer("Example: nacre dashboard logs/latest\n  prints http://127.0.0.1:8765/ - open it. Elsewhere on the network: --host 0.0.0.0 prints a link with a token.");
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,84 @@
+#include "run_desk.hpp"
+
+#include "base/result.hpp"
+#include "laboratory_view.hpp"
+#include "nacre/approval_t.hpp"
+#include "nacre/review_t.hpp"
+#include "specimen_messages.hpp"
+#include "wire/codec.hpp"
+#include "wire/convert.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::cli {
+
+using dashboard::Answer;
+
+constexpr double kPatience_s = 8.0;
+
+RunDesk::RunDesk(RunAccess run)
+    : run_(std::move(run)),
+      feed_({.open = [this] { return listen(now(), {"STATUS"}); }, .identity = [this] { return std::to_string(now().manifest.port); }}) {}
+
+RunAccess RunDesk::now() const {
+  RunAccess run = run_;
+  run.manifest = runtime::read_manifest(run.folder);
+  return run;
+}
+
+dashboard::Laboratory RunDesk::laboratory() {
+  LaboratoryView view = view_laboratory(run_);
+  return {std::move(view.facts), std::move(view.newest_proposal)};
+}
+
+std::optional<material::ParameterSet> RunDesk::model(int round) {
+  std::optional<material::ParameterSet> parameters;
+  for (const std::string& payload : sent_by_validation_agent(run_, "PARAMETERS")) {
+    const auto model = wire::read<wire::AdoptedModel>(payload);
+    if (model && model->round == round) parameters = model->parameters;
+  }
+  return parameters;
+}
+
+std::optional<diagnosis_t> RunDesk::diagnosis(int round) {
+  std::optional<diagnosis_t> newest;
+  for (const std::string& payload : received_by_validation_agent(run_, "DIAGNOSIS")) {
+    auto diagnosis = wire::decode_safe<diagnosis_t>(payload);
+    if (diagnosis && diagnosis->round == round) newest = std::move(*diagnosis);
+  }
+  return newest;
+}
+
+Answer RunDesk::hand_in(const runtime::Message& message) {
+  if (!feed_.playing()) return Answer::unanswered;
+  return deliver(now(), "dashboard", message, kPatience_s) == 0 ? Answer::accepted : Answer::unanswered;
+}
+
+Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
+  const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
+  const auto known = hashes_by_specimen(run_);
+  if (const auto same_name = known.find(specimen.specimen); same_name != known.end())
+    return same_name->second == wire::message_hash(message.channel, message.payload) ? Answer::repeated : Answer::conflicting;
+  return hand_in(message);
+}
+
+Answer RunDesk::judge(const dashboard::Judgement& judgement) {
+  review_t message{};
+  message.specimen = judgement.specimen;
+  message.revision = next_revision(run_, judgement.specimen);
+  message.valid = judgement.valid;
+  message.by = judgement.by;
+  message.why = judgement.why;
+  return hand_in({"REVIEW", wire::encode(message)});
+}
+
+Answer RunDesk::decide(const dashboard::Decision& decision) {
+  approval_t message{};
+  message.round = decision.round;
+  message.design = decision.design;
+  message.approved = decision.approved;
+  message.by = decision.by;
+  message.why = decision.why;
+  return hand_in({"APPROVAL", wire::encode(message)});
+}
+
+}  // namespace nacre::cli

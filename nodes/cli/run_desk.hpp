@@ -1,0 +1,30 @@
+#pragma once
+// The dashboard's desk in a real run: journals are read, messages go over the bus.
+
+#include "dashboard/desk.hpp"
+#include "dashboard/live_feed.hpp"
+#include "run_access.hpp"
+
+namespace nacre::cli {
+
+class RunDesk : public dashboard::Desk {
+ public:
+  explicit RunDesk(RunAccess run);
+  dashboard::Laboratory laboratory() override;
+  std::optional<material::ParameterSet> model(int round) override;
+  std::optional<diagnosis_t> diagnosis(int round) override;
+  std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
+  dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
+  dashboard::Answer judge(const dashboard::Judgement& judgement) override;
+  dashboard::Answer decide(const dashboard::Decision& decision) override;
+
+ private:
+  /// Sends it, if anybody is there to hear it.
+  dashboard::Answer hand_in(const runtime::Message& message);
+  /// The run on the port that it plays on now.
+  RunAccess now() const;
+  RunAccess run_;
+  dashboard::LiveFeed feed_;
+};
+
+}  // namespace nacre::cli

@@ -1,0 +1,73 @@
+#include "specimen_messages.hpp"
+
+#include <algorithm>
+
+#include "nacre/review_t.hpp"
+#include "wire/codec.hpp"
+#include "wire/convert.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::cli {
+namespace {
+
+constexpr const char* kChannel = "MEASUREMENT";
+
+/// Every n-th point of a curve that is too long for one message, both ends kept.
+tester::Curve thinned(const tester::Curve& curve, std::size_t most) {
+  if (curve.size() <= most) return curve;
+  tester::Curve thin;
+  for (std::size_t i = 0; i < most; ++i) {
+    const std::size_t k = i * (curve.size() - 1) / (most - 1);
+    thin.strain.push_back(curve.strain[k]);
+    thin.stress_pa.push_back(curve.stress_pa[k]);
+  }
+  return thin;
+}
+
+/// The specimen's history that a message has no field for, for its note: `[date: ...; operator: ...]`.
+std::string history_of(const measurement::SpecimenRecord& specimen) {
+  std::string history;
+  for (const char* name : {"date", "operator", "machine", "path"}) {
+    const auto cell = specimen.other_columns.find(name);
+    if (cell != specimen.other_columns.end())
+      history += fmt::format("{}{}: {}", history.empty() ? "[" : "; ", name, cell->second);
+  }
+  return history.empty() ? "" : history + "]";
+}
+
+}  // namespace
+
+runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
+  wire::Measurement measurement;
+  measurement.fidelity = fidelity;
+  measurement.record = specimen;
+  const std::string history = history_of(specimen);
+  if (!history.empty()) measurement.record.note += (specimen.note.empty() ? "" : " ") + history;
+  if (specimen.curve.size() > wire::kMaximumCurvePoints) {
+    // The area under the curve as recorded, not as thinned.
+    if (specimen.test == tester::TestKind::toughness)
+      measurement.record.toughness_pa = measurement::toughness_of(specimen);
+    measurement.record.curve = thinned(specimen.curve, wire::kMaximumCurvePoints);
+  }
+  return {kChannel, wire::write(measurement)};
+}
+
+std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
+  std::map<std::string, std::string> hashes;
+  for (const std::string& payload : received_by_validation_agent(run, kChannel)) {
+    const auto measurement = wire::read<wire::Measurement>(payload);
+    if (measurement) hashes.emplace(measurement->record.specimen, wire::message_hash(kChannel, payload));
+  }
+  return hashes;
+}
+
+int next_revision(const RunAccess& run, const std::string& specimen) {
+  int highest = 0;
+  for (const std::string& payload : received_by_validation_agent(run, "REVIEW")) {
+    const auto review = wire::decode_safe<review_t>(payload);
+    if (review && review->specimen == specimen) highest = std::max<int>(highest, review->revision);
+  }
+  return highest + 1;
+}
+
+}  // namespace nacre::cli

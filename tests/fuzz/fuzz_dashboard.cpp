@@ -1,0 +1,69 @@
+// Requests of the dashboard: the first line is `METHOD PATH`, further lines up to an empty one `name: value` (a header) or `?name=value`
+// (a parameter), then the body.
+
+#include "../unit/dashboard/fake_desk.hpp"
+#include "dashboard/dashboard.hpp"
+#include "dashboard/entries.hpp"
+#include "dashboard/guard.hpp"
+#include "fuzz.hpp"
+
+namespace nacre::fuzz {
+namespace {
+
+dashboard::Request request_from(std::string_view text) {
+  dashboard::Request request;
+  std::string_view head = cut(text, "\n\n");
+  std::string_view first = cut(head, "\n");
+  request.method = std::string(cut(first, " "));
+  request.path = std::string(first);
+  while (!head.empty()) {
+    std::string_view line = cut(head, "\n");
+    const bool is_parameter = line.starts_with("?");
+    if (is_parameter) line.remove_prefix(1);
+    const std::string name(cut(line, is_parameter ? "=" : ": "));
+    (is_parameter ? request.query : request.headers).emplace(name, line);
+  }
+  request.body = std::string(text);
+  return request;
+}
+
+/// Two dashboards for all inputs: what is handed in goes nowhere, and no simulation is started.
+dashboard::Dashboard& page() {
+  static dashboard::FakeDesk desk;
+  static dashboard::Dashboard page({.run_folder = memory_folder() / "run",
+                                    .page_folder = memory_folder() / "page",
+                                    .family_folder = memory_folder() / "families",
+                                    .run_id = "fuzz",
+                                    .started = "",
+                                    .nacre_version = "",
+                                    .commit = "",
+                                    .user = "",
+                                    .scenario = {}},
+                                   desk);
+  desk.specimens.clear();
+  desk.judgements.clear();
+  desk.decisions.clear();
+  return page;
+}
+
+}  // namespace
+}  // namespace nacre::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace nacre;
+  static const dashboard::AccessRules open{.hosts = dashboard::host_names("127.0.0.1", 8765), .token = "", .cookie_name = "nacre_8765"};
+  static const dashboard::AccessRules closed{.hosts = open.hosts, .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
+  const dashboard::Request request = fuzz::request_from(fuzz::text_of(data, size));
+  const auto refusal = dashboard::refused(closed, request);
+  // Whoever gets past the closed door knows the token.
+  if (!refusal) fuzz::expect(request.header("authorization").ends_with(closed.token) || request.header("cookie").find(closed.token) != std::string::npos);
+  (void)dashboard::refused(open, request);
+  if (const auto specimen = dashboard::specimen_from_json(request.body)) fuzz::expect(!specimen->specimen.empty());
+  if (const auto judgement = dashboard::judgement_from_json(request.body)) fuzz::expect(!judgement->why.empty() && judgement->why.size() <= 500);
+  if (const auto decision = dashboard::decision_from_json(request.body)) fuzz::expect(decision->round >= -1);
+  (void)dashboard::wish_from_json(request.body);
+  if (request.path == "/api/simulate") return 0;  // would break specimens for minutes
+  const dashboard::Response response = fuzz::page().handle(request);
+  fuzz::expect(response.status != 500 && response.status >= 200);
+  return 0;
+}

@@ -1,0 +1,170 @@
+#include "dashboard/dashboard.hpp"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../wire/samples.hpp"
+#include "base/files.hpp"
+#include "fake_desk.hpp"
+#include "store/run_database.hpp"
+
+namespace nacre::dashboard {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A run's folder with the messages of the samples in its database, and a desk that keeps what is handed in.
+class DashboardOfARun : public testing::Test {
+ protected:
+  DashboardOfARun() {
+    fs::create_directories(folder_ / "films");
+    fs::create_directories(folder_ / "page");
+    std::ofstream(folder_ / "page" / "index.html") << "<p>page</p>";
+    std::ofstream(folder_ / "secret.toml") << "hidden";
+    store::RunDatabase database(folder_ / "run.db");
+    for (const auto& [channel, payload] : wire::samples::payloads()) database.project(channel, payload);
+    for (int chunk = 0; chunk < 3; ++chunk) database.project("GAMUT", wire::write(gamut_chunk(chunk)));
+    database.checkpoint();
+  }
+  ~DashboardOfARun() override { fs::remove_all(folder_); }
+
+  static wire::GamutChunk gamut_chunk(int chunk) {
+    wire::GamutChunk gamut{.round = 7, .fidelity = tester::Fidelity::tiny, .chunk = chunk, .chunks = 3, .samples = {}};
+    for (std::uint64_t i = 0; i < 10; ++i)
+      gamut.samples.push_back({pattern::Pattern(0x577fffe9fffdef ^ (1ull << (10 * static_cast<unsigned>(chunk) + i))), {1e9 + 1e7 * double(i), 5e5 - 1e3 * double(i * i)}});
+    return gamut;
+  }
+
+  Response get(const std::string& path, std::map<std::string, std::string> query = {}) {
+    return dashboard_.handle({.method = "GET", .path = path, .query = std::move(query), .headers = {}, .body = ""});
+  }
+  Response post(const std::string& path, const std::string& body) {
+    return dashboard_.handle({.method = "POST", .path = path, .query = {}, .headers = {}, .body = body});
+  }
+  Json json(const std::string& path, std::map<std::string, std::string> query = {}) { return Json::parse(get(path, std::move(query)).body); }
+
+  fs::path folder_ = fs::temp_directory_path() / fmt::format("nacre-dashboard-{}", ::getpid());
+  FakeDesk desk_;
+  Dashboard dashboard_{{.run_folder = folder_,
+                        .page_folder = folder_ / "page",
+                        .family_folder = folder_ / "families",
+                        .run_id = "run",
+                        .started = "",
+                        .nacre_version = "",
+                        .commit = "",
+                        .user = "Ada",
+                        .scenario = {.fidelity = tester::Fidelity::tiny}},
+                       desk_};
+};
+
+TEST_F(DashboardOfARun, EveryReadingIsAnswered) {
+  for (const char* path : {"/api/run", "/api/live", "/api/rounds", "/api/laboratory", "/api/maps"}) {
+    const Response response = get(path);
+    EXPECT_EQ(response.status, 200) << path << response.body;
+    EXPECT_TRUE(Json::accept(response.body)) << path;
+  }
+  EXPECT_EQ(get("/api/design", {{"design", "577fffe9fffdef"}}).status, 200);
+  EXPECT_EQ(get("/api/diagnosis", {{"round", "1"}}).status, 200);
+}
+
+TEST_F(DashboardOfARun, AGamutIsColumnsThatABrowserReadsInPlace) {
+  const std::string bytes = get("/api/gamut", {{"round", "7"}}).body;
+  ASSERT_EQ(bytes.substr(0, 8), "NACREGMT");
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  EXPECT_EQ((16 + length) % 8, 0u);
+  const Json header = Json::parse(bytes.substr(16, length));
+  EXPECT_EQ(header["count"], 30);
+  EXPECT_EQ(bytes.size(), 16 + length + 30 * 16u);
+  EXPECT_FALSE(header["front"].empty());
+  EXPECT_EQ(json("/api/rounds")["rounds"].back()["gamut_count"], 30);
+}
+
+TEST_F(DashboardOfARun, WhatTheAnalyserWritesIsSeen) {
+  const std::string before = json("/api/live")["data"];
+  store::RunDatabase database(folder_ / "run.db");
+  wire::GamutChunk chunk = gamut_chunk(0);
+  chunk.round = 8;
+  database.project("GAMUT", wire::write(chunk));
+  EXPECT_NE(json("/api/live")["data"], before);
+  EXPECT_EQ(json("/api/rounds")["rounds"].back()["round"], 8);
+}
+
+TEST_F(DashboardOfARun, NoFileOutsideThePageIsServed) {
+  for (const char* path : {"/secret.toml", "/../secret.toml", "/page/../secret.toml", "//secret.toml", "/index.html/../../secret.toml", "/run.db", "/%2e%2e/secret.toml"})
+    EXPECT_EQ(get(path).status, 404) << path;
+  EXPECT_EQ(get("/").body, "<p>page</p>");
+  for (const char* id : {"../films", "a/../../secret", "family-1", "/", "family-1/577fffe9fffdef", ""}) EXPECT_EQ(get("/api/map", {{"id", id}}).status, 404) << id;
+}
+
+TEST_F(DashboardOfARun, NumbersAndNamesOutOfRangeAreRefused) {
+  for (const char* round : {"", "-1", "1e3", "x", "99999999999", "1 ", "0x1"}) EXPECT_EQ(get("/api/gamut", {{"round", round}}).status, 400) << round;
+  EXPECT_EQ(get("/api/gamut").status, 400);
+  for (const char* design : {"", "577fffe9fffde", "../x", "mix:2", "mix:nan"}) EXPECT_EQ(get("/api/design", {{"design", design}}).status, 400) << design;
+  for (const char* model : {"", "..", "a/b", "a b"}) EXPECT_EQ(get("/api/film", {{"design", "soft"}, {"model", model}}).status, 400) << model;
+  EXPECT_EQ(get("/api/between", {{"patterns", "577fffe9fffdef,577fffe9fffdef"}, {"weights", "0.5"}}).status, 400);
+  EXPECT_EQ(get("/api/between", {{"patterns", "577fffe9fffdef"}, {"weights", "0"}}).status, 400);
+  EXPECT_EQ(get("/api/between", {{"patterns", "577fffe9fffdef"}, {"weights", "-inf"}}).status, 400);
+}
+
+TEST_F(DashboardOfARun, BetweenAPatternAndItselfLiesThePattern) {
+  const Json found = json("/api/between", {{"patterns", "577fffe9fffdef,577fffe9fffdef,3ffc9b4ad4d2d9"}, {"weights", "0.3,0.7,0"}});
+  EXPECT_EQ(found["pattern"], "577fffe9fffdef");
+}
+
+TEST_F(DashboardOfARun, WhatIsHandedInReachesTheDesk) {
+  EXPECT_EQ(post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})").status, 200);
+  EXPECT_EQ(desk_.judgements.at(0).why, "slipped");
+  EXPECT_EQ(post("/api/approval", R"({"design":"577fffe9fffdef","round":0,"approved":true,"by":"Ada","why":""})").status, 200);
+  EXPECT_EQ(desk_.decisions.at(0).design, "577fffe9fffdef");
+  EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status, 200);
+  EXPECT_EQ(desk_.specimens.at(0).modulus_pa, 1e6);
+}
+
+TEST_F(DashboardOfARun, WhatTheGameDoesNotTakeIsSaid) {
+  desk_.answer = Answer::unanswered;
+  const Response late = post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
+  EXPECT_EQ(late.status, 504);
+  EXPECT_THAT(late.body, HasSubstr("does the game play"));
+  desk_.answer = Answer::conflicting;
+  EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status, 409);
+  EXPECT_EQ(post("/api/measurement", "{").status, 400);
+  EXPECT_EQ(desk_.specimens.size(), 1u);
+}
+
+TEST_F(DashboardOfARun, ReadingsAreReadAndEntriesArePosted) {
+  EXPECT_EQ(post("/api/run", "{}").status, 405);
+  EXPECT_EQ(get("/api/review").status, 405);
+  EXPECT_EQ(post("/", "{}").status, 404);
+}
+
+TEST_F(DashboardOfARun, AFilmThatIsNotThereIsMadeOnDemand) {
+  const std::map<std::string, std::string> query = {{"design", "577fffe9fffdef"}, {"model", "0"}};
+  EXPECT_EQ(json("/api/simulation", query)["state"], "absent");
+  EXPECT_EQ(get("/api/film", query).status, 404);
+  EXPECT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"3"})").status, 409);  // no such model
+  ASSERT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"0"})").status, 202);
+  Json state;
+  for (int turn = 0; turn < 1200 && (state = json("/api/simulation", query))["state"] != "ready"; ++turn) ::usleep(50'000);
+  ASSERT_EQ(state["state"], "ready") << state.dump();
+  EXPECT_GT(state["modulus_pa"].get<double>(), 0.0);
+  EXPECT_EQ(get("/api/film", query).body.substr(0, 8), "NACREFLM");
+}
+
+TEST_F(DashboardOfARun, TheMapOfAGamutIsMadeOnDemand) {
+  Json state;
+  for (int turn = 0; turn < 400 && (state = json("/api/map", {{"id", "gamut/7"}}))["state"] != "ready"; ++turn) ::usleep(50'000);
+  ASSERT_EQ(state["state"], "ready") << state.dump();
+  EXPECT_EQ(state["map"]["pattern"].size(), 30u);
+  EXPECT_FALSE(state["map"]["triangles"].empty());
+  EXPECT_EQ(get("/api/map", {{"id", "gamut/x"}}).status, 400);
+}
+
+}  // namespace
+}  // namespace nacre::dashboard

@@ -1,0 +1,79 @@
+#include "dashboard/entries.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace nacre::dashboard {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kSpecimen = R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","batch":"b1","valid":true})";
+
+std::string fault(const std::string& json) {
+  const auto specimen = specimen_from_json(json);
+  return specimen ? "none" : specimen.error().message;
+}
+
+std::string with(const std::string& member) { return R"({"specimen":"a","pattern":"soft","test":"modulus",)" + member + "}"; }
+
+TEST(Entries, ASpecimenIsARowOfAMeasurementSet) {
+  const auto specimen = specimen_from_json(kSpecimen);
+  ASSERT_TRUE(specimen) << specimen.error().message;
+  EXPECT_EQ(specimen->specimen, "a-1");
+  EXPECT_EQ(specimen->design.name(), "577fffe9fffdef");
+  EXPECT_EQ(specimen->curve.size(), 5u);
+  EXPECT_TRUE(specimen->valid);
+  EXPECT_DOUBLE_EQ(measurement::toughness_of(*specimen).value(), 4e4);
+}
+
+TEST(Entries, NumbersKeepEveryBit) {
+  const auto specimen = specimen_from_json(with(R"("modulus_pa":1234567890.1234567)"));
+  ASSERT_TRUE(specimen) << specimen.error().message;
+  EXPECT_EQ(specimen->modulus_pa.value(), 1234567890.1234567);
+}
+
+TEST(Entries, WhatIsWrongIsNamedWithItsColumn) {
+  EXPECT_THAT(fault("{}"), HasSubstr("specimen: "));
+  EXPECT_THAT(fault(with(R"("modulus_pa":-1)")), HasSubstr("modulus_pa: -1"));
+  EXPECT_THAT(fault(with(R"("modulus_pa":"1e999")")), HasSubstr("modulus_pa"));
+  EXPECT_THAT(fault(with(R"("modulus_pa":[1])")), HasSubstr("modulus_pa: expected"));
+  EXPECT_THAT(fault(with(R"("colour":"red")")), HasSubstr("colour: no such column"));
+  EXPECT_THAT(fault(with(R"("curve":"/etc/passwd")")), HasSubstr("curve: no such column"));
+  EXPECT_THAT(fault(with(R"("curve_csv":"strain,stress_pa\n0,0\n")")), HasSubstr("curve: "));
+  EXPECT_THAT(fault(R"({"specimen":"a","pattern":"../../etc/passwd","test":"modulus","modulus_pa":1})"), HasSubstr("pattern: "));
+}
+
+TEST(Entries, WhatIsNoShallowObjectIsRefused) {
+  for (const char* json : {"", "[]", "1", "\"x\"", "{", "\xff\xfe", "nul"}) EXPECT_THAT(fault(json), HasSubstr("expected a JSON object")) << json;
+  EXPECT_NE(fault("{\"a\":" + std::string(100'000, '[') + std::string(100'000, ']') + "}"), "none");
+}
+
+TEST(Entries, AJudgementNeedsAPersonAndAReason) {
+  EXPECT_TRUE(judgement_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})"));
+  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":" "})"));
+  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a","valid":0,"by":"Ada","why":"x"})"));
+  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a","valid":false,"why":"x"})"));
+  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a\nb","valid":false,"by":"Ada","why":"x"})"));
+}
+
+TEST(Entries, ADecisionNamesADesignAndARound) {
+  const auto decision = decision_from_json(R"({"design":"577fffe9fffdef","round":2,"approved":false,"by":"Ada","why":""})");
+  ASSERT_TRUE(decision) << decision.error().message;
+  EXPECT_EQ(decision->round, 2);
+  EXPECT_EQ(decision_from_json(R"({"design":"mix:0.65","approved":true,"by":"Ada"})")->round, -1);
+  EXPECT_FALSE(decision_from_json(R"({"design":"577fffe9fffdef","approved":false,"by":"Ada"})"));
+  for (const char* round : {"-2", "1e3", "\"1\"", "18446744073709551615", "99999999999999999999999", "2000000"})
+    EXPECT_FALSE(decision_from_json(fmt::format(R"({{"design":"soft","round":{},"approved":true,"by":"Ada"}})", round))) << round;
+  EXPECT_FALSE(decision_from_json(R"({"design":"nothing","approved":true,"by":"Ada"})"));
+}
+
+TEST(Entries, AWishNamesAModel) {
+  EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":"2"})"));
+  EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":"family-1"})"));
+  EXPECT_FALSE(wish_from_json(R"({"design":"577fffe9fffdef","model":"../family-1"})"));
+  EXPECT_FALSE(wish_from_json(R"({"design":"577fffe9fffdef"})"));
+}
+
+}  // namespace
+}  // namespace nacre::dashboard

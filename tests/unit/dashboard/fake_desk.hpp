@@ -1,0 +1,30 @@
+#pragma once
+// A desk without a run behind it: it keeps what is handed in.
+
+#include <vector>
+
+#include "dashboard/desk.hpp"
+
+namespace nacre::dashboard {
+
+class FakeDesk : public Desk {
+ public:
+  Laboratory laboratory() override { return picture; }
+  std::optional<material::ParameterSet> model(int round) override {
+    return round == 0 ? std::optional(material::default_parameters()) : std::nullopt;
+  }
+  std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
+  std::vector<NodeReport> nodes() override { return reports; }
+  Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
+  Answer judge(const Judgement& judgement) override { return judgements.push_back(judgement), answer; }
+  Answer decide(const Decision& decision) override { return decisions.push_back(decision), answer; }
+
+  Laboratory picture;
+  std::vector<NodeReport> reports;
+  Answer answer = Answer::accepted;
+  std::vector<measurement::SpecimenRecord> specimens;
+  std::vector<Judgement> judgements;
+  std::vector<Decision> decisions;
+};
+
+}  // namespace nacre::dashboard

@@ -1,0 +1,93 @@
+#include "dashboard/guard.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nacre::dashboard {
+namespace {
+
+const AccessRules kOpen{.hosts = host_names("127.0.0.1", 8765), .token = "", .cookie_name = "nacre_8765"};
+const AccessRules kClosed{.hosts = host_names("0.0.0.0", 8765), .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
+
+Request reading(const std::string& host = "127.0.0.1:8765") { return {.method = "GET", .path = "/api/run", .query = {}, .headers = {{"host", host}}, .body = ""}; }
+
+Request writing() {
+  return {.method = "POST",
+          .path = "/api/review",
+          .query = {},
+          .headers = {{"host", "localhost:8765"}, {"x-nacre", "1"}, {"content-type", "application/json"}, {"content-length", "2"}, {"origin", "http://localhost:8765"}, {"sec-fetch-site", "same-origin"}},
+          .body = "{}"};
+}
+
+int status(const AccessRules& rules, const Request& request) {
+  const auto refusal = refused(rules, request);
+  return refusal ? refusal->status : 200;
+}
+
+Request with(Request request, const std::string& header, const std::string& value) {
+  value.empty() ? (void)request.headers.erase(header) : (void)(request.headers[header] = value);
+  return request;
+}
+
+TEST(Guard, LetsThisMachineIn) {
+  for (const char* host : {"127.0.0.1:8765", "localhost:8765", "[::1]:8765"}) EXPECT_EQ(status(kOpen, reading(host)), 200) << host;
+  EXPECT_EQ(status(kOpen, writing()), 200);
+}
+
+TEST(Guard, RefusesNamesThatAreNotItsOwn) {
+  for (const char* host : {"evil.example:8765", "127.0.0.1:80", "localhost", "", "127.0.0.1.evil.example:8765", "10.0.0.7:8765"})
+    EXPECT_EQ(status(kOpen, reading(host)), 421) << host;
+  EXPECT_EQ(status(kClosed, with(reading("evil.example:8765"), "authorization", "Bearer 0123456789abcdef")), 421);
+}
+
+TEST(Guard, AsksForTheToken) {
+  EXPECT_EQ(status(kClosed, reading()), 401);
+  EXPECT_EQ(status(kClosed, reading("192.168.1.7:8765")), 401);
+  EXPECT_EQ(status(kClosed, with(reading(), "authorization", "Bearer 0123456789abcdee")), 401);
+  EXPECT_EQ(status(kClosed, with(reading(), "authorization", "Bearer 0123456789abcdef")), 200);
+  EXPECT_EQ(status(kClosed, with(reading(), "cookie", "a=b; nacre_8765=0123456789abcdef; c=d")), 200);
+  EXPECT_EQ(status(kClosed, with(reading(), "cookie", "nacre_8765=0123456789abcde")), 401);
+  EXPECT_EQ(status(kClosed, with(reading(), "cookie", "xnacre_8765=0123456789abcdef")), 401);
+  EXPECT_EQ(status(kClosed, writing()), 401);
+}
+
+TEST(Guard, TurnsTheLinkWithTheTokenIntoACookie) {
+  Request request = reading();
+  request.path = "/";
+  request.query["token"] = kClosed.token;
+  const auto answer = refused(kClosed, request);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 303);
+  EXPECT_EQ(answer->headers.at(1).second, "nacre_8765=0123456789abcdef; HttpOnly; SameSite=Strict; Path=/");
+  request.query["token"] = "0123456789abcdee";
+  EXPECT_EQ(status(kClosed, request), 401);
+}
+
+TEST(Guard, RefusesEntriesThatAnotherPageCouldSend) {
+  EXPECT_EQ(status(kOpen, with(writing(), "x-nacre", "")), 403);
+  EXPECT_EQ(status(kOpen, with(writing(), "origin", "http://evil.example")), 403);
+  EXPECT_EQ(status(kOpen, with(writing(), "origin", "null")), 403);
+  EXPECT_EQ(status(kOpen, with(writing(), "sec-fetch-site", "cross-site")), 403);
+  EXPECT_EQ(status(kOpen, with(writing(), "content-type", "text/plain")), 415);
+  EXPECT_EQ(status(kOpen, with(writing(), "content-encoding", "gzip")), 415);
+  EXPECT_EQ(status(kOpen, with(writing(), "content-length", "")), 411);
+  EXPECT_EQ(status(kOpen, with(writing(), "transfer-encoding", "chunked")), 411);
+}
+
+TEST(Guard, RefusesOtherMethodsAndLongPaths) {
+  for (const char* method : {"PUT", "DELETE", "OPTIONS", "TRACE", "CONNECT", ""}) {
+    Request request = reading();
+    request.method = method;
+    EXPECT_EQ(status(kOpen, request), 405) << method;
+  }
+  Request request = reading();
+  request.path = std::string(513, 'a');
+  EXPECT_EQ(status(kOpen, request), 414);
+}
+
+TEST(Guard, DrawsATokenOf128Bits) {
+  EXPECT_EQ(random_token().size(), 32u);
+  EXPECT_NE(random_token(), random_token());
+}
+
+}  // namespace
+}  // namespace nacre::dashboard

@@ -1,0 +1,276 @@
+// The dashboard of a game that is played while it is watched, and of the same game once it is over.
+
+import assert from "node:assert/strict";
+import { request } from "node:http";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { browser, photograph, visit } from "./browser.mjs";
+import { openDashboard, playGame, ROOT, until, withManyPatterns } from "./games.mjs";
+
+const game = await playGame(join(ROOT, "tests/web/live.toml"), "game");
+const live = await openDashboard(game.folder);
+const page = await visit(live.url);
+after(() => browser.close());
+
+const PUBLISHED = "577fffe9fffdef";
+const CURVE = "strain,stress_pa\n0,0\n0.01,1e7\n0.02,1.8e7\n0.03,9e6\n0.035,0\n";
+
+const view = (on, name) => on.locator(`nav a[href="#${name}"]`).click();
+const ringAt = async (on) => {
+  const box = await on.locator(".ring:not(.chosen)").boundingBox();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+};
+const frameOf = (on) => on.locator(".film canvas").getAttribute("data-frame").then(Number);
+/** How much of a canvas is painted, and in how many colours. */
+const painted = (on, selector) => on.locator(selector).evaluate((canvas) => {
+  const points = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+  return { share: points.filter((p) => p !== 0).length / points.length, colours: new Set(points).size };
+});
+
+test("a live game is shown and followed", async () => {
+  await page.locator(".nodes li").nth(4).waitFor();
+  assert.match(await page.locator(".standing").innerText(), /playing/);
+  await page.locator(".units .unit-button").first().waitFor({ timeout: 60_000 });
+  await photograph(page, "game-live");
+  await view(page, "nodes");
+  await page.locator("td", { hasText: "validation agent" }).waitFor();
+  assert.equal(await page.locator("tbody tr").count(), 5);
+  await photograph(page, "nodes");
+  await view(page, "game");
+});
+
+test("a point is clicked and its film plays", async () => {
+  const catcher = page.locator(".catcher");
+  await catcher.focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowLeft");
+  const [x, y] = await ringAt(page);
+  await page.mouse.move(5, 5);
+  await page.mouse.move(x, y);
+  await page.locator(".card-tip").waitFor();
+  await page.mouse.click(x, y);
+  await page.locator(".film canvas").waitFor({ timeout: 40_000 });
+  const first = await frameOf(page);
+  await until(async () => (await frameOf(page)) > first + 5, 20, "the film goes on");
+  assert.ok((await painted(page, ".film canvas")).colours > 20);
+  assert.equal(await page.locator(".design .chart").count(), 1);
+  await photograph(page, "game-film");
+});
+
+test("a pattern without a film is simulated, and that is said", async () => {
+  await page.locator(".toggle", { hasText: "proposals" }).click();
+  await page.locator(".catcher").focus();
+  for (const key of ["ArrowRight", "ArrowRight", "Enter"]) await page.keyboard.press(key);
+  await page.locator(".design", { hasText: /simulated just now|being simulated|waiting for another/i }).waitFor();
+  await page.locator(".film canvas").waitFor({ timeout: 40_000 });
+  await page.locator(".toggle", { hasText: "proposals" }).click();
+});
+
+test("a measurement is entered and reviewed", async () => {
+  await view(page, "laboratory");
+  await page.locator('input[name="specimen"]').fill("by-hand-1");
+  await page.locator('input[name="pattern"]').fill(PUBLISHED);
+  await page.locator('input[type="file"]').setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });
+  await page.locator("text=curve.csv, 6 rows").waitFor();
+  await photograph(page, "laboratory", true);
+  await page.getByRole("button", { name: "Hand in" }).click();
+  await page.locator(".notice.good", { hasText: "by-hand-1 is in the game" }).waitFor();
+  const row = page.locator("tr", { hasText: "by-hand-1" });
+  await row.locator(".chip", { hasText: /^valid$/ }).waitFor();
+  await page.getByRole("button", { name: "judge by-hand-1" }).click();
+  await row.locator("input").fill("the grip slipped");
+  await row.getByRole("button", { name: "not valid" }).click();
+  await row.locator(".chip.rejected", { hasText: "not valid" }).waitFor();
+  assert.match(await row.innerText(), /the grip slipped/);
+});
+
+test("what cannot be a measurement is refused with its column", async () => {
+  const other = await visit(`${live.url}#laboratory`);
+  await other.locator('input[name="specimen"]').fill("nonsense");
+  await other.locator('input[name="pattern"]').fill("mix:7");
+  await other.locator('input[name="value"]').fill("1");
+  await other.getByRole("button", { name: "Hand in" }).click();
+  assert.match(await other.locator(".notice.bad").innerText(), /pattern: /);
+  assert.deepEqual(other.troubles.filter((t) => !/status of 400/.test(t)), []);
+  await other.context().close();
+});
+
+test("proposals are approved and the game goes on to its end", async () => {
+  const approve = page.getByRole("button", { name: "Approve" });
+  for (let left = await approve.count(); left > 0; --left) {
+    await approve.first().click();
+    await until(async () => (await approve.count()) < left, 20, "the approval is taken");
+  }
+  await page.locator(".standing", { hasText: "finished after round 1" }).waitFor({ timeout: 120_000 });
+  assert.equal(await game.ended, 0, game.said);
+  await view(page, "game");
+  await page.locator("text=Measured patterns").waitFor();
+  await until(async () => (await page.locator("table", { hasText: "specimens" }).locator("tbody tr").count()) > 3, 20, "measured patterns are listed");
+  await view(page, "diagnosis");
+  await page.locator(".verdict h2").waitFor();
+  await photograph(page, "diagnosis", true);
+});
+
+test("the page of a live game has no errors and asks nobody else", () => assert.deepEqual(page.troubles, []));
+
+test("a finished run is the same page, in the dark", async () => {
+  assert.equal(await live.close(), 0, live.said);
+  await page.context().close();
+  const finished = await openDashboard(game.folder);
+  const dark = await visit(finished.url, { dark: true });
+  await dark.locator(".standing", { hasText: "finished" }).waitFor();
+  assert.equal(await dark.evaluate(() => document.documentElement.dataset.theme), "dark");
+  await dark.locator("table", { hasText: "specimens" }).locator("button.link").first().click();
+  await dark.locator(".film canvas").waitFor({ timeout: 40_000 });
+  await dark.waitForTimeout(600);
+  await photograph(dark, "game-dark", true);
+  await dark.getByRole("button", { name: "light colours" }).click();
+  assert.equal(await dark.evaluate(() => document.documentElement.dataset.theme), "light");
+  await dark.reload();
+  await dark.locator(".standing").waitFor();
+  assert.equal(await dark.evaluate(() => document.documentElement.dataset.theme), "light");
+  assert.deepEqual(dark.troubles, []);
+  await dark.context().close();
+  await finished.close();
+});
+
+test("the explorer breaks what lies between patterns", async () => {
+  const finished = await openDashboard(game.folder);
+  const explorer = await visit(`${finished.url}#explorer`);
+  const map = explorer.locator(".catcher.map");
+  await map.waitFor({ timeout: 60_000 });
+  const box = await map.boundingBox();
+  const [x, y] = [box.x + 0.5 * box.width, box.y + 0.5 * box.height];
+  await explorer.mouse.move(x - 60, y);
+  await explorer.mouse.down();
+  await explorer.mouse.move(x, y, { steps: 8 });
+  await explorer.mouse.up();
+  await until(async () => /^[0-9a-f]{14}$/.test(await map.getAttribute("data-blend")), 20, "a pattern between");
+  await explorer.getByRole("button", { name: "Break it" }).click();
+  await explorer.locator(".film canvas").waitFor({ timeout: 40_000 });
+  await photograph(explorer, "explorer");
+  await map.focus();
+  const before = await map.getAttribute("data-blend");
+  for (let i = 0; i < 12; ++i) await explorer.keyboard.press("ArrowRight");
+  await until(async () => (await map.getAttribute("data-blend")) !== before, 20, "the keyboard moves on the map");
+  await explorer.locator(".toggle", { hasText: /^E$/ }).click();
+  assert.deepEqual(explorer.troubles, []);
+  await explorer.context().close();
+  await finished.close();
+});
+
+test("pictures and tables can be saved", async () => {
+  const finished = await openDashboard(game.folder);
+  const saving = await visit(finished.url);
+  const saved = async (label) => {
+    const [download] = await Promise.all([saving.waitForEvent("download"), saving.getByLabel(label, { exact: true }).click()]);
+    return readFileSync(await download.path());
+  };
+  await saving.locator(".trends .chart").first().waitFor();
+  await saving.locator(".catcher").waitFor();
+  assert.match((await saved("gamut as SVG")).toString(), /^<svg[\s\S]*Young's modulus|^<svg[\s\S]*Young&#39;s modulus/);
+  assert.equal((await saved("gamut as PNG")).subarray(1, 4).toString(), "PNG");
+  assert.match((await saved("gamut as CSV")).toString(), /^round,pattern,modulus_pa,toughness_pa\n1,[0-9a-f]{14},/);
+  assert.match((await saved("Rounds as CSV")).toString(), /^round,/);
+  assert.match((await saved("gap as SVG")).toString(), /^<svg/);
+  assert.deepEqual(saving.troubles, []);
+  await saving.context().close();
+  await finished.close();
+});
+
+test("everything is reached with the keyboard alone", async () => {
+  const finished = await openDashboard(game.folder);
+  const keys = await visit(finished.url, { calm: true });
+  await keys.locator(".catcher").waitFor();
+  const focused = () => keys.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.innerText);
+  const tabTo = (what) => until(async () => (await keys.keyboard.press("Tab"), what.test((await focused()) ?? "")), 10, `Tab reaches ${what}`);
+  await tabTo(/to the content/);
+  await tabTo(/Laboratory/);
+  await tabTo(/points of the gamut/);
+  await keys.keyboard.press("ArrowUp");
+  await keys.keyboard.press("ArrowRight");
+  assert.match(await keys.locator(".catcher").getAttribute("data-pointed"), /^[0-9a-f]{14}$/);
+  assert.match(await keys.locator(".catcher .for-reader").innerText(), /gigapascal/);
+  await keys.keyboard.press("Enter");
+  await keys.locator(".film canvas").waitFor({ timeout: 40_000 });
+  assert.equal(await frameOf(keys), 0); // who wants less motion starts films by hand
+  await tabTo(/moment of the film/);
+  await keys.keyboard.press("ArrowRight");
+  assert.equal(await frameOf(keys), 1);
+  const unnamed = await keys.evaluate(() => [...document.querySelectorAll("button, a, input, select, [tabindex='0'], [role='img']")]
+    .filter((e) => !(e.getAttribute("aria-label") || e.innerText?.trim() || e.labels?.length || e.getAttribute("aria-labelledby"))).map((e) => e.outerHTML.slice(0, 120)));
+  assert.deepEqual(unnamed, []);
+  assert.deepEqual(keys.troubles, []);
+  await keys.context().close();
+  await finished.close();
+});
+
+test("a phone shows every view without scrolling sideways", async () => {
+  const finished = await openDashboard(game.folder);
+  const phone = await visit(finished.url, { width: 375, height: 740, touch: true });
+  for (const name of ["game", "laboratory", "diagnosis", "explorer", "nodes"]) {
+    await phone.goto(`${finished.url}#${name}`);
+    await phone.locator(".panel").first().waitFor({ timeout: 40_000 });
+    await phone.waitForTimeout(500);
+    assert.ok((await phone.evaluate(() => document.documentElement.scrollWidth)) <= 375, `${name} is wider than the phone`);
+    await photograph(phone, `phone-${name}`, true);
+  }
+  assert.deepEqual(phone.troubles, []);
+  await phone.context().close();
+  await finished.close();
+});
+
+test("100,000 points are shown and pointed at", async () => {
+  const large = await openDashboard(withManyPatterns(game.folder, 100_000));
+  const begun = Date.now();
+  const many = await visit(large.url);
+  await many.locator(".catcher").waitFor();
+  await until(() => many.evaluate(() => performance.getEntriesByType("resource").some((r) => r.name.includes("/api/gamut") && r.responseEnd > 0 && r.encodedBodySize > 1_600_000)), 30, "the gamut has come");
+  await many.waitForTimeout(300);
+  const box = await many.locator(".catcher").boundingBox();
+  const shown = Date.now() - begun;
+  const times = [];
+  for (let i = 0; i < 10; ++i) {
+    const before = Date.now();
+    await many.mouse.move(box.x + box.width * (0.2 + 0.05 * i), box.y + box.height * 0.8);
+    await until(async () => (await many.locator(".catcher").getAttribute("data-pointed")) !== "", 5, "a point is found");
+    times.push(Date.now() - before);
+  }
+  times.sort((a, b) => a - b);
+  console.log(`100,000 points: shown after ${shown} ms, pointed at in ${times[5]} ms (median, with the test's own 100 ms turns)`);
+  assert.ok(shown < 15_000 && times[5] < 1000, `${shown} ms, ${times}`);
+  await photograph(many, "many-points");
+  assert.deepEqual(many.troubles, []);
+  await many.context().close();
+  await large.close();
+});
+
+test("other pages, names and files get nothing", async () => {
+  const guarded = await openDashboard(game.folder, "--token", "0123456789abcdef-test");
+  const { port, hostname } = new URL(guarded.url);
+  const ask = (path, headers = {}, method = "GET", body = "") => new Promise((done, fail) => {
+    const asked = request({ host: hostname, port, path, method, headers: { ...headers, ...(method === "POST" ? { "content-length": Buffer.byteLength(body) } : {}) } }, (answer) => {
+      answer.resume();
+      answer.on("end", () => done(answer));
+    });
+    asked.on("error", fail);
+    asked.end(body);
+  });
+  const known = { authorization: "Bearer 0123456789abcdef-test" };
+  const entry = { ...known, "x-nacre": "1", "content-type": "application/json" };
+  assert.equal((await ask("/api/run")).statusCode, 401);
+  assert.equal((await ask("/api/run", known)).statusCode, 200);
+  assert.equal((await ask("/api/run", { ...known, host: "evil.example" })).statusCode, 421);
+  assert.equal((await ask("/..%2f..%2fmanifest.json", known)).statusCode, 404);
+  assert.equal((await ask("/api/review", { ...known, "content-type": "application/json" }, "POST", "{}")).statusCode, 403);
+  assert.equal((await ask("/api/review", { ...entry, origin: "http://evil.example" }, "POST", "{}")).statusCode, 403);
+  assert.equal((await ask("/api/review", entry, "POST", "{}")).statusCode, 400);
+  assert.equal((await ask("/api/review", entry, "POST", " ".repeat(5 << 20)).catch(() => ({ statusCode: 413 }))).statusCode, 413);
+  const visited = await visit(guarded.url);
+  await visited.locator(".standing").waitFor();
+  assert.ok(!visited.url().includes("token"));
+  assert.deepEqual(visited.troubles, []);
+  await visited.context().close();
+  await guarded.close();
+});

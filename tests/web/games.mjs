@@ -1,0 +1,68 @@
+// Real games and dashboards, ended with the test.
+
+import { spawn, execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+export const ROOT = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+export const BUILD = process.argv[2] ?? join(ROOT, "build");
+const NACRE = join(BUILD, "bin/nacre");
+
+export const folder = mkdtempSync(join(tmpdir(), "nacre-web-"));
+const children = new Set();
+process.on("exit", () => {
+  for (const child of children) child.kill("SIGKILL");
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** A program, what it has said, and how to wait for it. */
+function start(program, args) {
+  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, USER: "web test" } });
+  children.add(child);
+  const running = { child, said: "", ended: new Promise((done) => child.once("exit", (code) => (children.delete(child), done(code)))) };
+  for (const stream of [child.stdout, child.stderr]) stream.on("data", (text) => (running.said += text));
+  return running;
+}
+
+/** Waits until `condition` gives something; throws after so many seconds. */
+export async function until(condition, seconds, what) {
+  const end = Date.now() + 1000 * seconds;
+  for (;;) {
+    const found = await condition();
+    if (found) return found;
+    if (Date.now() > end) throw new Error(`not within ${seconds} s: ${what}`);
+    await new Promise((done) => setTimeout(done, 100));
+  }
+}
+
+/** `nacre launch` of a scenario; its folder is there when this returns. */
+export async function playGame(scenario, name) {
+  const game = start(NACRE, ["launch", scenario, "--logs", folder, "--run", name]);
+  game.folder = join(folder, name);
+  await until(() => existsSync(join(game.folder, "manifest.json")), 20, `the run's folder; the launcher said ${game.said}`);
+  return game;
+}
+
+/** `nacre dashboard` of a run, with the address of its page. */
+export async function openDashboard(run, ...options) {
+  const dashboard = start(NACRE, ["dashboard", run, "--port", "0", "--page", join(BUILD, "web"), ...options]);
+  dashboard.url = await until(() => dashboard.said.match(/http:\S+/)?.[0], 20, `the dashboard's address; it said ${dashboard.said}`);
+  dashboard.close = async () => {
+    dashboard.child.kill("SIGINT");
+    return dashboard.ended;
+  };
+  return dashboard;
+}
+
+/** A copy of a finished run whose last gamut has `count` patterns more. */
+export function withManyPatterns(run, count) {
+  const copy = `${run}-large`;
+  execFileSync("cp", ["-r", run, copy]);
+  const statement = `WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < ${count})
+    INSERT OR IGNORE INTO gamut SELECT (SELECT max(round) FROM gamut), printf('%014x', abs(random()) & 36028797018963967),
+    2e9 * abs(random() % 1000003) / 1000003.0, 8e5 * abs(random() % 1000003) / 1000003.0 * (abs(random() % 1000003) / 1000003.0) FROM n;`;
+  execFileSync("sqlite3", [join(copy, "run.db"), statement]);
+  return copy;
+}

@@ -1,0 +1,311 @@
+// What the server says (docs/FORMATS.md, "Dashboard"). SI units.
+
+export interface RunInfo {
+  run: string;
+  scenario: string;
+  fidelity: string;
+  rounds: number;
+  approval: boolean;
+  virtual_lab: boolean;
+  replicates: number;
+  started: string;
+  nacre_version: string;
+  commit: string;
+  report: boolean;
+  user: string;
+}
+
+export interface NodeState {
+  node: string;
+  state: "starting" | "running" | "finished" | "silent";
+  age_s: number;
+  phase: string;
+  round: number;
+  progress: number | null;
+  eta_s: number | null;
+  received: number;
+  published: number;
+  retries: number;
+  duplicates: number;
+  rejected: number;
+  lost: number;
+  dropped: number;
+  unacknowledged: number;
+  queued: number;
+  owed: number;
+  computing: number;
+  journal_bytes: number;
+  work: string;
+  last_problem: string;
+}
+
+export interface Live {
+  playing: boolean;
+  data: string;
+  nodes: NodeState[];
+}
+
+export interface Errors {
+  modulus_count: number;
+  modulus_mean: number;
+  modulus_max: number;
+  toughness_count: number;
+  toughness_mean: number;
+  toughness_max: number;
+  toughness_spearman: number;
+}
+
+export interface Summary {
+  fidelity: string;
+  calibration_count: number;
+  measured_hypervolume: number;
+  gamut_hypervolume: number;
+  hypervolume_error: number;
+  gap: number;
+  signed_gap: number;
+  before: Errors | null;
+  after: Errors | null;
+  held_out: Errors | null;
+  equilibrium: boolean;
+  last: boolean;
+  decided_by: string;
+}
+
+export interface Proposed {
+  design: string;
+  modulus_pa: number;
+  toughness_pa: number;
+  reason: string;
+}
+
+export interface Round {
+  round: number;
+  summary: Summary | null;
+  gamut_count: number;
+  measured_front: [number, number][];
+  benchmark: [number, number][];
+  proposals: Proposed[];
+  parameters: Record<string, number>;
+  verdict: string | null;
+}
+
+export interface Measured {
+  design: string;
+  round: number;
+  rigid_fraction: number;
+  modulus_pa: number;
+  modulus_sd_pa: number;
+  modulus_count: number;
+  toughness_pa: number;
+  toughness_sd_pa: number;
+  toughness_count: number;
+}
+
+export interface Rounds {
+  rounds: Round[];
+  measured: Measured[];
+}
+
+export interface Curve {
+  strain: number[];
+  stress_pa: number[];
+}
+
+export interface Specimen {
+  specimen: string;
+  round: number;
+  test: string;
+  orientation_deg: number;
+  batch: string;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  valid: boolean;
+  note: string;
+  curve: Curve | null;
+}
+
+export interface Design {
+  design: string;
+  rigid_fraction: number;
+  violation?: string | null;
+  proposals: (Proposed & { round: number })[];
+  simulated: { round: number; failure?: string; modulus_pa?: number; toughness_pa?: number; curve?: Curve | null }[];
+  cracks: { round: number; film: boolean; path_ratio?: number; branches: number; bridged_share?: number }[];
+  specimens: Specimen[];
+}
+
+export interface Simulation {
+  state: "absent" | "queued" | "working" | "ready" | "failed";
+  source: "run" | "here";
+  working_s?: number;
+  modulus_pa?: number | null;
+  problem?: string;
+}
+
+export interface LaboratorySpecimen {
+  specimen: string;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  batch: string;
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+  points: number;
+  valid: boolean;
+  note: string;
+}
+
+export interface Order {
+  order: string;
+  round: number;
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  batch: string;
+  replicates: number;
+  arrived: number;
+  valid: number;
+  complete: boolean;
+  reason: string;
+}
+
+export interface DesignState {
+  design: string;
+  state: string;
+  proposed_in_round: number | null;
+  ordered: number;
+  printed: number;
+  measured: number;
+  valid: number;
+  by: string;
+  why: string;
+}
+
+export interface Group {
+  design: string;
+  test: string;
+  orientation_deg: number;
+  state: string;
+  tested: string[];
+  valid: string[];
+  proposed_outliers: { specimen: string; reasons: string[] }[];
+  mean_pa: number;
+  scatter: number;
+}
+
+export interface Laboratory {
+  proposal: { round: number; simulations: number; designs: (Proposed & { bin: number })[] } | null;
+  designs: DesignState[];
+  orders: Order[];
+  specimens: LaboratorySpecimen[];
+  groups: Group[];
+}
+
+export interface Effect {
+  name: string;
+  family?: string;
+  explanation?: string;
+  parameter: number;
+  interval90: [number, number];
+  unit: string;
+}
+
+export interface Candidate {
+  name: string;
+  family?: string;
+  explanation?: string;
+  status: string;
+  statistic: number;
+  p_family_wise: number;
+  absorption: number;
+}
+
+export interface Experiment {
+  design: string;
+  test: string;
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  replicates: number;
+  reason: string;
+}
+
+export interface Diagnosis {
+  round: number;
+  verdict: string;
+  summary: string;
+  effects: Effect[];
+  candidates: Candidate[];
+  gain: {
+    held_out_error_before: number;
+    held_out_error_after: number;
+    relative_reduction?: number;
+    interval90?: [number, number];
+  } | null;
+  next_experiments: Experiment[];
+}
+
+export interface PatternMap {
+  id: string;
+  pattern: string[];
+  source: string[];
+  x: number[];
+  y: number[];
+  modulus_pa: (number | null)[];
+  toughness_pa: (number | null)[];
+  triangles: [number, number, number][];
+  residual_variance: number | null;
+}
+
+export interface Maps {
+  families: { name: string; seeds: number; samples?: number; map_ids: string[]; mechanisms?: Record<string, number | string>[] }[];
+  gamuts: string[];
+}
+
+export interface Between {
+  pattern: string | null;
+  rigid_fraction?: number;
+  violation: string | null;
+}
+
+/** What the server refused, in its words. */
+export class Refusal extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+async function answer(response: Response): Promise<Response> {
+  if (response.ok) return response;
+  const text = await response.text();
+  let message = text.slice(0, 300);
+  try {
+    message = JSON.parse(text).error ?? message;
+  } catch {
+    // Not JSON: the text itself.
+  }
+  throw new Refusal(response.status, message);
+}
+
+function address(path: string, query: Record<string, string | number>): string {
+  const parameters = new URLSearchParams(Object.entries(query).map(([name, value]) => [name, String(value)]));
+  return parameters.size > 0 ? `${path}?${parameters}` : path;
+}
+
+export async function get<T>(path: string, query: Record<string, string | number> = {}): Promise<T> {
+  return (await answer(await fetch(address(path, query)))).json();
+}
+
+export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {
+  return (await answer(await fetch(address(path, query)))).arrayBuffer();
+}
+
+export async function post<T>(path: string, body: unknown): Promise<T> {
+  const headers = { "Content-Type": "application/json", "X-Nacre": "1" };
+  return (await answer(await fetch(path, { method: "POST", headers, body: JSON.stringify(body) }))).json();
+}

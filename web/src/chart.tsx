@@ -1,0 +1,112 @@
+// ECharts in the page: theme, size, and the picture as a file.
+
+import { LineChart, ScatterChart } from "echarts/charts";
+import { DataZoomInsideComponent, GridComponent, MarkAreaComponent, MarkLineComponent } from "echarts/components";
+import * as echarts from "echarts/core";
+import { CanvasRenderer, SVGRenderer } from "echarts/renderers";
+import { createContext, type ComponentChildren } from "preact";
+import { useContext, useEffect, useRef } from "preact/hooks";
+import { themeColour } from "./colour";
+import { save, saveCsv, saveSvg } from "./save";
+
+echarts.use([LineChart, ScatterChart, GridComponent, DataZoomInsideComponent, MarkLineComponent, MarkAreaComponent, CanvasRenderer, SVGRenderer]);
+
+export type Chart = echarts.ECharts;
+export type Option = Record<string, unknown>;
+
+/** Changes when the page turns dark or light, so that charts are drawn anew. */
+export const ThemeContext = createContext<"light" | "dark">("light");
+
+/** An axis in the page's colours. */
+export function axis(name: string, more: Option = {}): Option {
+  const quiet = themeColour("quiet");
+  return {
+    type: "value",
+    name,
+    nameLocation: "middle",
+    nameGap: 28,
+    nameTextStyle: { color: quiet, fontSize: 12 },
+    axisLabel: { color: quiet, fontSize: 11, hideOverlap: true },
+    axisLine: { show: true, lineStyle: { color: themeColour("rule") } },
+    axisTick: { show: false },
+    splitLine: { lineStyle: { color: themeColour("grid") } },
+    ...more,
+  };
+}
+
+/** What every chart begins with. */
+export function basis(more: Option = {}): Option {
+  return {
+    animation: false,
+    backgroundColor: "transparent",
+    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily },
+    grid: { left: 56, right: 16, top: 14, bottom: 46 },
+    ...more,
+  };
+}
+
+interface Props {
+  /** Name of the file, and what a screen reader says. */
+  name: string;
+  label: string;
+  option: Option;
+  height: number | string;
+  table?: () => { heading: string[]; rows: unknown[][] };
+  onReady?: (chart: Chart) => void;
+  tools?: ComponentChildren;
+  children?: ComponentChildren;
+}
+
+/** The same picture drawn again as SVG, or as PNG at twice the size, on the page's ground. */
+function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string): void {
+  const [width, height] = [chart.getWidth(), chart.getHeight()];
+  const renderer = kind === "svg" ? { renderer: "svg" as const, ssr: true, width, height } : { renderer: "canvas" as const, devicePixelRatio: 2, width, height };
+  const host = kind === "svg" ? null : document.createElement("div");
+  const copy = echarts.init(host, null, renderer);
+  copy.setOption({ ...option, backgroundColor: themeColour("panel") });
+  const zoom = (chart.getOption() as { dataZoom?: { startValue: number; endValue: number }[] }).dataZoom;
+  zoom?.forEach((each, dataZoomIndex) => copy.dispatchAction({ type: "dataZoom", dataZoomIndex, startValue: each.startValue, endValue: each.endValue }));
+  if (kind === "svg") saveSvg(name, copy.renderToSVGString());
+  else {
+    const canvas = copy.renderToCanvas({ backgroundColor: themeColour("panel"), pixelRatio: 2 } as never) as HTMLCanvasElement;
+    canvas.toBlob((blob) => blob && save(`${name}.png`, blob), "image/png");
+  }
+  copy.dispose();
+}
+
+export function ChartBox({ name, label, option, height, table, onReady, tools, children }: Props) {
+  const host = useRef<HTMLDivElement>(null);
+  const chart = useRef<Chart | undefined>(undefined);
+  const theme = useContext(ThemeContext);
+  useEffect(() => {
+    const made = echarts.init(host.current!, null, { renderer: "canvas" });
+    chart.current = made;
+    const observer = new ResizeObserver(() => made.resize());
+    observer.observe(host.current!);
+    return () => {
+      observer.disconnect();
+      made.dispose();
+    };
+  }, []);
+  useEffect(() => {
+    chart.current!.setOption(option, { replaceMerge: ["series"] });
+    onReady?.(chart.current!);
+  }, [option, theme]);
+  return (
+    <figure class="chart">
+      <div class="canvas" style={{ height: typeof height === "number" ? `${height}px` : height }}>
+        <div ref={host} class="host" role="img" aria-label={label} />
+        {children}
+      </div>
+      <figcaption class="tools">
+        {tools}
+        <span class="spring" />
+        <button type="button" class="quiet" onClick={() => picture(chart.current!, option, "svg", name)} aria-label={`${name} as SVG`}>SVG</button>
+        <button type="button" class="quiet" onClick={() => picture(chart.current!, option, "png", name)} aria-label={`${name} as PNG`}>PNG</button>
+        {table && (
+          <button type="button" class="quiet" aria-label={`${name} as CSV`} onClick={() => { const { heading, rows } = table(); saveCsv(name, heading, rows); }}>CSV</button>
+        )}
+      </figcaption>
+    </figure>
+  );
+}

@@ -1,0 +1,282 @@
+// Maps of patterns: likeness as nearness, colour as modulus or toughness. A click breaks a pattern, a drag goes between patterns.
+
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { get, Refusal, type Between, type Maps, type PatternMap, type Rounds } from "./api";
+import { axis, basis, ChartBox, type Chart, type Option } from "./chart";
+import { scaleColour, themeColour } from "./colour";
+import { DesignBody, type Chosen } from "./design_panel";
+import { newestModel } from "./game";
+import { figure, GPA, MPA, percent } from "./numbers";
+import { Table, Unit } from "./parts";
+
+type Coloured = "toughness" | "modulus";
+const REACH = 14;
+const STEP = 0.02; // of the map's width, per press of an arrow key
+const SETTLED_MS = 120;
+
+/** A place on the map between patterns, and the pattern that is there. */
+interface Blend {
+  x: number;
+  y: number;
+  corners: number[];
+  weights: number[];
+  between: Between | null;
+}
+
+/** The triangle that holds a point, with the point's weights; the nearest pattern alone outside all triangles. */
+function blendAt(map: PatternMap, x: number, y: number): Omit<Blend, "between"> {
+  for (const corners of map.triangles) {
+    const [a, b, c] = corners;
+    const area = (map.x[b] - map.x[a]) * (map.y[c] - map.y[a]) - (map.x[c] - map.x[a]) * (map.y[b] - map.y[a]);
+    if (area === 0) continue;
+    const u = ((map.x[b] - x) * (map.y[c] - y) - (map.x[c] - x) * (map.y[b] - y)) / area;
+    const v = ((map.x[c] - x) * (map.y[a] - y) - (map.x[a] - x) * (map.y[c] - y)) / area;
+    if (u >= -1e-9 && v >= -1e-9 && u + v <= 1 + 1e-9) return { x, y, corners, weights: [u, v, 1 - u - v].map((w) => Math.min(1, Math.max(0, w))) };
+  }
+  let nearest = 0;
+  map.x.forEach((each, i) => {
+    if (Math.hypot(each - x, map.y[i] - y) < Math.hypot(map.x[nearest] - x, map.y[nearest] - y)) nearest = i;
+  });
+  return { x: map.x[nearest], y: map.y[nearest], corners: [nearest], weights: [1] };
+}
+
+/** A map, asked for until it is there. */
+function useMap(id: string | null): { map: PatternMap | null; progress: number | null; problem: string } {
+  const [state, setState] = useState<{ map: PatternMap | null; progress: number | null; problem: string }>({ map: null, progress: null, problem: "" });
+  useEffect(() => {
+    setState({ map: null, progress: null, problem: "" });
+    if (!id) return;
+    let dropped = false;
+    let timer = 0;
+    const look = async () => {
+      try {
+        const answer = await get<{ state: string; map?: PatternMap; progress?: number | null }>("/api/map", { id });
+        if (dropped) return;
+        setState({ map: answer.map ?? null, progress: answer.progress ?? null, problem: "" });
+        if (!answer.map) timer = window.setTimeout(look, 400);
+      } catch (error) {
+        if (!dropped) setState({ map: null, progress: null, problem: error instanceof Refusal ? error.message : "the server does not answer" });
+      }
+    };
+    void look();
+    return () => {
+      dropped = true;
+      clearTimeout(timer);
+    };
+  }, [id]);
+  return state;
+}
+
+/** The pattern at a blend, asked for once the pointer rests. */
+function useBetween(map: PatternMap | null, place: { x: number; y: number } | null): Blend | null {
+  const [blend, setBlend] = useState<Blend | null>(null);
+  useEffect(() => {
+    if (!map || !place) return setBlend(null);
+    const found = blendAt(map, place.x, place.y);
+    setBlend((before) => ({ ...found, between: before?.between ?? null }));
+    let dropped = false;
+    const timer = setTimeout(() => {
+      get<Between>("/api/between", { patterns: found.corners.map((i) => map.pattern[i]).join(), weights: found.weights.map((w) => w.toFixed(4)).join() })
+        .then((between) => !dropped && setBlend({ ...found, between }))
+        .catch(() => undefined);
+    }, SETTLED_MS);
+    return () => {
+      dropped = true;
+      clearTimeout(timer);
+    };
+  }, [map, place]);
+  return blend;
+}
+
+function MapChart({ map, coloured, place, setPlace, blend, open, theme }: { map: PatternMap; coloured: Coloured; place: { x: number; y: number } | null; setPlace: (p: { x: number; y: number }) => void; blend: Blend | null; open: (design: string, index: number | null) => void; theme: string }) {
+  const chart = useRef<Chart | undefined>(undefined);
+  const overlay = useRef<HTMLDivElement>(null);
+  const [pointed, setPointed] = useState<number | null>(null);
+  const [, redraw] = useState(0);
+  const dragging = useRef<{ from: [number, number]; moved: boolean } | null>(null);
+  const values = coloured === "modulus" ? map.modulus_pa : map.toughness_pa;
+  const [low, high] = useMemo(() => range(values), [values]);
+  const option = useMemo<Option>(() => {
+    const spare = 0.05 * (Math.max(...map.x) - Math.min(...map.x) || 1);
+    const bounds = (v: number[]) => ({ min: Math.min(...v) - spare, max: Math.max(...v) + spare });
+    const hidden = { axisLabel: { show: false }, splitLine: { show: false }, axisLine: { show: false }, nameGap: 10 };
+    return {
+      ...basis({ grid: { left: 26, right: 10, top: 10, bottom: 26 } }),
+      xAxis: axis("Isomap 1", { ...hidden, ...bounds(map.x) }),
+      yAxis: axis("Isomap 2", { ...hidden, ...bounds(map.y) }),
+      series: [{
+        type: "scatter", silent: true, symbolSize: map.x.length > 1000 ? 6 : 9,
+        data: map.x.map((x, i) => ({ value: [x, map.y[i]], symbol: map.source[i] === "seed" ? "diamond" : "circle", symbolSize: map.source[i] === "seed" ? 18 : undefined, itemStyle: { color: values[i] === null ? "transparent" : scaleColour((values[i]! - low) / (high - low || 1)), borderColor: values[i] === null ? themeColour("quiet") : map.source[i] === "interpolated" ? themeColour("ink") : themeColour("panel"), borderWidth: values[i] === null || map.source[i] === "interpolated" ? 1 : 0.5 } })),
+      }],
+    };
+  }, [map, coloured, theme]);
+
+  const pixel = (x: number, y: number) => chart.current!.convertToPixel("grid", [x, y]) as [number, number];
+  const data = (px: number, py: number) => chart.current!.convertFromPixel("grid", [px, py]) as [number, number];
+  const place2 = (event: MouseEvent): [number, number] => {
+    const box = overlay.current!.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  const patternAt = (px: number, py: number): number | null => {
+    let best: number | null = null;
+    let least = REACH;
+    map.x.forEach((x, i) => {
+      const [a, b] = pixel(x, map.y[i]);
+      const distance = Math.hypot(a - px, b - py);
+      if (distance < least) [best, least] = [i, distance];
+    });
+    return best;
+  };
+  const onKey = (event: KeyboardEvent) => {
+    const arrows: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const width = Math.max(...map.x) - Math.min(...map.x);
+    if (arrows[event.key]) {
+      const from = place ?? { x: map.x[0], y: map.y[0] };
+      const [dx, dy] = arrows[event.key];
+      setPlace({ x: from.x + dx * STEP * width, y: from.y + dy * STEP * width });
+    } else if ((event.key === "Enter" || event.key === " ") && blend?.between?.pattern) open(blend.between.pattern, null);
+    else return;
+    event.preventDefault();
+  };
+  const handle = blend && chart.current ? pixel(blend.x, blend.y) : null;
+  const corners = blend && chart.current ? blend.corners.map((i) => pixel(map.x[i], map.y[i])) : [];
+  return (
+    <ChartBox name={`map-${map.id.replace("/", "-")}`} label={`map of ${map.pattern.length} patterns coloured by ${coloured}`} option={option} height="var(--gamut-height)"
+      onReady={(made) => {
+        chart.current = made;
+        made.off("finished");
+        made.on("finished", () => redraw((n) => n + 1));
+      }}
+      table={() => ({ heading: ["pattern", "source", "x", "y", "modulus_pa", "toughness_pa"], rows: map.pattern.map((p, i) => [p, map.source[i], map.x[i], map.y[i], map.modulus_pa[i], map.toughness_pa[i]]) })}
+      tools={<Scale coloured={coloured} low={low} high={high} />}>
+      <div ref={overlay} class="catcher map" tabIndex={0} role="application" aria-label="map: arrow keys move between patterns, Enter breaks the one that is there" onKeyDown={onKey} data-blend={blend?.between?.pattern ?? ""}
+        onPointerDown={(event) => {
+          dragging.current = { from: place2(event), moved: false };
+          overlay.current!.setPointerCapture(event.pointerId);
+        }}
+        onPointerMove={(event) => {
+          const [px, py] = place2(event);
+          setPointed(dragging.current ? null : patternAt(px, py));
+          if (!dragging.current) return;
+          const { from } = dragging.current;
+          dragging.current.moved ||= Math.hypot(px - from[0], py - from[1]) > 5;
+          if (!dragging.current.moved) return;
+          const [x, y] = data(px, py);
+          setPlace({ x, y });
+        }}
+        onPointerUp={(event) => {
+          const drag = dragging.current;
+          dragging.current = null;
+          if (drag && !drag.moved) {
+            const index = patternAt(...place2(event));
+            if (index !== null) {
+              setPlace({ x: map.x[index], y: map.y[index] });
+              open(map.pattern[index], index);
+            }
+          }
+        }}
+        onPointerLeave={() => setPointed(null)}>
+        <svg class="overlay" aria-hidden="true">
+          {corners.length > 1 && <polygon points={corners.map((c) => c.join()).join(" ")} class="triangle" />}
+          {corners.length > 1 && handle && corners.map((c, i) => <line key={i} x1={handle[0]} y1={handle[1]} x2={c[0]} y2={c[1]} class="spoke" stroke-width={0.5 + 3 * blend!.weights[i]} />)}
+          {handle && <circle cx={handle[0]} cy={handle[1]} r="8" class="handle" />}
+        </svg>
+        {pointed !== null && chart.current && (
+          <div class="card-tip" style={{ left: `${Math.min(pixel(map.x[pointed], map.y[pointed])[0] + 14, overlay.current!.clientWidth - 236)}px`, top: `${Math.max(pixel(map.x[pointed], map.y[pointed])[1] - 60, 4)}px` }}>
+            <Unit design={map.pattern[pointed]} size={72} label={false} />
+            <div><code class="key">{map.pattern[pointed]}</code><br />E {figure((map.modulus_pa[pointed] ?? NaN) * GPA)} GPa<br />T {figure((map.toughness_pa[pointed] ?? NaN) * MPA)} MPa<br /><span class="quiet">{map.source[pointed]}</span></div>
+          </div>
+        )}
+        <span class="for-reader" aria-live="polite">{blend?.between?.pattern ? `between ${blend.corners.length} patterns: ${blend.between.pattern}` : ""}</span>
+      </div>
+    </ChartBox>
+  );
+}
+
+function range(values: (number | null)[]): [number, number] {
+  const known = values.filter((v): v is number => v !== null);
+  return known.length > 0 ? [Math.min(...known), Math.max(...known)] : [0, 1];
+}
+
+function Scale({ coloured, low, high }: { coloured: Coloured; low: number; high: number }) {
+  const [factor, unit] = coloured === "modulus" ? [GPA, "GPa"] : [MPA, "MPa"];
+  const stops = Array.from({ length: 9 }, (_, i) => scaleColour(i / 8)).join(", ");
+  return <span class="scale"><span>{figure(low * factor)}</span><span class="ramp" style={{ background: `linear-gradient(to right, ${stops})` }} /><span>{figure(high * factor)} {unit}</span></span>;
+}
+
+export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
+  const [maps, setMaps] = useState<Maps | null>(null);
+  const [picked, setPicked] = useState<string | null>(null);
+  const [coloured, setColoured] = useState<Coloured>("toughness");
+  const [place, setPlace] = useState<{ x: number; y: number } | null>(null);
+  const [chosen, setChosen] = useState<Chosen | null>(null);
+  const known = rounds.rounds.map((r) => `${r.round}:${r.gamut_count}`).join();
+  useEffect(() => {
+    get<Maps>("/api/maps").then(setMaps).catch(() => undefined);
+  }, [known]);
+  const id = picked ?? maps?.families[0]?.map_ids[0] ?? maps?.gamuts.at(-1) ?? null;
+  const { map, progress, problem } = useMap(id);
+  const blend = useBetween(map, place);
+  const family = id && !id.startsWith("gamut/") ? id.split("/")[0] : null;
+  const model = family ?? (id ? Number(id.split("/")[1]) : newestModel(rounds));
+  useEffect(() => {
+    setPlace(null);
+    setChosen(null);
+  }, [id]);
+  if (!maps) return <p class="awaited wait">reading …</p>;
+  if (!id) return <p class="awaited wait">No gamut yet: the map of its best patterns appears here.</p>;
+  const open = (design: string, index: number | null) =>
+    setChosen({ design, model, modulus: index === null ? NaN : (map!.modulus_pa[index] ?? NaN), toughness: index === null ? NaN : (map!.toughness_pa[index] ?? NaN), of: index === null ? "between patterns of the map" : map!.source[index] === "gamut" ? `gamut of round ${model}` : map!.source[index] });
+  const mechanisms = maps.families.find((f) => f.name === family)?.mechanisms ?? [];
+  return (
+    <>
+      <div class="split">
+        <section class="panel gamut">
+          <div class="panel-head">
+            <h2>Explorer</h2>
+            <div class="toggles">
+              <label>map <select value={id} onChange={(e) => setPicked(e.currentTarget.value)}>
+                {maps.families.flatMap((f) => f.map_ids).map((each) => <option key={each} value={each}>{each.replace("/", ", around ")}</option>)}
+                {maps.gamuts.map((each) => <option key={each} value={each}>best patterns of gamut {each.split("/")[1]}</option>)}
+              </select></label>
+              <fieldset><legend>colour</legend>
+                {(["toughness", "modulus"] as const).map((c) => <label key={c} class="toggle"><input type="radio" name="colour" checked={coloured === c} onChange={() => setColoured(c)} /><span>{c === "modulus" ? "E" : "T"}</span></label>)}
+              </fieldset>
+            </div>
+          </div>
+          <p class="quiet">Patterns that resemble each other lie near each other (earth mover's distance, Isomap). Click one to break it; drag across the map to go between patterns, and break what you find.</p>
+          {problem ? <p class="notice bad">{problem}</p> : !map ? <div class="waiting tall" role="status"><span class="spinner" aria-hidden="true" />measuring the distances between patterns {progress !== null && percent(progress, 0)}</div>
+            : <MapChart map={map} coloured={coloured} place={place} setPlace={setPlace} blend={blend} open={open} theme={theme} />}
+          {map && <p class="quiet">{map.pattern.length} patterns{map.residual_variance !== null && `; the map keeps ${percent(1 - map.residual_variance, 0)} of the variance of their distances`}</p>}
+        </section>
+        <section class="panel design" aria-label="design">
+          <div class="panel-head"><h2>{blend && blend.corners.length > 1 ? "Between" : "Design"}</h2></div>
+          {blend && blend.corners.length > 1 && (
+            <div class="blend">
+              <div class="sources">{blend.corners.map((i, k) => <figure key={i}><Unit design={map!.pattern[i]} size={54} /><figcaption>{percent(blend.weights[k], 0)}</figcaption></figure>)}</div>
+              <span aria-hidden="true" class="arrow">→</span>
+              {blend.between?.pattern ? <Unit design={blend.between.pattern} size={96} /> : <span class="quiet">{blend.between?.violation ?? "…"}</span>}
+              <div>
+                {blend.between?.pattern && <button type="button" onClick={() => open(blend.between!.pattern!, null)}>Break it</button>}
+                {blend.between?.pattern && blend.between.violation && <p class="quiet">outside the design space: {blend.between.violation}</p>}
+              </div>
+            </div>
+          )}
+          {chosen ? <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} /> : !blend && <p class="quiet">Nothing chosen yet.</p>}
+        </section>
+      </div>
+      {mechanisms.length > 0 && (
+        <section class="panel">
+          <Table name={`mechanisms-${family}`} caption={`What goes with toughness in ${family}, at equal rigid fraction and modulus (evidence, not cause)`} rows={mechanisms} rowKey={(m) => String(m.mechanism)} empty=""
+            columns={[
+              { heading: "mechanism", words: true, show: (m) => String(m.mechanism).replace("_", " "), value: (m) => m.mechanism },
+              { heading: "patterns", show: (m) => m.patterns, value: (m) => m.patterns },
+              { heading: "rank correlation", show: (m) => figure(Number(m.spearman_with_toughness), 2), value: (m) => m.spearman_with_toughness },
+              { heading: "partial", show: (m) => figure(Number(m.partial), 2), value: (m) => m.partial },
+              { heading: "p, family-wise", show: (m) => figure(Number(m.p_family_wise), 2), value: (m) => m.p_family_wise },
+            ]} />
+        </section>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,196 @@
+// The game: gamut and fronts by round, one design at a time beside them, and how the game stands.
+
+import { useEffect, useMemo, useState } from "preact/hooks";
+import type { Measured, Rounds } from "./api";
+import { axis, basis, ChartBox, type Option } from "./chart";
+import { roundColour, themeColour } from "./colour";
+import { DesignPanel, type Chosen } from "./design_panel";
+import { loadGamut, type Gamut } from "./gamut";
+import { GamutChart, type Layers } from "./gamut_chart";
+import { figure, percent } from "./numbers";
+import { Table } from "./parts";
+
+/** Gamuts of the rounds asked for, loaded again when they have grown. */
+function useGamuts(rounds: Rounds, wanted: Set<number>): Map<number, Gamut> {
+  const [gamuts, setGamuts] = useState(new Map<number, Gamut>());
+  const needed = rounds.rounds.filter((r) => wanted.has(r.round) && r.gamut_count > 0 && gamuts.get(r.round)?.patterns.length !== r.gamut_count).map((r) => r.round);
+  useEffect(() => {
+    let dropped = false;
+    for (const round of needed) {
+      loadGamut(round)
+        .then((gamut) => !dropped && setGamuts((before) => new Map(before).set(round, gamut)))
+        .catch(() => undefined);
+    }
+    return () => {
+      dropped = true;
+    };
+  }, [needed.join(), rounds]);
+  return gamuts;
+}
+
+/** Lines by round: each a name, a colour, and a value per round. */
+interface Trend {
+  name: string;
+  colour: string;
+  dashed?: boolean;
+  value: (round: Rounds["rounds"][number]) => number | null | undefined;
+  error?: (round: Rounds["rounds"][number]) => number;
+}
+
+function TrendChart({ title, name, unit, rounds, trends, logarithmic }: { title: string; name: string; unit: string; rounds: Rounds; trends: Trend[]; logarithmic?: boolean }) {
+  const closed = rounds.rounds.filter((r) => r.summary);
+  const option = useMemo<Option>(() => ({
+    ...basis({ grid: { left: 52, right: 14, top: 12, bottom: 40 } }),
+    xAxis: axis("round", { min: 0, max: Math.max(1, closed.length - 1), minInterval: 1, nameGap: 24 }),
+    // Errors of the first rounds are many times those of the last.
+    yAxis: axis(unit, { ...(logarithmic ? { type: "log", logBase: 10 } : { min: 0 }), nameGap: 38, axisLabel: { color: themeColour("quiet"), fontSize: 11, formatter: (v: number) => figure(logarithmic ? 100 * v : v) } }),
+    series: trends.flatMap((trend) => {
+      const points = closed.map((r) => [r.round, trend.value(r)]).filter(([, v]) => v !== null && v !== undefined && (!logarithmic || v > 0));
+      const bars = trend.error ? closed.filter((r) => trend.value(r)).map((r) => [[r.round, trend.value(r)! - trend.error!(r)], [r.round, trend.value(r)! + trend.error!(r)]]) : [];
+      return [
+        { type: "line", name: trend.name, data: points, symbol: "circle", symbolSize: 7, itemStyle: { color: trend.colour }, lineStyle: { color: trend.colour, width: 2, type: trend.dashed ? "dashed" : "solid" } },
+        ...bars.map((ends) => ({ type: "line", data: ends, symbol: "none", silent: true, lineStyle: { color: trend.colour, width: 1.2, opacity: 0.7 } })),
+      ];
+    }),
+  }), [rounds, trends]);
+  return (
+    <section class="panel trend">
+      <h3>{title}</h3>
+      <ul class="keys">{trends.map((t) => <li key={t.name}><span class={t.dashed ? "line dashed" : "line"} style={{ color: t.colour }} />{t.name}</li>)}</ul>
+      {closed.length === 0 ? <p class="awaited">after the first round</p> : (
+        <ChartBox name={name} label={`${title} by round`} option={option} height={190}
+          table={() => ({ heading: ["round", ...trends.map((t) => t.name)], rows: closed.map((r) => [r.round, ...trends.map((t) => t.value(r) ?? "")]) })} />
+      )}
+    </section>
+  );
+}
+
+const someE = (e: { modulus_count: number; modulus_mean: number } | null) => (e && e.modulus_count > 0 ? e.modulus_mean : null);
+const someT = (e: { toughness_count: number; toughness_mean: number } | null) => (e && e.toughness_count > 0 ? e.toughness_mean : null);
+
+function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
+  const trends = useMemo(() => {
+    const [sim, meas, homo] = ["sim", "meas", "homo"].map(themeColour);
+    return {
+      hypervolume: [
+        { name: "gamut", colour: sim, value: (r) => r.summary!.gamut_hypervolume },
+        { name: "measured", colour: meas, value: (r) => r.summary!.measured_hypervolume, error: (r) => r.summary!.hypervolume_error },
+      ] as Trend[],
+      gap: [{ name: "gap", colour: homo, value: (r) => r.summary!.gap }] as Trend[],
+      errors: [
+        { name: "E, held out", colour: sim, value: (r) => someE(r.summary!.held_out) },
+        { name: "T, held out", colour: meas, value: (r) => someT(r.summary!.held_out) },
+        { name: "T, after calibration", colour: meas, dashed: true, value: (r) => (r.round > 0 ? someT(r.summary!.after) : null) },
+      ] as Trend[],
+    };
+  }, [theme]);
+  return (
+    <div class="trends">
+      <TrendChart title="Hypervolume" name="hypervolume" unit="GPa·MPa" rounds={rounds} trends={trends.hypervolume} />
+      <TrendChart title="Gap to the laboratory" name="gap" unit="GPa·MPa" rounds={rounds} trends={trends.gap} />
+      <TrendChart title="Mean relative errors" name="errors" unit="%" rounds={rounds} trends={trends.errors} logarithmic />
+    </div>
+  );
+}
+
+/** Rounds and layers that are shown, as toggles; the rounds carry their colour. */
+function Toggles({ rounds, shown, setShown, layers, setLayers }: { rounds: Rounds; shown: Set<number>; setShown: (s: Set<number>) => void; layers: Layers; setLayers: (l: Layers) => void }) {
+  const newest = Math.max(0, ...rounds.rounds.map((r) => r.round));
+  const flip = (round: number) => {
+    const next = new Set(shown);
+    if (!next.delete(round)) next.add(round);
+    setShown(next);
+  };
+  return (
+    <div class="toggles">
+      <fieldset>
+        <legend>rounds</legend>
+        {rounds.rounds.map((r) => (
+          <label key={r.round} class="toggle" style={{ "--c": roundColour("sim", r.round, newest) } as never}>
+            <input type="checkbox" checked={shown.has(r.round)} onChange={() => flip(r.round)} />
+            <span>{r.round}</span>
+          </label>
+        ))}
+      </fieldset>
+      <fieldset>
+        <legend>show</legend>
+        {(Object.keys(layers) as (keyof Layers)[]).map((layer) => (
+          <label key={layer} class="toggle" style={{ "--c": `var(--${layer === "measured" ? "meas" : layer === "mixtures" ? "homo" : "sim"})` } as never}>
+            <input type="checkbox" checked={layers[layer]} onChange={() => setLayers({ ...layers, [layer]: !layers[layer] })} />
+            <span>{layer}</span>
+          </label>
+        ))}
+      </fieldset>
+    </div>
+  );
+}
+
+export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark" }) {
+  const newest = rounds.rounds.length > 0 ? rounds.rounds[rounds.rounds.length - 1].round : 0;
+  const [picked, setPicked] = useState<Set<number> | null>(null);
+  // Until somebody picks, the newest gamut: the rounds before it would hide it.
+  const shown = useMemo(() => picked ?? new Set(rounds.rounds.filter((r) => r.gamut_count > 0).slice(-1).map((r) => r.round)), [picked, rounds]);
+  const [layers, setLayers] = useState<Layers>({ cloud: true, fronts: true, proposals: true, measured: true, mixtures: true });
+  const [chosen, setChosen] = useState<Chosen | null>(null);
+  const gamuts = useGamuts(rounds, shown);
+  const visible = [...shown].map((round) => gamuts.get(round)).filter((g): g is Gamut => g !== undefined);
+  if (rounds.rounds.length === 0) return <p class="awaited wait">Nothing has been said in this run yet. The first model, gamut and proposals appear here by themselves.</p>;
+  return (
+    <>
+      <div class="split">
+        <div class="stack">
+        <section class="panel gamut">
+          <div class="panel-head">
+            <h2>Gamut</h2>
+            <Toggles rounds={rounds} shown={shown} setShown={setPicked} layers={layers} setLayers={setLayers} />
+          </div>
+          <GamutChart rounds={rounds} gamuts={visible} layers={layers} chosen={chosen} choose={setChosen} theme={theme} />
+        </section>
+        <Trends rounds={rounds} theme={theme} />
+        </div>
+        <DesignPanel chosen={chosen} newestModel={newestModel(rounds)} choose={setChosen} proposals={rounds.rounds.find((r) => r.round === newest)?.proposals ?? []} rounds={rounds} />
+      </div>
+      <section class="panel"><RoundTable rounds={rounds} /></section>
+      <section class="panel"><MeasuredTable measured={rounds.measured} choose={(m) => setChosen({ design: m.design, model: newestModel(rounds), modulus: m.modulus_pa, toughness: m.toughness_pa, of: `measured in round ${m.round}` })} /></section>
+    </>
+  );
+}
+
+/** The newest round with an adopted model. */
+export function newestModel(rounds: Rounds): number {
+  return Math.max(0, ...rounds.rounds.filter((r) => Object.keys(r.parameters).length > 0).map((r) => r.round));
+}
+
+function RoundTable({ rounds }: { rounds: Rounds }) {
+  const closed = rounds.rounds.filter((r) => r.summary);
+  return (
+    <Table name="rounds" caption="Rounds" rows={closed} rowKey={(r) => String(r.round)} empty="No round is closed yet."
+      columns={[
+        { heading: "round", show: (r) => r.round, value: (r) => r.round },
+        { heading: "gamut hv", show: (r) => figure(r.summary!.gamut_hypervolume), value: (r) => r.summary!.gamut_hypervolume },
+        { heading: "measured hv", show: (r) => `${figure(r.summary!.measured_hypervolume)} ± ${figure(r.summary!.hypervolume_error, 2)}`, value: (r) => r.summary!.measured_hypervolume },
+        { heading: "gap", show: (r) => figure(r.summary!.gap), value: (r) => r.summary!.gap },
+        { heading: "E held out", show: (r) => percent(someE(r.summary!.held_out)), value: (r) => someE(r.summary!.held_out) },
+        { heading: "T held out", show: (r) => percent(someT(r.summary!.held_out)), value: (r) => someT(r.summary!.held_out) },
+        { heading: "T rank", show: (r) => (someT(r.summary!.held_out) === null ? "–" : figure(r.summary!.held_out!.toughness_spearman, 2)), value: (r) => r.summary!.held_out?.toughness_spearman ?? "" },
+        { heading: "E after", show: (r) => percent(someE(r.summary!.after)), value: (r) => someE(r.summary!.after) },
+        { heading: "T after", show: (r) => percent(someT(r.summary!.after)), value: (r) => someT(r.summary!.after) },
+        { heading: "decided by", words: true, show: (r) => r.summary!.decided_by, value: (r) => r.summary!.decided_by },
+      ]} />
+  );
+}
+
+function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m: Measured) => void }) {
+  const sorted = [...measured].sort((a, b) => b.toughness_pa - a.toughness_pa);
+  return (
+    <Table name="measured" caption="Measured patterns" rows={sorted} rowKey={(m) => m.design} empty="No pattern has been measured in both tests yet."
+      columns={[
+        { heading: "design", words: true, show: (m) => <button type="button" class="link" onClick={() => { choose(m); window.scrollTo({ top: 0, behavior: "smooth" }); }}><code class="key">{m.design}</code></button>, value: (m) => m.design },
+        { heading: "round", show: (m) => m.round, value: (m) => m.round },
+        { heading: "rigid", show: (m) => percent(m.rigid_fraction, 0), value: (m) => m.rigid_fraction },
+        { heading: "E / GPa", show: (m) => `${figure(m.modulus_pa * 1e-9)} ± ${figure(m.modulus_sd_pa * 1e-9, 2)}`, value: (m) => m.modulus_pa },
+        { heading: "T / MPa", show: (m) => `${figure(m.toughness_pa * 1e-6)} ± ${figure(m.toughness_sd_pa * 1e-6, 2)}`, value: (m) => m.toughness_pa },
+        { heading: "specimens", show: (m) => `${m.modulus_count} + ${m.toughness_count}`, value: (m) => m.modulus_count + m.toughness_count },
+      ]} />
+  );
+}

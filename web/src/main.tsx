@@ -1,0 +1,117 @@
+// The page: header, nodes, and one view at a time, kept live.
+
+import { render } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { get, Refusal, type Live, type Rounds, type RunInfo } from "./api";
+import { ThemeContext } from "./chart";
+import { Diagnosis } from "./diagnosis";
+import { Explorer } from "./explorer";
+import { Game } from "./game";
+import { Laboratory } from "./laboratory";
+import { Nodes, NodeStrip } from "./nodes";
+import { useRepeated, useStored } from "./parts";
+import "./page.css";
+
+const VIEWS = { game: "Game", laboratory: "Laboratory", diagnosis: "Diagnosis", explorer: "Explorer", nodes: "Nodes" } as const;
+type View = keyof typeof VIEWS;
+const LIVE_MS = 1000;
+
+const viewOfAddress = (): View => {
+  const name = location.hash.slice(1);
+  return name in VIEWS ? (name as View) : "game";
+};
+
+function useView(): View {
+  const [view, setView] = useState(viewOfAddress);
+  useEffect(() => {
+    const follow = () => setView(viewOfAddress());
+    addEventListener("hashchange", follow);
+    return () => removeEventListener("hashchange", follow);
+  }, []);
+  return view;
+}
+
+/** Dark or light: as the system says, unless the person has said otherwise. */
+function useTheme(): ["light" | "dark", () => void] {
+  const [stored, setStored] = useStored("theme", "");
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const [system, setSystem] = useState(dark.matches ? "dark" : "light");
+  useEffect(() => {
+    const follow = () => setSystem(dark.matches ? "dark" : "light");
+    dark.addEventListener("change", follow);
+    return () => dark.removeEventListener("change", follow);
+  }, []);
+  const theme = (stored || system) as "light" | "dark";
+  document.documentElement.dataset.theme = theme;
+  return [theme, () => setStored(theme === "dark" ? "light" : "dark")];
+}
+
+function standing(info: RunInfo, rounds: Rounds, live: Live | null, lost: string): { text: string; kind: string } {
+  const closed = rounds.rounds.filter((r) => r.summary);
+  const last = closed.at(-1);
+  if (lost) return { text: lost, kind: "bad" };
+  if (last?.summary!.last) return { text: `finished after round ${last.round}${last.summary!.equilibrium ? ", in equilibrium" : ""}`, kind: "done" };
+  if (live?.playing) return { text: last ? `playing, round ${last.round} of ${info.rounds} is closed` : "playing", kind: "playing" };
+  return { text: last ? `at rest after round ${last.round}` : "at rest", kind: "rest" };
+}
+
+function Page() {
+  const [info, setInfo] = useState<RunInfo | null>(null);
+  const [live, setLive] = useState<Live | null>(null);
+  const [rounds, setRounds] = useState<Rounds>({ rounds: [], measured: [] });
+  const [data, setData] = useState<string | null>(null);
+  const [lost, setLost] = useState("");
+  const view = useView();
+  const [theme, flipTheme] = useTheme();
+  useRepeated(async () => {
+    try {
+      const now = await get<Live>("/api/live");
+      setLive(now);
+      if (!info) setInfo(await get<RunInfo>("/api/run"));
+      if (now.data !== data) {
+        const next = await get<Rounds>("/api/rounds");
+        setRounds((before) => (JSON.stringify(before) === JSON.stringify(next) ? before : next));
+        setData(now.data);
+      }
+      setLost("");
+    } catch (error) {
+      setLost(error instanceof Refusal ? error.message : "the dashboard was stopped");
+    }
+  }, LIVE_MS);
+  useEffect(() => {
+    if (info) document.title = `${info.run} · nacre`;
+  }, [info]);
+  if (!info) return <p class="awaited wait">{lost || "reading the run …"}</p>;
+  const { text, kind } = standing(info, rounds, live, lost);
+  const playing = live?.playing ?? false;
+  return (
+    <ThemeContext.Provider value={theme}>
+      <a class="skip" href="#main" onClick={(e) => { e.preventDefault(); document.getElementById("main")!.focus(); }}>to the content</a>
+      <header>
+        <div class="title">
+          <p class="eyebrow">nacre</p>
+          <h1>{info.run}</h1>
+          <p class={`standing ${kind}`} role="status"><span class="dot" aria-hidden="true" />{text}</p>
+        </div>
+        <nav aria-label="views">
+          {(Object.keys(VIEWS) as View[]).map((each) => <a key={each} href={`#${each}`} aria-current={each === view ? "page" : undefined}>{VIEWS[each]}</a>)}
+        </nav>
+        <div class="aside">
+          {info.report && <a href="/report" target="_blank" rel="noopener">report</a>}
+          <button type="button" class="quiet" onClick={flipTheme} aria-label={theme === "dark" ? "light colours" : "dark colours"}>{theme === "dark" ? "light" : "dark"}</button>
+        </div>
+      </header>
+      {live && live.nodes.length > 0 && view !== "nodes" && <NodeStrip live={live} />}
+      <main id="main" tabIndex={-1}>
+        {view === "game" && <Game rounds={rounds} theme={theme} />}
+        {view === "laboratory" && <Laboratory info={info} playing={playing} />}
+        {view === "diagnosis" && <Diagnosis rounds={rounds} />}
+        {view === "explorer" && <Explorer rounds={rounds} theme={theme} />}
+        {view === "nodes" && live && <Nodes live={live} />}
+      </main>
+      <footer class="quiet">{info.scenario}, {info.fidelity} specimens · begun {info.started.replace("T", " ").replace("Z", " UTC")} · nacre {info.nacre_version}</footer>
+    </ThemeContext.Provider>
+  );
+}
+
+render(<Page />, document.getElementById("page")!);

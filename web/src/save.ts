@@ -1,0 +1,26 @@
+// Pictures and tables as files.
+
+export function save(name: string, content: Blob | string, type = "text/plain"): void {
+  const blob = content instanceof Blob ? content : new Blob([content], { type });
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+const cell = (value: unknown) => {
+  const text = value === null || value === undefined ? "" : String(value);
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+};
+
+export function csvOf(heading: string[], rows: unknown[][]): string {
+  return [heading, ...rows].map((row) => row.map(cell).join(",")).join("\n") + "\n";
+}
+
+export const saveCsv = (name: string, heading: string[], rows: unknown[][]) => save(`${name}.csv`, csvOf(heading, rows), "text/csv");
+export const saveSvg = (name: string, svg: string) => save(`${name}.svg`, svg, "image/svg+xml");
+
+export function saveCanvas(name: string, canvas: HTMLCanvasElement): void {
+  canvas.toBlob((blob) => blob && save(`${name}.png`, blob), "image/png");
+}
