@@ -38,7 +38,8 @@ Json crack_json(const store::RecordedCrack& recorded) {
 Json simulated_json(int round, const store::RecordedSimulation& s) {
   Json json = {{"round", round}};
   if (!s.failure.empty()) return json["failure"] = s.failure, json;
-  json["modulus_pa"] = s.performance.modulus_pa;
+  // 0: that test was not asked for.
+  json["modulus_pa"] = s.performance.modulus_pa > 0.0 ? Json(s.performance.modulus_pa) : Json(nullptr);
   json["toughness_pa"] = s.performance.toughness_pa;
   json["curve"] = curve_json(s.curve);
   return json;

@@ -129,7 +129,7 @@ export interface Design {
   rigid_fraction: number;
   violation?: string | null;
   proposals: (Proposed & { round: number })[];
-  simulated: { round: number; failure?: string; modulus_pa?: number; toughness_pa?: number; curve?: Curve | null }[];
+  simulated: { round: number; failure?: string; modulus_pa?: number | null; toughness_pa?: number; curve?: Curve | null }[];
   cracks: { round: number; film: boolean; path_ratio?: number; branches: number; bridged_share?: number }[];
   specimens: Specimen[];
 }
