@@ -12,8 +12,12 @@ const NACRE = join(BUILD, "bin/nacre");
 
 export const folder = mkdtempSync(join(tmpdir(), "nacre-web-"));
 const children = new Set();
-process.on("exit", () => {
+/** Ends every program that still runs: a test that failed may have left one. */
+export function endAll() {
   for (const child of children) child.kill("SIGKILL");
+}
+process.on("exit", () => {
+  endAll();
   rmSync(folder, { recursive: true, force: true });
 });
 

@@ -9,7 +9,7 @@ import { saveCsv, saveSvg } from "./save";
 export function Unit({ design, size, label = true }: { design: string; size: number; label?: boolean }) {
   const pixels = pixelsOf(design);
   return (
-    <svg class="unit" viewBox={`0 0 ${SIDE} ${SIDE}`} width={size} height={size} role="img" aria-label={label ? `pattern ${design}` : undefined} aria-hidden={label ? undefined : "true"} shape-rendering="crispEdges">
+    <svg class="unit" viewBox={`0 0 ${SIDE} ${SIDE}`} width={size} height={size} role={label ? "img" : undefined} aria-label={label ? `pattern ${design}` : undefined} aria-hidden={label ? undefined : "true"} shape-rendering="crispEdges">
       <rect width={SIDE} height={SIDE} class="soft" />
       {pixels ? <path d={rigidPath(pixels)} class="rigid" /> : <rect width={SIDE} height={SIDE} class="rigid" opacity={mixtureShare(design)} />}
     </svg>
