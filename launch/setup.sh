@@ -85,6 +85,7 @@ build_page() {
   local web="$NACRE_ROOT/web" log="$NACRE_ROOT/build/page.log" page="$NACRE_ROOT/build/web/page.js"
   [ -f "$page" ] && [ -z "$(find "$web" -path "$web/node_modules" -prune -o -type f -newer "$page" -print -quit)" ] &&
     { [ "${1:-}" != required ] || [ -d "$web/node_modules/playwright-core" ]; } && return 0
+  mkdir -p "$NACRE_ROOT/build"
   say "page: bundling web/"
   if install_npm && { [ "$web/node_modules/.package-lock.json" -nt "$web/package-lock.json" ] || npm --prefix "$web" ci; } >"$log" 2>&1 &&
     npm --prefix "$web" run build >>"$log" 2>&1; then return 0; fi

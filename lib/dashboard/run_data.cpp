@@ -6,7 +6,20 @@
 
 #include <fmt/format.h>
 
+#include "base/result.hpp"
+#include "runtime/bus.hpp"
+
 namespace nacre::dashboard {
+namespace {
+
+/// Whether a file was changed within the last seconds.
+bool is_young(const std::filesystem::path& file) {
+  constexpr std::int64_t kYoung_us = 10'000'000;
+  struct stat status {};
+  return ::stat(file.c_str(), &status) == 0 && runtime::now_utime() - 1'000'000 * static_cast<std::int64_t>(status.st_mtim.tv_sec) < kYoung_us;
+}
+
+}  // namespace
 
 std::string RunData::version() const {
   // Without asking SQLite: a write changes the write-ahead log, a checkpoint the file.
@@ -23,8 +36,14 @@ void RunData::refresh() {
   // The version is taken before reading: what is written meanwhile is read once more, never missed.
   const std::string now = version();
   if (now == read_version_ || !std::filesystem::exists(database_)) return;
-  record_ = std::make_shared<const store::RunRecord>(store::read_run_record(database_, false));
-  const std::map<int, int> before = std::exchange(gamut_sizes_, store::read_gamut_sizes(database_));
+  std::map<int, int> before;
+  try {
+    record_ = std::make_shared<const store::RunRecord>(store::read_run_record(database_, false));
+    before = std::exchange(gamut_sizes_, store::read_gamut_sizes(database_));
+  } catch (const InputError&) {
+    if (read_version_.empty() && is_young(database_)) return;  // the analyser is still making the file
+    throw;
+  }
   std::erase_if(gamuts_, [&](const auto& kept) { return !before.contains(kept.first) || before.at(kept.first) != gamut_sizes_[kept.first]; });
   read_version_ = now;
 }
