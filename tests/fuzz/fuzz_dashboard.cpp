@@ -27,19 +27,18 @@ dashboard::Request request_from(std::string_view text) {
   return request;
 }
 
-/// Two dashboards for all inputs: what is handed in goes nowhere, and no simulation is started.
+/// One dashboard for all inputs: what is handed in goes nowhere, and no simulation is started.
 dashboard::Dashboard& page() {
   static dashboard::FakeDesk desk;
-  static dashboard::Dashboard page({.run_folder = memory_folder() / "run",
-                                    .page_folder = memory_folder() / "page",
-                                    .family_folder = memory_folder() / "families",
-                                    .run_id = "fuzz",
-                                    .started = "",
-                                    .nacre_version = "",
-                                    .commit = "",
-                                    .user = "",
-                                    .scenario = {}},
-                                   desk);
+  static dashboard::Dashboard page(
+      [] {
+        dashboard::Settings settings;
+        settings.run_folder = memory_folder() / "run";
+        settings.page_folder = memory_folder() / "page";
+        settings.family_folder = memory_folder() / "families";
+        return settings;
+      }(),
+      desk);
   desk.specimens.clear();
   desk.judgements.clear();
   desk.decisions.clear();

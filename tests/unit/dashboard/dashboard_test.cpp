@@ -31,6 +31,7 @@ class DashboardOfARun : public testing::Test {
     for (const auto& [channel, payload] : wire::samples::payloads()) database.project(channel, payload);
     for (int chunk = 0; chunk < 3; ++chunk) database.project("GAMUT", wire::write(gamut_chunk(chunk)));
     database.checkpoint();
+    dashboard_.emplace(settings(), desk_);
   }
   ~DashboardOfARun() override { fs::remove_all(folder_); }
 
@@ -42,25 +43,25 @@ class DashboardOfARun : public testing::Test {
   }
 
   Response get(const std::string& path, std::map<std::string, std::string> query = {}) {
-    return dashboard_.handle({.method = "GET", .path = path, .query = std::move(query), .headers = {}, .body = ""});
+    return dashboard_->handle({.method = "GET", .path = path, .query = std::move(query), .headers = {}, .body = ""});
   }
   Response post(const std::string& path, const std::string& body) {
-    return dashboard_.handle({.method = "POST", .path = path, .query = {}, .headers = {}, .body = body});
+    return dashboard_->handle({.method = "POST", .path = path, .query = {}, .headers = {}, .body = body});
   }
   Json json(const std::string& path, std::map<std::string, std::string> query = {}) { return Json::parse(get(path, std::move(query)).body); }
 
+  Settings settings() const {
+    Settings settings;
+    settings.run_folder = folder_;
+    settings.page_folder = folder_ / "page";
+    settings.family_folder = folder_ / "families";
+    settings.scenario.fidelity = tester::Fidelity::tiny;
+    return settings;
+  }
+
   fs::path folder_ = fs::temp_directory_path() / fmt::format("nacre-dashboard-{}", ::getpid());
   FakeDesk desk_;
-  Dashboard dashboard_{{.run_folder = folder_,
-                        .page_folder = folder_ / "page",
-                        .family_folder = folder_ / "families",
-                        .run_id = "run",
-                        .started = "",
-                        .nacre_version = "",
-                        .commit = "",
-                        .user = "Ada",
-                        .scenario = {.fidelity = tester::Fidelity::tiny}},
-                       desk_};
+  std::optional<Dashboard> dashboard_;  ///< reads the page when it is made
 };
 
 TEST_F(DashboardOfARun, EveryReadingIsAnswered) {
