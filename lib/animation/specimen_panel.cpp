@@ -8,6 +8,7 @@
 
 #include "animation/colour.hpp"
 #include "animation/panels.hpp"
+#include "crack/marks.hpp"
 
 namespace nacre::animation {
 namespace {
@@ -72,6 +73,57 @@ void draw_elements(Canvas& canvas, const film::Film& film, int index, const Plac
   canvas.quads(fresh, kAccent);
 }
 
+struct MarkStyle {
+  const char* letter;
+  std::uint32_t rgb;
+};
+constexpr std::array<MarkStyle, crack::kMarkKinds> kMarkStyles = {
+    {{"D", 0x7a3fb0}, {"B", 0xb0307a}, {"L", 0x2d7d46}, {"A", 0xb05a00}, {"G", 0x4a5568}}};
+
+MarkStyle style_of(crack::MarkKind kind) { return kMarkStyles[static_cast<std::size_t>(kind)]; }
+
+void draw_tag(Canvas& canvas, Point at, const MarkStyle& style) {
+  constexpr double kRadius = 7.5;
+  canvas.disc(at, kRadius + 1.2, kPage);
+  canvas.disc(at, kRadius, style.rgb);
+  canvas.text({at.x, at.y + 3.9}, style.letter, {.size = 11.0, .rgb = kPage, .bold = true, .anchor = Anchor::centre});
+}
+
+/// The specimen before the test, as far as marks ask for it.
+fem::Grid grid_of(const film::Film& film) {
+  fem::Grid grid;
+  grid.columns = film.columns;
+  grid.rows = film.rows;
+  grid.element_size_m = film.element_size_m;
+  for (const std::uint8_t material : film.material) grid.phase.push_back(static_cast<fem::Phase>(material));
+  return grid;
+}
+
+/// Letters beside the crack where a mechanism shows at this moment, and what they mean.
+void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placement& placement) {
+  const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
+  const std::vector<crack::Mark> marks = crack::marks_of(grid_of(film), film.crack);
+  const std::vector<Point> node = node_positions(film, frame, placement);
+  constexpr double kAside = 14.0;  // the crack itself stays in sight
+  for (const crack::Mark& mark : marks) {
+    if (frame.strain < mark.strain || frame.strain > mark.until_strain) continue;
+    const int corner = mark.element / film.columns * (film.columns + 1) + mark.element % film.columns;
+    const Point at = node[static_cast<std::size_t>(corner)];
+    const bool above = mark.kind == crack::MarkKind::bridging || mark.kind == crack::MarkKind::soft_arrest;
+    draw_tag(canvas, {at.x, at.y + (above ? -kAside : kAside)}, style_of(mark.kind));
+  }
+  double x = kLeft;
+  for (int kind = 0; kind < crack::kMarkKinds; ++kind) {
+    const auto mark_kind = static_cast<crack::MarkKind>(kind);
+    if (std::ranges::count(marks, mark_kind, &crack::Mark::kind) == 0) continue;
+    const TextStyle style{.size = 12.0, .rgb = kInk};
+    const std::string name(crack::to_string(mark_kind));
+    draw_tag(canvas, {x + 8.0, 523.0}, style_of(mark_kind));
+    canvas.text({x + 20.0, 527.0}, name, style);
+    x += 20.0 + canvas.text_width(name, style) + 14.0;
+  }
+}
+
 void draw_grips(Canvas& canvas, const film::Film& film, const film::Frame& frame, const Placement& placement) {
   const double width_m = film.columns * film.element_size_m, height_m = film.rows * film.element_size_m;
   const Point lower = placement.at(0.0, 0.0), upper = placement.at(0.0, height_m * (1.0 + frame.strain));
@@ -123,6 +175,7 @@ void draw_specimen(Canvas& canvas, const film::Film& film, int index) {
   draw_elements(canvas, film, index, placement);
   draw_grips(canvas, film, film.frames[static_cast<std::size_t>(index)], placement);
   draw_legend(canvas, film, placement);
+  draw_marks(canvas, film, index, placement);
 }
 
 void draw_energy_scale(Canvas& canvas, const film::Film& film) {

@@ -10,13 +10,16 @@
 
 namespace nacre {
 
-/// The document of a TOML file. Throws InputError naming file and line.
-inline toml::table read_toml_file(const std::filesystem::path& file) {
+/// A TOML document from text. Throws InputError naming `source` and line.
+inline toml::table read_toml(std::string_view text, const std::string& source) {
   try {
-    return toml::parse(read_file(file), file.string());
+    return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
-    throw InputError::format("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+    throw InputError::format("{}:{}: {}", source, error.source().begin.line, error.description());
   }
 }
+
+/// The document of a TOML file. Throws InputError naming file and line.
+inline toml::table read_toml_file(const std::filesystem::path& file) { return read_toml(read_file(file), file.string()); }
 
 }  // namespace nacre

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "crack/distances.hpp"
+#include "crack/marks.hpp"
 #include "tester/fracture_test.hpp"
 
 namespace nacre::crack {
@@ -92,8 +93,8 @@ Path measured(const Field& field, std::vector<int> way) {
 
 /// The longest branches are taken off one after the other: each begins where the cracks are farthest from all that has
 /// been taken. Also gives the failed elements that the path's crack does not reach.
-int count_branches(const Field& field, const std::vector<int>& path, const std::vector<tester::Break>& order,
-                   std::vector<int>& unreached) {
+std::vector<int> tips_of_branches(const Field& field, const std::vector<int>& path,
+                                  const std::vector<tester::Break>& order, std::vector<int>& unreached) {
   const double shortest = kShortestBranchElements;
   const auto cost = [&](int e) { return field.failed(e) ? 1.0 : kImpassable; };
   std::vector<int> taken;
@@ -102,7 +103,8 @@ int count_branches(const Field& field, const std::vector<int>& path, const std::
   Distances distances = distances_from(field.grid, taken, cost);
   for (const tester::Break& broken : order)
     if (!std::isfinite(distances.cost[static_cast<std::size_t>(broken.element)])) unreached.push_back(broken.element);
-  for (int branches = 0;; ++branches) {
+  std::vector<int> tips;
+  while (true) {
     int tip = -1;
     double farthest = shortest;
     for (const tester::Break& broken : order) {
@@ -111,7 +113,8 @@ int count_branches(const Field& field, const std::vector<int>& path, const std::
       farthest = distance;
       tip = broken.element;
     }
-    if (tip < 0) return branches;
+    if (tip < 0) return tips;
+    tips.push_back(tip);
     std::vector<int> branch;
     for (int e = tip; e >= 0; e = distances.previous[static_cast<std::size_t>(e)]) branch.push_back(e);
     shorten(field.grid, branch, cost, distances);
@@ -142,9 +145,15 @@ Record crack_record(const fem::Grid& notched, std::vector<tester::Break> order) 
   const Field field = field_of(notched, record.order);
   record.path = measured(field, cheapest_way(field, origins(field, record.order), record.order));
   std::vector<int> unreached;
-  record.branches = count_branches(field, record.path->elements, record.order, unreached);
+  record.branches = static_cast<int>(tips_of_branches(field, record.path->elements, record.order, unreached).size());
   record.separate_cracks = count_groups(field, unreached);
   return record;
+}
+
+std::vector<int> branch_tips(const fem::Grid& notched, const Record& record) {
+  if (!record.path) return {};
+  std::vector<int> unreached;
+  return tips_of_branches(field_of(notched, record.order), record.path->elements, record.order, unreached);
 }
 
 Record record_of(const tester::Simulation& simulation, std::vector<tester::Break> order) {

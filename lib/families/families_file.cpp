@@ -9,30 +9,30 @@
 namespace nacre::families {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const toml::node& node, const std::string& what) {
-  throw InputError::format("{}:{}: {}", file.string(), node.source().begin.line, what);
+[[noreturn]] void refuse(const std::string& source, const toml::node& node, const std::string& what) {
+  throw InputError::format("{}:{}: {}", source, node.source().begin.line, what);
 }
 
 bool is_name(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
 }
 
-pattern::Pattern seed_of(const toml::node& node, const std::filesystem::path& file) {
+pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
   const std::optional<std::string> key = node.value<std::string>();
-  if (!key) refuse(file, node, "a seed is expected to be a pattern key, 14 hexadecimal digits in quotes");
+  if (!key) refuse(source, node, "a seed is expected to be a pattern key, 14 hexadecimal digits in quotes");
   const Result<pattern::Layout> layout = pattern::layout_from_key(*key);
-  if (!layout) refuse(file, node, fmt::format("seed '{}': {}", *key, layout.error().message));
+  if (!layout) refuse(source, node, fmt::format("seed '{}': {}", *key, layout.error().message));
   const std::optional<pattern::Pattern> seed = pattern::Pattern::from_layout(*layout);
-  if (!seed) refuse(file, node, fmt::format("seed '{}': expected a pattern with eightfold symmetry", *key));
+  if (!seed) refuse(source, node, fmt::format("seed '{}': expected a pattern with eightfold symmetry", *key));
   return *seed;
 }
 
-Family family_of(const toml::table& table, const std::filesystem::path& file) {
+Family family_of(const toml::table& table, const std::string& source) {
   Family family{.name = table["name"].value_or(std::string()), .seeds = {}};
-  if (!is_name(family.name)) refuse(file, table, "a family is expected to have a name of letters, digits, - and _");
+  if (!is_name(family.name)) refuse(source, table, "a family is expected to have a name of letters, digits, - and _");
   const toml::array* seeds = table["seeds"].as_array();
-  if (seeds == nullptr || seeds->empty()) refuse(file, table, "a family is expected to have seeds = [\"key\", ...]");
-  for (const toml::node& seed : *seeds) family.seeds.push_back(seed_of(seed, file));
+  if (seeds == nullptr || seeds->empty()) refuse(source, table, "a family is expected to have seeds = [\"key\", ...]");
+  for (const toml::node& seed : *seeds) family.seeds.push_back(seed_of(seed, source));
   return family;
 }
 
@@ -50,22 +50,24 @@ std::string to_toml(const std::vector<Family>& families) {
   return text;
 }
 
-std::vector<Family> read_families(const std::filesystem::path& file) {
-  const toml::table document = read_toml_file(file);
+std::vector<Family> parse_families(std::string_view text, const std::string& source) {
+  const toml::table document = read_toml(text, source);
   const toml::array* tables = document["family"].as_array();
-  if (tables == nullptr) throw InputError::format("{}: expected [[family]] tables", file.string());
+  if (tables == nullptr) throw InputError::format("{}: expected [[family]] tables", source);
   std::vector<Family> families;
   std::set<std::string> names;
   std::set<pattern::Pattern> seeds;
   for (const toml::node& node : *tables) {
-    if (!node.is_table()) refuse(file, node, "expected a [[family]] table");
-    families.push_back(family_of(*node.as_table(), file));
+    if (!node.is_table()) refuse(source, node, "expected a [[family]] table");
+    families.push_back(family_of(*node.as_table(), source));
     if (!names.insert(families.back().name).second)
-      refuse(file, node, fmt::format("family '{}' stands here for the second time", families.back().name));
+      refuse(source, node, fmt::format("family '{}' stands here for the second time", families.back().name));
     for (const pattern::Pattern& seed : families.back().seeds)
-      if (!seeds.insert(seed).second) refuse(file, node, fmt::format("seed '{}' belongs to two families", seed.key()));
+      if (!seeds.insert(seed).second) refuse(source, node, fmt::format("seed '{}' belongs to two families", seed.key()));
   }
   return families;
 }
+
+std::vector<Family> read_families(const std::filesystem::path& file) { return parse_families(read_file(file), file.string()); }
 
 }  // namespace nacre::families

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "optimize/pareto.hpp"
@@ -39,5 +40,7 @@ std::string to_toml(const std::vector<Family>& families);
 /// Reads it back. Throws InputError naming file, line and what was expected: a name (letters, digits, - and _; each once) and at least one
 /// pattern key; a pattern belongs to one family.
 std::vector<Family> read_families(const std::filesystem::path& file);
+/// The same from text; `source` names the place in errors.
+std::vector<Family> parse_families(std::string_view text, const std::string& source);
 
 }  // namespace nacre::families

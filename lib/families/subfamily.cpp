@@ -11,7 +11,7 @@ Subfamily subfamily_of(const pattern::Pattern& seed, std::span<const pattern::Pa
       if (progress) progress(first + length * share);
     };
   };
-  Subfamily subfamily{.seed = seed, .members = {seed}, .sampled = 0, .map = {}};
+  Subfamily subfamily{.seed = seed, .members = {seed}, .sampled = 0, .sampled_map = {}, .map = {}};
   for (const pattern::Pattern& member : family)
     if (member != seed && pattern::pixel_difference(member, seed) <= settings.radius_pixels)
       subfamily.members.push_back(member);
@@ -19,7 +19,7 @@ Subfamily subfamily_of(const pattern::Pattern& seed, std::span<const pattern::Pa
     throw InputError::format("{}: expected at least four patterns within {} pixels, there are {}", seed.key(),
                              settings.radius_pixels, subfamily.members.size());
   subfamily.sampled = subfamily.members.size();
-  subfamily.map = isomap(earth_movers_distances(subfamily.members, part(0.0, 0.4)));
+  subfamily.sampled_map = subfamily.map = isomap(earth_movers_distances(subfamily.members, part(0.0, 0.4)));
   const auto added = interpolated(seed, subfamily.members, subfamily.map.points, settings);
   if (added.empty()) return subfamily;
   subfamily.members.insert(subfamily.members.end(), added.begin(), added.end());

@@ -15,6 +15,7 @@ struct Subfamily {
   pattern::Pattern seed;
   std::vector<pattern::Pattern> members;  ///< the seed, sampled ones, then those that interpolation added
   std::size_t sampled = 0;                ///< of the members, the seed included
+  Embedding sampled_map;                  ///< of the first `sampled` members, which interpolation went by
   Embedding map;                          ///< of all members
   /// Share by which interpolation made it larger (thesis, Table A.7: 4.5 %).
   double growth() const { return static_cast<double>(members.size() - sampled) / static_cast<double>(sampled); }

@@ -57,6 +57,8 @@ std::string_view to_string(OrderReason reason) {
       return "discrimination";
     case OrderReason::person:
       return "person";
+    case OrderReason::family:
+      return "family";
   }
   return "proposal";
 }
@@ -87,6 +89,12 @@ std::vector<Order> opening_orders(const Scenario& scenario, std::span<const patt
 std::vector<Order> proposal_orders(const Scenario& scenario, int round, std::span<const Design> designs) {
   std::vector<Order> orders;
   for (const Design& design : designs) order_both_tests(orders, scenario, round, design, OrderReason::proposal);
+  return orders;
+}
+
+std::vector<Order> family_orders(const Scenario& scenario, int round, std::span<const Design> designs) {
+  std::vector<Order> orders;
+  for (const Design& design : designs) order_both_tests(orders, scenario, round, design, OrderReason::family);
   return orders;
 }
 

@@ -12,7 +12,7 @@
 
 namespace nacre::game {
 
-enum class OrderReason { base, mixture, random, proposal, discrimination, person };
+enum class OrderReason { base, mixture, random, proposal, discrimination, person, family };
 std::string_view to_string(OrderReason reason);
 
 /// Replicates of one design for one test.
@@ -45,6 +45,9 @@ std::vector<Order> opening_orders(const Scenario& scenario, std::span<const patt
 
 /// Modulus and toughness orders of designs proposed for `round`.
 std::vector<Order> proposal_orders(const Scenario& scenario, int round, std::span<const pattern::Design> designs);
+
+/// Modulus and toughness orders of variants chosen from families, in the round after the game's last.
+std::vector<Order> family_orders(const Scenario& scenario, int round, std::span<const pattern::Design> designs);
 
 /// Modulus and toughness orders of a design that a person wants measured.
 std::vector<Order> person_orders(const Scenario& scenario, int round, const pattern::Design& design);

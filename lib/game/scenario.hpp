@@ -51,6 +51,17 @@ struct LaboratorySettings {
   bool operator==(const LaboratorySettings&) const = default;
 };
 
+/// The stage after the last round (thesis 2.4.1).
+struct FamilySettings {
+  bool enabled = false;
+  int rank = 2;                      ///< near-Pareto: measured designs non-dominated up to this rank are the seeds
+  int samples = 300;                 ///< variants simulated per family; thesis: 7000 to 9000
+  int designs = 3;                   ///< chosen of each family for the laboratory
+  int calibration_evaluations = 25;  ///< evaluations of the toughness set for each family's own model
+  int modulus_evaluations = 120;     ///< and of the modulus set
+  bool operator==(const FamilySettings&) const = default;
+};
+
 /// The whole scenario, as in launch/README.md.
 struct Scenario {
   std::string name = "unnamed";
@@ -68,6 +79,7 @@ struct Scenario {
   ProposalSettings proposal;
   ValidationSettings validation;
   DiagnosisSettings diagnosis;
+  FamilySettings families;
   LaboratorySettings laboratory;
   /// Nodes that take part, in start order.
   std::vector<std::string> nodes() const;

@@ -290,9 +290,27 @@ std::vector<ScenarioKey> make_remaining_keys() {
   };
 }
 
+std::vector<ScenarioKey> make_family_keys() {
+  constexpr auto table = &Scenario::families;
+  return {
+      flag("families", "enabled", "after the last round: families of good designs, each with a model of its own",
+           at(table, &FamilySettings::enabled)),
+      whole_number<int>("families", "rank", "seeds are measured designs that are non-dominated up to this rank", 1, 100,
+                        at(table, &FamilySettings::rank)),
+      whole_number<int>("families", "samples", "variants simulated around the seeds of a family", 1, 100'000,
+                        at(table, &FamilySettings::samples)),
+      whole_number<int>("families", "designs", "variants of a family chosen for the laboratory", 1, 100,
+                        at(table, &FamilySettings::designs)),
+      whole_number<int>("families", "calibration_evaluations", "evaluations of the toughness set for a family's model", 0,
+                        100'000, at(table, &FamilySettings::calibration_evaluations)),
+      whole_number<int>("families", "modulus_evaluations", "evaluations of the modulus set for a family's model", 0,
+                        100'000, at(table, &FamilySettings::modulus_evaluations)),
+  };
+}
+
 std::vector<ScenarioKey> make_keys() {
   std::vector<ScenarioKey> keys = make_top_level_keys();
-  for (auto part : {make_farm_keys(), make_proposal_keys(), make_validation_keys(), make_remaining_keys()}) {
+  for (auto part : {make_farm_keys(), make_proposal_keys(), make_validation_keys(), make_family_keys(), make_remaining_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;

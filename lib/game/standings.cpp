@@ -101,6 +101,18 @@ std::vector<measurement::Replicates> calibration_set(const std::vector<measureme
   return set;
 }
 
+std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design) {
+  return design.layout() == nullptr ? std::nullopt : pattern::Pattern::from_layout(*design.layout());
+}
+
+std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens) {
+  std::vector<measurement::Replicates> set = calibration_set(specimens);
+  std::erase_if(set, [](const measurement::Replicates& each) {
+    return !eightfold_pattern(each.design) || each.modulus_count == 0 || each.toughness_count == 0;
+  });
+  return set;
+}
+
 sysid::PredictionErrors held_out_errors(const std::vector<measurement::Replicates>& measured,
                                         const std::map<std::string, sysid::Prediction>& predictions) {
   std::vector<measurement::Replicates> found;

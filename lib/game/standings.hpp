@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,12 @@ std::vector<optimize::Performance> benchmark_line(const std::vector<measurement:
 /// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens that
 /// answer the same nominal question are replicates even where callipers read 3.17 and 3.24 mm.
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens);
+
+/// The pattern of a design with eightfold symmetry; nothing for other layouts and mixtures.
+std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design);
+
+/// Those of the calibration set that are patterns and measured in both tests: what families are made of.
+std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Errors of predictions made before the designs were measured; designs without a valid measurement are left out.
 /// Predictions by canonical design name, as the testing machine would show them.

@@ -1,6 +1,7 @@
 #include "select/select.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -98,6 +99,11 @@ std::string difference_clause(const pattern::Pattern& pattern, std::span<const p
   return clause;
 }
 
+void erase_patterns(std::vector<explore::Evaluated>& samples, const std::vector<pattern::Pattern>& patterns) {
+  const std::set<pattern::Pattern> gone(patterns.begin(), patterns.end());
+  std::erase_if(samples, [&](const explore::Evaluated& sample) { return gone.contains(sample.pattern); });
+}
+
 }  // namespace
 
 std::vector<Selected> select_designs(std::span<const explore::Evaluated> gamut,
@@ -127,6 +133,21 @@ std::vector<Selected> select_designs(std::span<const explore::Evaluated> gamut,
          choice.bin});
   }
   return selected;
+}
+
+std::vector<Selected> select_with_reserve(std::vector<explore::Evaluated> gamut, std::vector<pattern::Pattern> measured,
+                                          std::span<const optimize::Performance> benchmark, int count) {
+  erase_patterns(gamut, measured);
+  std::vector<Selected> chosen = select_designs(gamut, measured, benchmark, {.count = count});
+  const int missing = count - static_cast<int>(chosen.size());
+  if (missing <= 0 || benchmark.empty()) return chosen;
+  for (const Selected& each : chosen) measured.push_back(each.pattern);
+  erase_patterns(gamut, measured);
+  for (Selected& each : select_designs(gamut, measured, {}, {.count = missing})) {
+    each.reason = "below the homogeneous line, where too few samples lie above it: " + each.reason;
+    chosen.push_back(std::move(each));
+  }
+  return chosen;
 }
 
 }  // namespace nacre::select

@@ -48,7 +48,15 @@ std::vector<double> packed(const tester::Curve& curve) {
   return pairs;
 }
 
+/// A game with a family stage closes its last round twice: the second word stands, whatever comes after it.
+bool is_closed_for_good(SQLite::Database& db, int round) {
+  SQLite::Statement query(db, "SELECT last FROM round WHERE round = ?");
+  query.bind(1, round);
+  return query.executeStep() && query.getColumn(0).getInt() != 0;
+}
+
 void keep(SQLite::Database& db, const wire::RoundSummary& r) {
+  if (!r.last && is_closed_for_good(db, r.round)) return;
   run(db, "INSERT OR REPLACE INTO round VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)", r.round, tester::to_string(r.fidelity), r.calibration_count,
       r.measured_hypervolume_staircase, r.measured_hypervolume_polygon, r.gamut_hypervolume_staircase, r.gamut_hypervolume_polygon, r.gap, r.signed_gap,
       r.hypervolume_error, r.equilibrium, r.last, r.decided_by);
@@ -61,15 +69,20 @@ void keep(SQLite::Database& db, const wire::RoundSummary& r) {
   errors("held_out", r.held_out);
 }
 
-void keep(SQLite::Database& db, const wire::AdoptedModel& m) {
-  const auto parameter = [&](const std::string& name, double value) { run(db, "INSERT OR REPLACE INTO parameter VALUES (?,?,?)", m.round, name, value); };
-  const auto theta = to_vector(m.parameters.modulus);
-  for (std::size_t i = 0; i < theta.size(); ++i) parameter("modulus." + std::string(material::modulus_parameter_names()[i]), theta[i]);
-  const auto eta = to_vector(m.parameters.toughness);
-  for (std::size_t i = 0; i < eta.size(); ++i) parameter("toughness." + std::string(material::toughness_parameter_names()[i]), eta[i]);
-  for (const auto& [name, values] : m.parameters.extensions) {
-    for (std::size_t i = 0; i < values.size(); ++i) parameter(fmt::format("extension.{}{}", name, values.size() > 1 ? fmt::format(".{}", i) : ""), values[i]);
+/// Calls `keep_one` with name and value of every parameter.
+template <class KeepOne>
+void each_parameter(const material::ParameterSet& parameters, const KeepOne& keep_one) {
+  const auto theta = to_vector(parameters.modulus);
+  for (std::size_t i = 0; i < theta.size(); ++i) keep_one("modulus." + std::string(material::modulus_parameter_names()[i]), theta[i]);
+  const auto eta = to_vector(parameters.toughness);
+  for (std::size_t i = 0; i < eta.size(); ++i) keep_one("toughness." + std::string(material::toughness_parameter_names()[i]), eta[i]);
+  for (const auto& [name, values] : parameters.extensions) {
+    for (std::size_t i = 0; i < values.size(); ++i) keep_one(fmt::format("extension.{}{}", name, values.size() > 1 ? fmt::format(".{}", i) : ""), values[i]);
   }
+}
+
+void keep(SQLite::Database& db, const wire::AdoptedModel& m) {
+  each_parameter(m.parameters, [&](const std::string& name, double value) { run(db, "INSERT OR REPLACE INTO parameter VALUES (?,?,?)", m.round, name, value); });
   for (std::size_t i = 0; i < m.benchmark.size(); ++i) {
     run(db, "INSERT OR REPLACE INTO benchmark VALUES (?,?,?,?)", m.round, static_cast<int>(i), m.benchmark[i].modulus_pa, m.benchmark[i].toughness_pa);
   }
@@ -136,6 +149,29 @@ void keep(SQLite::Database& db, const wire::Fracture& f) {
       of_path([](const auto& p) { return p.material[2]; }), f.crack.path && f.crack.path->crosses, path, breaks);
 }
 
+/// A family that is validated is not put back by an older word of it.
+void keep(SQLite::Database& db, const wire::Family& f) {
+  SQLite::Statement known(db, "SELECT is_validated FROM family WHERE number = ?");
+  known.bind(1, f.number);
+  if (known.executeStep() && known.getColumn(0).getInt() != 0 && !f.is_validated) return;
+  run(db, "INSERT OR REPLACE INTO family VALUES (?,?,?,?,?,?,?,?)", f.number, f.name, f.round, tester::to_string(f.fidelity), f.count, f.is_validated, f.simulations, f.samples);
+  each_parameter(f.parameters, [&](const std::string& name, double value) { run(db, "INSERT OR REPLACE INTO family_parameter VALUES (?,?,?)", f.number, name, value); });
+  for (std::size_t i = 0; i < f.designs.size(); ++i) {
+    const game::FamilyDesign& d = f.designs[i];
+    run(db, "INSERT OR REPLACE INTO family_design VALUES (?,?,?,?,?,?,?,?,?,?)", f.number, d.pattern.key(), static_cast<int>(i), d.is_seed, d.measured.modulus_pa,
+        d.measured.toughness_pa, d.global_model.modulus_pa, d.global_model.toughness_pa, d.family_model.modulus_pa, d.family_model.toughness_pa);
+  }
+}
+
+/// FAMILY_GAMUT: a gamut whose round is the number of a family.
+void keep_variants(SQLite::Database& db, const std::string& payload) {
+  const auto chunk = wire::read<wire::GamutChunk>(payload);
+  if (!chunk) return;
+  for (const explore::Evaluated& sample : chunk->samples) {
+    run(db, "INSERT OR REPLACE INTO family_gamut VALUES (?,?,?,?)", chunk->round, sample.pattern.key(), sample.performance.modulus_pa, sample.performance.toughness_pa);
+  }
+}
+
 template <class Domain>
 void keep_domain(SQLite::Database& db, const std::string& payload) {
   if (const auto value = wire::read<Domain>(payload)) keep(db, *value);
@@ -155,6 +191,8 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
   if (channel == "MEASUREMENT") keep_domain<wire::Measurement>(db, payload);
   if (channel == "SIMULATED") keep_domain<wire::SimulateResult>(db, payload);
   if (channel == "FRACTURE") keep_domain<wire::Fracture>(db, payload);
+  if (channel == "FAMILY") keep_domain<wire::Family>(db, payload);
+  if (channel == "FAMILY_GAMUT") keep_variants(db, payload);
   if (channel == "REVIEW") keep_message<review_t>(db, payload);
   if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);
 }

@@ -139,6 +139,41 @@ void read_diagnoses(SQLite::Database& db, RunRecord& run) {
   });
 }
 
+game::FamilyDesign family_design(SQLite::Statement& q) {
+  const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
+  const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+  const auto values = [&](int first) { return game::DesignValues{optional_double(q.getColumn(first)), optional_double(q.getColumn(first + 1))}; };
+  return {.pattern = known.value_or(pattern::Pattern()), .is_seed = q.getColumn(2).getInt() != 0, .measured = values(3), .global_model = values(5), .family_model = values(7)};
+}
+
+void read_families(SQLite::Database& db, RunRecord& run) {
+  if (!db.tableExists("family")) return;  // a run of an earlier version
+  std::map<int, RecordedFamily> families;
+  each_row(db, "SELECT number, name, round, fidelity, count, is_validated, simulations, samples FROM family", [&](SQLite::Statement& q) {
+    wire::Family& stated = families[q.getColumn(0).getInt()].stated;
+    stated.number = q.getColumn(0).getInt();
+    stated.name = q.getColumn(1).getString();
+    stated.round = q.getColumn(2).getInt();
+    stated.fidelity = tester::fidelity_from_string(q.getColumn(3).getString()).value_or(tester::Fidelity::tiny);
+    stated.count = q.getColumn(4).getInt();
+    stated.is_validated = q.getColumn(5).getInt() != 0;
+    stated.simulations = q.getColumn(6).getInt();
+    stated.samples = q.getColumn(7).getInt();
+  });
+  each_row(db, "SELECT number, name, value FROM family_parameter",
+           [&](SQLite::Statement& q) { families[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble(); });
+  each_row(db,
+           "SELECT number, pattern, is_seed, measured_modulus_pa, measured_toughness_pa, global_modulus_pa, global_toughness_pa, family_modulus_pa, "
+           "family_toughness_pa FROM family_design ORDER BY number, position",
+           [&](SQLite::Statement& q) { families[q.getColumn(0).getInt()].stated.designs.push_back(family_design(q)); });
+  each_row(db, "SELECT number, pattern, modulus_pa, toughness_pa FROM family_gamut ORDER BY number, pattern", [&](SQLite::Statement& q) {
+    const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
+    const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+    if (known) families[q.getColumn(0).getInt()].gamut.push_back({*known, {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}});
+  });
+  for (auto& [number, family] : families) run.families.push_back(std::move(family));
+}
+
 /// Validity is the measurement's own unless a review says otherwise; the highest revision wins, "not valid" wins a tie.
 constexpr const char* kSpecimens = R"sql(
   SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch, m.print_order, m.modulus_pa, m.toughness_pa,
@@ -192,6 +227,7 @@ RunRecord read_run_record(const std::filesystem::path& path, bool with_gamuts) {
     read_cracks(db, run);
     read_diagnoses(db, run);
     read_specimens(db, run);
+    read_families(db, run);
     return run;
   });
 }

@@ -68,8 +68,16 @@ struct MeasuredSpecimen {
   measurement::SpecimenRecord record;  ///< validity as reviewed
 };
 
+/// A family of the stage after the game; `stated.parameters` holds no values here, `parameters` names them.
+struct RecordedFamily {
+  wire::Family stated;
+  std::map<std::string, double> parameters;
+  std::vector<explore::Evaluated> gamut;  ///< its variants by its own model
+};
+
 struct RunRecord {
   std::map<int, RoundRecord> rounds;
+  std::vector<RecordedFamily> families;  ///< by number; empty where no stage was played
   std::vector<MeasuredSpecimen> specimens;  ///< by name
 };
 

@@ -2,7 +2,7 @@
 
 namespace nacre::store {
 
-inline constexpr int kRunSchemaVersion = 2;
+inline constexpr int kRunSchemaVersion = 3;
 
 /// Tables of run.db. SI units; hypervolumes and gap in GPa MPa; curves as pairs (strain, stress_pa) of double, little-endian.
 inline constexpr const char* kRunSchema = R"sql(
@@ -63,6 +63,19 @@ inline constexpr const char* kRunSchema = R"sql(
     soft_share REAL, rigid_share REAL, interface_share REAL, crosses INTEGER, path BLOB NOT NULL, breaks BLOB NOT NULL,
     PRIMARY KEY (round, design)
   ) STRICT;
+  CREATE TABLE family (  -- of the stage after the game
+    number INTEGER PRIMARY KEY, name TEXT NOT NULL, round INTEGER NOT NULL, fidelity TEXT NOT NULL, count INTEGER NOT NULL,
+    is_validated INTEGER NOT NULL, simulations INTEGER NOT NULL, samples INTEGER NOT NULL
+  ) STRICT;
+  CREATE TABLE family_parameter (number INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (number, name)) STRICT;
+  CREATE TABLE family_design (  -- seeds and chosen designs, in order
+    number INTEGER NOT NULL, pattern TEXT NOT NULL, position INTEGER NOT NULL, is_seed INTEGER NOT NULL, measured_modulus_pa REAL,
+    measured_toughness_pa REAL, global_modulus_pa REAL, global_toughness_pa REAL, family_modulus_pa REAL, family_toughness_pa REAL,
+    PRIMARY KEY (number, pattern)
+  ) STRICT;
+  CREATE TABLE family_gamut (  -- variants by the family's own model
+    number INTEGER NOT NULL, pattern TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL, PRIMARY KEY (number, pattern)
+  ) STRICT, WITHOUT ROWID;
 )sql";
 
 }  // namespace nacre::store

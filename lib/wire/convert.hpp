@@ -12,6 +12,7 @@
 #include "base/result.hpp"
 #include "crack/crack_record.hpp"
 #include "explore/search.hpp"
+#include "game/family_errors.hpp"
 #include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
 #include "pattern/design.hpp"
@@ -160,6 +161,22 @@ struct DiagnoseRequest {
   bool operator==(const DiagnoseRequest&) const = default;
 };
 
+/// FAMILY: a family of the stage after the game (thesis 2.4.1).
+struct Family {
+  using Wire = family_t;
+  int round = 0;  ///< that its designs are ordered in
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  int number = 0;  ///< 0..count - 1
+  int count = 1;
+  std::string name;
+  bool is_validated = false;        ///< the chosen designs are measured
+  material::ParameterSet parameters;  ///< of the family's own model
+  int simulations = 0;              ///< spent on its calibration
+  int samples = 0;                  ///< patterns simulated around the seeds
+  std::vector<game::FamilyDesign> designs;  ///< seeds, then chosen ones
+  bool operator==(const Family&) const = default;
+};
+
 /// ROUND: hypervolumes and gap in GPa MPa.
 struct RoundSummary {
   using Wire = round_summary_t;
@@ -191,6 +208,8 @@ simulate_result_t to_wire(const SimulateResult& result);
 fracture_t to_wire(const Fracture& fracture);
 Result<Fracture> from_wire(const fracture_t& message);
 Result<SimulateResult> from_wire(const simulate_result_t& message);
+family_t to_wire(const Family& family);
+Result<Family> from_wire(const family_t& message);
 gamut_t to_wire(const GamutChunk& chunk);
 Result<GamutChunk> from_wire(const gamut_t& message);
 proposal_t to_wire(const Proposal& proposal);

@@ -10,6 +10,7 @@
 #include "nacre/approval_t.hpp"
 #include "nacre/diagnose_request_t.hpp"
 #include "nacre/diagnosis_t.hpp"
+#include "nacre/family_t.hpp"
 #include "nacre/fracture_t.hpp"
 #include "nacre/gamut_t.hpp"
 #include "nacre/measurement_t.hpp"
@@ -48,6 +49,10 @@ inline void set_counts(diagnosis_t& m) {
   m.n_effects = common_length("diagnosis_t", m.effects);
   m.n_candidates = common_length("diagnosis_t", m.candidates);
   m.n_next_experiments = common_length("diagnosis_t", m.next_experiments);
+}
+inline void set_counts(family_t& m) {
+  set_counts(m.parameters);
+  m.n_designs = common_length("family_t", m.designs);
 }
 inline void set_counts(fracture_t& m) {
   m.n_path = common_length("fracture_t path", m.path);

@@ -14,8 +14,8 @@ namespace nacre::analyser {
 namespace {
 
 bool is_kept(const std::string& channel) {
-  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT", "PROPOSAL",  "MEASUREMENT",
-                                              "REVIEW",     "ROUND", "SIMULATED", "FRACTURE"};
+  static const std::set<std::string> kKept = {"PARAMETERS", "GAMUT",     "PROPOSAL", "MEASUREMENT", "REVIEW",
+                                              "ROUND",      "SIMULATED", "FRACTURE", "FAMILY",      "FAMILY_GAMUT"};
   return kKept.contains(channel);
 }
 
@@ -102,7 +102,12 @@ void AnalyserCore::diagnose_when_complete() {
 }
 
 void AnalyserCore::close_round(const wire::RoundSummary& round) {
-  if (!closed_.insert(round.round).second) return;
+  if (!closed_.insert(round.round).second) {
+    if (!round.last || last_) return;
+    last_ = true;  // the family stage is over, too
+    report_due_ = round_;
+    return report_when_ready();
+  }
   round_ = std::max(round_, round.round);
   last_ = last_ || round.last;
   report_due_ = round_;

@@ -139,7 +139,7 @@ std::string next_section(const Diagnosis& d) {
 
 std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, tester::Fidelity fidelity) {
   const std::string title = fmt::format("Diagnosis of {}", escaped(set));
-  std::string page = fmt::format("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", title, kReportStyle);
+  std::string page = fmt::format("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", title, report_style());
   page += fmt::format("<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", title, headline(d));
   page += paragraph(escaped(d.summary), "standing");
   if (!d.noise_known) page += paragraph("There are no replicates: all statements hang on an assumed scatter of 2 %.", "warning");

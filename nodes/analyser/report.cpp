@@ -112,17 +112,18 @@ std::string table(const std::string& header, const std::string& rows, std::strin
                      classes, header, rows);
 }
 
+std::string standing_sentences(const store::RunRecord& run) {
+  const auto closed = newest_closed_round(run);
+  if (!closed) return awaited("the end of round 0, with the first model, gamut and proposals");
+  const wire::RoundSummary& summary = *run.rounds.at(*closed).summary;
+  return paragraph(figures_in_words(*closed, summary) + " " + judgement_in_words(run, summary), "standing") +
+         fidelity_words(summary.fidelity);
+}
+
 std::string standing_section(const store::RunRecord& run, const std::string& run_id) {
   std::string content =
       fmt::format("<header>\n<p class=\"eyebrow\">nacre, report of a run</p>\n<h1>{}</h1>\n", escaped(run_id));
-  const auto closed = newest_closed_round(run);
-  if (closed) {
-    const wire::RoundSummary& summary = *run.rounds.at(*closed).summary;
-    content += paragraph(figures_in_words(*closed, summary) + " " + judgement_in_words(run, summary), "standing");
-    content += fidelity_words(summary.fidelity);
-  } else {
-    content += awaited("the end of round 0, with the first model, gamut and proposals");
-  }
+  content += standing_sentences(run);
   return content + contents() + "</header>\n";
 }
 
@@ -175,7 +176,7 @@ std::string render_report(const store::RunRecord& run, const std::string& run_id
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
              "<title>{} – nacre</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-             escaped(run_id), kReportStyle) +
+             escaped(run_id), report_style()) +
          standing_section(run, run_id) + gamut_section(run) + round_section(run) + error_section(run) +
          best_designs_section(run) + proposal_section(run) + curve_section(run) + diagnosis_section(run) +
          specimen_section(run) + "</main>\n</body>\n</html>\n";

@@ -67,6 +67,13 @@ std::optional<double> line_at(std::span<const optimize::Performance> line, doubl
 
 }  // namespace
 
+std::vector<optimize::Performance> newest_line(const store::RunRecord& run) {
+  for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
+    if (!round->second.benchmark.empty()) return round->second.benchmark;
+  }
+  return {};
+}
+
 Baselines baselines(std::span<const double> rigid_fraction, std::span<const double> modulus_pa,
                     std::span<const double> toughness_pa) {
   Baselines result;

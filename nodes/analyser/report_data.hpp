@@ -18,6 +18,9 @@ using store::MeasuredPattern;
 using store::newest_closed_round;
 using store::newest_round;
 
+/// The homogeneous line that the newest model carries.
+std::vector<optimize::Performance> newest_line(const store::RunRecord& run);
+
 /// Mean relative errors of predictions that know nothing of structure.
 struct Baselines {
   int count = 0;

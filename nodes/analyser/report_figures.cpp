@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kMostGamutPoints = 1500;
 constexpr double kPaPerGpa = 1e9, kPaPerMpa = 1e6;
 
+}  // namespace
+
 Point to_point(const optimize::Performance& p) { return {p.modulus_pa / kPaPerGpa, p.toughness_pa / kPaPerMpa}; }
 
 std::vector<Point> to_points(std::span<const optimize::Performance> performances) {
@@ -22,6 +24,31 @@ std::vector<Point> to_points(std::span<const optimize::Performance> performances
   for (const optimize::Performance& p : performances) points.push_back(to_point(p));
   return points;
 }
+
+Range range_of(std::span<const Point> points, double Point::*coordinate) {
+  std::vector<double> values;
+  for (const Point& p : points) values.push_back(p.*coordinate);
+  return range_with_zero(values);
+}
+
+std::vector<Point> curve_points(const tester::Curve& curve) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    points.push_back({100.0 * curve.strain[i], curve.stress_pa[i] / kPaPerMpa});
+  return points;
+}
+
+std::map<std::string, std::vector<tester::Curve>> measured_curves(const store::RunRecord& run) {
+  std::map<std::string, std::vector<tester::Curve>> curves;
+  for (const store::MeasuredSpecimen& m : run.specimens) {
+    const measurement::SpecimenRecord& r = m.record;
+    if (r.test == tester::TestKind::toughness && r.valid && !r.curve.empty() && r.conditions.orientation_deg == 0.0)
+      curves[r.design.name()].push_back(r.curve);
+  }
+  return curves;
+}
+
+namespace {
 
 std::vector<Point> front_points(std::span<const optimize::Performance> performances) {
   return to_points(optimize::pareto_front(performances));
@@ -40,12 +67,6 @@ std::vector<Point> all_points(const store::RunRecord& run, std::span<const Measu
     points.push_back(to_point({m.mean.modulus_pa + m.modulus_sd_pa, m.mean.toughness_pa + m.toughness_sd_pa}));
   }
   return points;
-}
-
-Range range_of(std::span<const Point> points, double Point::*coordinate) {
-  std::vector<double> values;
-  for (const Point& p : points) values.push_back(p.*coordinate);
-  return range_with_zero(values);
 }
 
 void draw_measured(Plot& plot, std::span<const MeasuredPattern> measured, int round) {
@@ -202,13 +223,6 @@ std::vector<DesignCurves> collect_curves(const store::RunRecord& run) {
   std::stable_sort(all.begin(), all.end(),
                    [](const DesignCurves& a, const DesignCurves& b) { return a.measured_in > b.measured_in; });
   return all;
-}
-
-std::vector<Point> curve_points(const tester::Curve& curve) {
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < curve.size(); ++i)
-    points.push_back({100.0 * curve.strain[i], curve.stress_pa[i] / kPaPerMpa});
-  return points;
 }
 
 std::vector<Point> points_of(const DesignCurves& curves) {

@@ -1,11 +1,13 @@
 #pragma once
 // The figures of the report as inline SVG.
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analyser/report_data.hpp"
+#include "analyser/svg.hpp"
 #include "pattern/design.hpp"
 #include "store/run_record.hpp"
 
@@ -20,6 +22,14 @@ std::vector<std::string> round_figures(const store::RunRecord& run);
 
 /// One plot per design with a curve, simulated against measured on common axes; designs measured last come first.
 std::vector<std::string> curve_figures(const store::RunRecord& run);
+
+// Pieces that the exhibits share (paper.hpp).
+Point to_point(const optimize::Performance& performance);  ///< GPa, MPa
+std::vector<Point> to_points(std::span<const optimize::Performance> performances);
+Range range_of(std::span<const Point> points, double Point::*coordinate);
+std::vector<Point> curve_points(const tester::Curve& curve);  ///< percent, MPa
+/// Stress-strain curves of notched specimens printed upright, valid ones, by design.
+std::map<std::string, std::vector<tester::Curve>> measured_curves(const store::RunRecord& run);
 
 /// The unit of a design as a picture of 20 x 20 pixels; a homogeneous material as a plain square. `side` in px.
 std::string design_picture(const pattern::Design& design, int side);

@@ -89,14 +89,6 @@ std::string best_row(const MeasuredPattern& m, const Improvement& improvement) {
                     times(improvement.toughness, "E outside the line"), fmt::format("{}", m.round)});
 }
 
-/// The homogeneous line that the newest model carries.
-std::vector<optimize::Performance> newest_line(const store::RunRecord& run) {
-  for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
-    if (!round->second.benchmark.empty()) return round->second.benchmark;
-  }
-  return {};
-}
-
 std::vector<MeasuredPattern> on_the_front(const std::vector<MeasuredPattern>& patterns) {
   std::vector<optimize::Performance> points;
   for (const MeasuredPattern& m : patterns) points.push_back(m.mean);

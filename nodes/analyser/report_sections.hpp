@@ -13,6 +13,8 @@ namespace nacre::analyser {
 
 /// How the game stands, in a few sentences; the page's head.
 std::string standing_section(const store::RunRecord& run, const std::string& run_id);
+/// The same without the heading.
+std::string standing_sentences(const store::RunRecord& run);
 std::string gamut_section(const store::RunRecord& run);
 std::string round_section(const store::RunRecord& run);
 std::string error_section(const store::RunRecord& run);

@@ -1,17 +1,42 @@
 #pragma once
-// The report's style sheet, light and dark.
+// The report's style sheet, light and dark on a screen, light on paper.
 
+#include <string>
 #include <string_view>
 
 namespace nacre::analyser {
 
-inline constexpr std::string_view kReportStyle = R"css(
-:root { color-scheme: light dark;
+inline constexpr std::string_view kLightColours = R"css(
+:root {
   --page: #fcfcfa; --panel: #ffffff; --ink: #22262b; --quiet: #626a73; --rule: #e0e2e0; --grid: #eceeec;
-  --sim: #2a66a8; --meas: #c4561a; --earlier: #dfa27f; --homo: #6b7178; --rigid: #343a42; --soft: #e6dfd0; --warn: #fbeede; --bad: #b3372b; }
-@media (prefers-color-scheme: dark) { :root {
+  --sim: #2a66a8; --meas: #c4561a; --earlier: #dfa27f; --homo: #6b7178; --thes: #8a5a9e; --rigid: #343a42; --soft: #e6dfd0; --warn: #fbeede; --bad: #b3372b;
+  --fam1: #0a72b2; --fam2: #d07a00; --fam3: #00886a; --fam4: #b5518a; --fam5: #7a6a10; --fam6: #5560c0; }
+)css";
+
+inline constexpr std::string_view kDarkColours = R"css(
+:root { color-scheme: light dark; }
+@media screen and (prefers-color-scheme: dark) { :root {
   --page: #15181c; --panel: #1c2025; --ink: #dfe3e7; --quiet: #97a0a9; --rule: #31373e; --grid: #282d33;
-  --sim: #74aee8; --meas: #f0935a; --earlier: #95603f; --homo: #9aa2ab; --rigid: #c3cbd4; --soft: #3a372f; --warn: #3a2b1a; --bad: #ef8d82; } }
+  --sim: #74aee8; --meas: #f0935a; --earlier: #95603f; --homo: #9aa2ab; --thes: #c79adb; --rigid: #c3cbd4; --soft: #3a372f; --warn: #3a2b1a; --bad: #ef8d82;
+  --fam1: #5cb3ec; --fam2: #f2ac45; --fam3: #3fc9a5; --fam4: #e58fbf; --fam5: #cfc05a; --fam6: #9aa4f2; } }
+)css";
+
+/// What stands in pictures; with the colours enough for one by itself.
+inline constexpr std::string_view kFigureStyle = R"css(
+.sim { --c: var(--sim); } .meas { --c: var(--meas); } .earlier { --c: var(--earlier); } .homo { --c: var(--homo); } .thes { --c: var(--thes); }
+.fam1 { --c: var(--fam1); } .fam2 { --c: var(--fam2); } .fam3 { --c: var(--fam3); } .fam4 { --c: var(--fam4); } .fam5 { --c: var(--fam5); } .fam6 { --c: var(--fam6); }
+.dot { fill: var(--c); stroke: var(--page); stroke-width: 0.8; } .ring { fill: var(--page); stroke: var(--c); stroke-width: 1.6; }
+.cloud { stroke: var(--c); stroke-width: 2.6; stroke-linecap: round; opacity: 0.34; fill: none; }
+@media screen and (prefers-color-scheme: dark) { .cloud { opacity: 0.6; } }
+.line { stroke: var(--c); stroke-width: 1.8; fill: none; stroke-linejoin: round; } .thin { stroke-width: 1.2; opacity: 0.85; } .dashed { stroke-width: 1.4; stroke-dasharray: 5 3; }
+.bar { stroke: var(--c); stroke-width: 1.1; fill: none; opacity: 0.8; } .band { fill: var(--c); opacity: 0.18; }
+.grid { stroke: var(--grid); fill: none; } .axis { stroke: var(--quiet); fill: none; stroke-width: 1; }
+svg text { fill: var(--quiet); font-size: 11px; } svg text.title { fill: var(--ink); font-size: 13px; font-weight: 600; } svg text.key { fill: var(--ink); }
+svg text.end { text-anchor: end; } svg text.middle { text-anchor: middle; }
+svg.unit { flex: none; border-radius: 3px; display: block; } .rigid { fill: var(--rigid); } .soft { fill: var(--soft); }
+)css";
+
+inline constexpr std::string_view kPageStyle = R"css(
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--page); color: var(--ink); font: 16px/1.55 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
 main { max-width: 1160px; margin: 0 auto; padding: 40px 28px 80px; }
@@ -30,16 +55,6 @@ nav { display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 18px; font-size
 a { color: var(--sim); text-decoration: none; } a:hover { text-decoration: underline; }
 .figures { display: flex; flex-wrap: wrap; align-items: flex-start; gap: 18px; margin: 14px 0; }
 svg.plot { display: block; max-width: 100%; height: auto; }
-.sim { --c: var(--sim); } .meas { --c: var(--meas); } .earlier { --c: var(--earlier); } .homo { --c: var(--homo); }
-.dot { fill: var(--c); stroke: var(--page); stroke-width: 0.8; } .ring { fill: var(--page); stroke: var(--c); stroke-width: 1.6; }
-.cloud { stroke: var(--c); stroke-width: 2.6; stroke-linecap: round; opacity: 0.34; fill: none; }
-@media (prefers-color-scheme: dark) { .cloud { opacity: 0.6; } }
-.line { stroke: var(--c); stroke-width: 1.8; fill: none; stroke-linejoin: round; } .thin { stroke-width: 1.2; opacity: 0.85; } .dashed { stroke-width: 1.4; stroke-dasharray: 5 3; }
-.bar { stroke: var(--c); stroke-width: 1.1; fill: none; opacity: 0.8; } .band { fill: var(--c); opacity: 0.18; }
-.grid { stroke: var(--grid); fill: none; } .axis { stroke: var(--quiet); fill: none; stroke-width: 1; }
-svg text { fill: var(--quiet); font-size: 11px; } svg text.title { fill: var(--ink); font-size: 13px; font-weight: 600; } svg text.key { fill: var(--ink); }
-svg text.end { text-anchor: end; } svg text.middle { text-anchor: middle; }
-svg.unit { flex: none; border-radius: 3px; display: block; } .rigid { fill: var(--rigid); } .soft { fill: var(--soft); }
 .wide { overflow-x: auto; margin: 12px 0; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 th { text-align: right; font-weight: 600; color: var(--quiet); padding: 4px 10px; border-bottom: 1px solid var(--rule); vertical-align: bottom; white-space: nowrap; }
@@ -56,7 +71,12 @@ strong.bad { color: var(--bad); }
 .card { display: flex; gap: 14px; padding: 12px; background: var(--panel); border: 1px solid var(--rule); border-radius: 6px; font-size: 14px; }
 .card p { margin: 0 0 4px; } .card table { font-size: 13px; margin: 2px 0 6px; } .card td, .card th { padding: 1px 8px; border: 0; white-space: nowrap; }
 .card > div { min-width: 0; }
-@media print { section { break-inside: avoid-page; } nav { display: none; } }
+@media print { section { break-inside: auto; } h2, h3 { break-after: avoid; } svg, tr, .card { break-inside: avoid; } nav { display: none; } main { padding: 0; max-width: none; } }
 )css";
+
+/// All of it, as a page needs it.
+inline std::string report_style() {
+  return std::string(kLightColours) + std::string(kDarkColours) + std::string(kFigureStyle) + std::string(kPageStyle);
+}
 
 }  // namespace nacre::analyser

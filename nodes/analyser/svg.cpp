@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "analyser/report_style.hpp"
+
 namespace nacre::analyser {
 namespace {
 
@@ -29,6 +31,20 @@ std::string_view ink_class(Ink ink) {
       return "earlier";
     case Ink::homogeneous:
       return "homo";
+    case Ink::thesis:
+      return "thes";
+    case Ink::family_1:
+      return "fam1";
+    case Ink::family_2:
+      return "fam2";
+    case Ink::family_3:
+      return "fam3";
+    case Ink::family_4:
+      return "fam4";
+    case Ink::family_5:
+      return "fam5";
+    case Ink::family_6:
+      return "fam6";
   }
   return "";
 }
@@ -74,6 +90,18 @@ std::string sample_line(Ink ink, std::string_view classes) {
 }
 
 }  // namespace
+
+Ink family_ink(std::size_t family) {
+  constexpr std::size_t kInks = 6;
+  return static_cast<Ink>(static_cast<std::size_t>(Ink::family_1) + family % kInks);
+}
+
+std::string standalone(const std::string& svg) {
+  const std::size_t end = svg.find('>');
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg.substr(0, end) +
+         " xmlns=\"http://www.w3.org/2000/svg\" style=\"background: #fff; font-family: Helvetica, Arial, sans-serif\">\n<style>" +
+         std::string(kLightColours) + std::string(kFigureStyle) + "</style>" + svg.substr(end + 1);
+}
 
 std::vector<double> round_ticks(const Range& range, int wanted) {
   if (is_empty(range) || wanted < 1) return {};
@@ -168,6 +196,15 @@ void Plot::cloud(std::span<const Point> points, Ink ink, std::string_view label)
   if (path.empty()) return;
   marks_ += fmt::format("<path class=\"{} cloud\" d=\"{}\"/>\n", ink_class(ink), path);
   add_to_legend(fmt::format("<path class=\"{} cloud\" d=\"M3 -2h0M9 2h0M15 -1h0\"/>", ink_class(ink)), label);
+}
+
+void Plot::coloured(std::span<const Point> points, std::span<const std::string> colours) {
+  constexpr double kHalf = 1.9;
+  for (std::size_t i = 0; i < points.size() && i < colours.size(); ++i) {
+    if (!is_finite(points[i])) continue;
+    marks_ += fmt::format("<path fill=\"{}\" d=\"M{:.1f} {:.1f}h{}v{}h-{}Z\"/>\n", escaped(colours[i]), px(points[i].x) - kHalf,
+                          py(points[i].y) - kHalf, 2 * kHalf, 2 * kHalf, 2 * kHalf);
+  }
 }
 
 void Plot::circles(std::span<const Point> points, Ink ink, std::string_view shape, std::span<const std::string> hints) {

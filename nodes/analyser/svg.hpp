@@ -27,7 +27,10 @@ Range range_with_zero(std::span<const double> values);
 std::string escaped(std::string_view text);
 
 /// What a mark stands for. The same ink has the same meaning in every figure of the report.
-enum class Ink { simulated, measured, earlier, homogeneous };
+enum class Ink { simulated, measured, earlier, homogeneous, thesis, family_1, family_2, family_3, family_4, family_5, family_6 };
+
+/// The ink of the n-th family, from 0; the seventh has the first one's again.
+Ink family_ink(std::size_t family);
 
 enum class Stroke { solid, thin, dashed };
 
@@ -47,6 +50,8 @@ class Plot {
   explicit Plot(Axes axes);
   /// Many small dots.
   void cloud(std::span<const Point> points, Ink ink, std::string_view label);
+  /// Small squares, colours[i] (#rrggbb) for point i; no legend.
+  void coloured(std::span<const Point> points, std::span<const std::string> colours);
   /// Filled circles; hints[i], where given, is shown when the pointer rests on circle i.
   void dots(std::span<const Point> points, Ink ink, std::string_view label, std::span<const std::string> hints = {});
   /// Hollow circles.
@@ -78,5 +83,8 @@ class Plot {
   std::string marks_;
   std::vector<LegendEntry> legend_;
 };
+
+/// A picture of the page as a file of its own, light whatever the viewer's scheme: name space and style sheet are put in.
+std::string standalone(const std::string& svg);
 
 }  // namespace nacre::analyser

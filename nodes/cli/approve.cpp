@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,27 @@ struct ApproveOptions {
   double timeout_s = 60.0;
 };
 
+/// The designs of the family stage, once it has chosen them; decided on under the round that they are ordered in.
+std::optional<wire::Proposal> variants_to_approve(const RunAccess& run) {
+  std::map<int, wire::Family> families;
+  for (const std::string& payload : sent_by_validation_agent(run, "FAMILY"))
+    if (auto family = wire::read<wire::Family>(payload)) families[family->number] = std::move(*family);
+  if (families.empty() || static_cast<int>(families.size()) < families.begin()->second.count) return std::nullopt;
+  wire::Proposal proposal;
+  for (const auto& [number, family] : families) {
+    proposal.round = family.round;
+    for (const game::FamilyDesign& design : family.designs) {
+      if (design.is_seed) continue;
+      proposal.designs.push_back({.design = design.pattern,
+                                  .modulus_pa = design.family_model.modulus_pa.value_or(0.0),
+                                  .toughness_pa = design.family_model.toughness_pa.value_or(0.0),
+                                  .bin = -1,
+                                  .reason = "variant of " + family.name});
+    }
+  }
+  return proposal;
+}
+
 /// The newest proposal that the validation agent has.
 std::optional<wire::Proposal> newest_proposal(const RunAccess& run) {
   std::optional<wire::Proposal> newest;
@@ -35,7 +57,8 @@ std::optional<wire::Proposal> newest_proposal(const RunAccess& run) {
     auto proposal = wire::read<wire::Proposal>(payload);
     if (proposal && (!newest || proposal->round >= newest->round)) newest = std::move(*proposal);
   }
-  return newest;
+  const std::optional<wire::Proposal> variants = variants_to_approve(run);
+  return variants ? variants : newest;
 }
 
 std::vector<std::string> designs_meant(const ApproveOptions& options, const wire::Proposal& proposal) {

@@ -17,6 +17,7 @@
 #include "families/evidence.hpp"
 #include "families/grouping.hpp"
 #include "families/subfamily.hpp"
+#include "game/standings.hpp"
 #include "laboratory_view.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
@@ -39,7 +40,7 @@ struct Options {
   std::string set;
   std::string run = "logs/latest";
   std::string params;
-  std::string out = "families";
+  std::string out;
   std::string fidelity;
   std::string numerics_floor;
   int samples = 300;
@@ -47,36 +48,36 @@ struct Options {
   int calibration = 25;
   int cracks = 60;
   std::uint64_t seed = 1;
+  bool propose = false;
   bool json = false;
 };
 
-/// What the stage begins with: everything measured, and a model of it.
+/// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated again.
+struct StagedFamily {
+  wire::Family stated;
+  std::vector<explore::Evaluated> variants;
+};
+
+/// What is begun with: everything measured, and a model of it.
 struct Beginning {
   std::vector<measurement::Replicates> measured;  ///< patterns alone
   material::ParameterSet parameters;
   tester::Fidelity fidelity = tester::Fidelity::full;
+  std::vector<StagedFamily> staged;  ///< of the run's family stage, where one was played
 };
 
-/// Eightfold pattern of a design that has one.
-std::optional<Pattern> pattern_of(const pattern::Design& design) {
-  return design.layout() == nullptr ? std::nullopt : Pattern::from_layout(*design.layout());
-}
-
-std::vector<measurement::Replicates> patterns_of(const std::vector<measurement::SpecimenRecord>& specimens) {
-  std::vector<measurement::Replicates> groups = measurement::summarise(specimens);
-  std::erase_if(groups, [](const measurement::Replicates& group) {
-    return !pattern_of(group.design) || group.conditions.orientation_deg != 0.0 || group.modulus_count == 0 ||
-           group.toughness_count == 0;
-  });
-  return groups;
+std::filesystem::path folder_of(const Options& options) {
+  if (!options.out.empty()) return options.out;
+  return options.set.empty() ? std::filesystem::path(options.run) / "families" : std::filesystem::path("families");
 }
 
 Beginning beginning_of_set(const Options& options) {
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
-  return {.measured = patterns_of(set.specimens),
+  return {.measured = game::patterns_with_both(set.specimens),
           .parameters = material::default_parameters(),
-          .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity)};
+          .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity),
+          .staged = {}};
 }
 
 /// The model that the validation agent adopted last.
@@ -89,11 +90,39 @@ material::ParameterSet adopted_parameters(const RunAccess& run) {
   throw InputError::format("{}: no model has been adopted yet", run.folder.string());
 }
 
+std::vector<StagedFamily> staged_families(const RunAccess& run) {
+  std::map<int, StagedFamily> families;
+  for (const std::string& payload : sent_by_validation_agent(run, "FAMILY"))
+    if (auto family = wire::read<wire::Family>(payload)) families[family->number].stated = std::move(*family);
+  for (const std::string& payload : sent_by_validation_agent(run, "FAMILY_GAMUT")) {
+    const auto chunk = wire::read<wire::GamutChunk>(payload);
+    if (!chunk) continue;
+    auto& variants = families[chunk->round].variants;
+    variants.insert(variants.end(), chunk->samples.begin(), chunk->samples.end());
+  }
+  std::vector<StagedFamily> all;
+  for (auto& [number, family] : families) all.push_back(std::move(family));
+  return all;
+}
+
+/// The stage's word on this family, when its seeds are the same.
+const StagedFamily* staged(const Family& family, const Beginning& beginning) {
+  for (const StagedFamily& each : beginning.staged) {
+    std::vector<Pattern> seeds;
+    for (const game::FamilyDesign& design : each.stated.designs)
+      if (design.is_seed) seeds.push_back(design.pattern);
+    if (seeds == family.seeds) return &each;
+  }
+  return nullptr;
+}
+
 Beginning beginning_of_run(const Options& options) {
   const RunAccess run = open_run(options.run);
-  return {.measured = patterns_of(view_laboratory(run).facts.book.specimens()),
+  const bool same_question = options.params.empty() && options.fidelity.empty();
+  return {.measured = game::patterns_with_both(view_laboratory(run).facts.book.specimens()),
           .parameters = adopted_parameters(run),
-          .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity)};
+          .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
+          .staged = same_question ? staged_families(run) : std::vector<StagedFamily>{}};
 }
 
 /// families.toml of the folder when a person or a former call left one, else a proposal, which is written there.
@@ -114,7 +143,7 @@ sysid::Calibrated family_model(const Family& family, const Beginning& beginning,
   settings.seed = options.seed;
   settings.floor = sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), beginning.fidelity);
   for (const measurement::Replicates& group : beginning.measured)
-    settings.weights.push_back(std::ranges::count(family.seeds, *pattern_of(group.design)) > 0 ? 1.0 : kOthersWeight);
+    settings.weights.push_back(std::ranges::count(family.seeds, *game::eightfold_pattern(group.design)) > 0 ? 1.0 : kOthersWeight);
   Progress progress(family.name + ": calibrating");
   return sysid::run_calibration(beginning.measured, settings, simulator,
                                 [&](double share, std::string_view what) { progress.set_share(share, std::string(what)); });
@@ -135,7 +164,7 @@ void simulate(const std::string& task, const std::vector<Pattern>& patterns, con
   const auto predictions = sysid::predict({parameters}, wanted, simulator, [&] { progress.advance(); }).front();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (predictions[i].modulus_pa && predictions[i].toughness_pa)
-      known[*pattern_of(wanted[i].design)] = {*predictions[i].modulus_pa, *predictions[i].toughness_pa};
+      known[*game::eightfold_pattern(wanted[i].design)] = {*predictions[i].modulus_pa, *predictions[i].toughness_pa};
   }
 }
 
@@ -145,14 +174,28 @@ std::vector<Pattern> sampled_densely(const Family& family, const Options& option
   return sampler.members();
 }
 
+/// Seeds, then the stage's variants; without a stage, sampled now.
+std::vector<Pattern> members_of(const Family& family, const StagedFamily* stage, const Options& options) {
+  if (stage == nullptr) return sampled_densely(family, options);
+  std::vector<Pattern> members = family.seeds;
+  for (const explore::Evaluated& variant : stage->variants)
+    if (std::ranges::count(family.seeds, variant.pattern) == 0) members.push_back(variant.pattern);
+  return members;
+}
+
 std::string map_csv(const families::Subfamily& subfamily, const Performances& performances) {
-  std::string text = "pattern,source,x,y,rigid_fraction,modulus_pa,toughness_pa\n";
+  std::string text = "pattern,source,x,y,x_sampled,y_sampled,rigid_fraction,modulus_pa,toughness_pa\n";
   for (std::size_t i = 0; i < subfamily.members.size(); ++i) {
     const Pattern& pattern = subfamily.members[i];
     const auto found = performances.find(pattern);
     const auto row = subfamily.map.points.row(static_cast<Eigen::Index>(i));
-    text += fmt::format("{},{},{:.5g},{:.5g},{:.4f}", pattern.key(),
-                        i == 0 ? "seed" : i < subfamily.sampled ? "sampled" : "interpolated", row.x(), row.y(),
+    std::string before = ",";
+    if (i < subfamily.sampled) {
+      const auto sampled = subfamily.sampled_map.points.row(static_cast<Eigen::Index>(i));
+      before = fmt::format("{:.5g},{:.5g}", sampled.x(), sampled.y());
+    }
+    text += fmt::format("{},{},{:.5g},{:.5g},{},{:.4f}", pattern.key(),
+                        i == 0 ? "seed" : i < subfamily.sampled ? "sampled" : "interpolated", row.x(), row.y(), before,
                         pattern.rigid_fraction());
     text += found == performances.end()
                 ? ",,\n"
@@ -170,7 +213,7 @@ sysid::PredictionErrors own_errors(const Family& family, const Beginning& beginn
                                    const material::ParameterSet& parameters, sysid::LocalSimulator& simulator) {
   std::vector<measurement::Replicates> own;
   for (const measurement::Replicates& group : beginning.measured)
-    if (std::ranges::count(family.seeds, *pattern_of(group.design)) > 0) own.push_back(group);
+    if (std::ranges::count(family.seeds, *game::eightfold_pattern(group.design)) > 0) own.push_back(group);
   return sysid::prediction_errors(own, sysid::predict({parameters}, own, simulator).front());
 }
 
@@ -237,18 +280,24 @@ nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked,
 /// Calibration, dense sampling and maps of one family, written into its folder.
 nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning, const Options& options,
                                 sysid::LocalSimulator& simulator) {
-  const std::filesystem::path folder = std::filesystem::path(options.out) / family.name;
+  const std::filesystem::path folder = folder_of(options) / family.name;
+  const StagedFamily* stage = staged(family, beginning);
   std::filesystem::create_directories(folder);
   material::ParameterSet parameters = beginning.parameters;
   nlohmann::ordered_json document = {{"name", family.name}, {"seeds", family.seeds.size()}};
   document["errors_of_the_global_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
-  if (options.calibration > 0) {
+  if (stage != nullptr) {
+    parameters = stage->stated.parameters;
+    document["errors_of_the_family_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
+  } else if (options.calibration > 0) {
     parameters = family_model(family, beginning, options, simulator).parameters;
     document["errors_of_the_family_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
   }
   write_file_atomically(folder / "parameters.toml", material::to_toml(parameters));
-  const std::vector<Pattern> members = sampled_densely(family, options);
+  const std::vector<Pattern> members = members_of(family, stage, options);
   Performances performances;
+  if (stage != nullptr)
+    for (const explore::Evaluated& variant : stage->variants) performances[variant.pattern] = variant.performance;
   simulate(family.name + ": dense samples", members, parameters, simulator, performances);
   nlohmann::ordered_json maps = nlohmann::ordered_json::array();
   for (const Pattern& seed : family.seeds) {
@@ -294,17 +343,23 @@ int find_families(const Options& options) {
   if (!options.params.empty()) beginning.parameters = material::read_parameters(options.params, beginning.parameters);
   std::vector<families::Member> members;
   for (const measurement::Replicates& group : beginning.measured)
-    members.push_back({*pattern_of(group.design), {group.modulus_pa, group.toughness_pa}});
+    members.push_back({*game::eightfold_pattern(group.design), {group.modulus_pa, group.toughness_pa}});
   const std::vector<families::Member> near = families::near_pareto(members, options.rank);
   if (near.empty()) {
     remark("no pattern has been measured in both tests yet");
     return 1;
   }
   std::erase_if(beginning.measured, [&](const measurement::Replicates& group) {
-    return std::ranges::count(near, *pattern_of(group.design), &families::Member::pattern) == 0;
+    return std::ranges::count(near, *game::eightfold_pattern(group.design), &families::Member::pattern) == 0;
   });
-  const std::filesystem::path folder = options.out;
+  const std::filesystem::path folder = folder_of(options);
   std::filesystem::create_directories(folder);
+  if (options.propose) {
+    const auto proposed = families_in(folder, near);
+    for (const Family& family : proposed) fmt::print("{}: {} seeds\n", family.name, family.seeds.size());
+    fmt::print("{}\n", (folder / "families.toml").string());
+    return 0;
+  }
   sysid::LocalSimulator simulator(beginning.fidelity, 0, folder / "simulations.bin");
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const Family& family : families_in(folder, near)) {
@@ -326,7 +381,8 @@ void add_families(CLI::App& app, Action& action) {
   command.add_option("SET", options->set, "Measurement set; default: what the run has measured");
   add_run_option(command, options->run);
   command.add_option("--params", options->params, "Parameter file; default: the run's adopted model, or the built-in parameters");
-  command.add_option("--out", options->out, "Folder; families.toml in it may be edited, then call again")->capture_default_str();
+  command.add_option("--out", options->out, "Folder, default RUN/families or families; families.toml in it may be edited, then call again");
+  command.add_flag("--propose", options->propose, "Write families.toml alone: to be edited, also before the family stage of a game");
   command.add_option("--fidelity", options->fidelity, "Size of the specimens; default: the run's, or full");
   command.add_option("--samples", options->samples, "Patterns of a family (thesis: 2000 to 3000 around each seed)")
       ->check(CLI::Range(4, 100'000))

@@ -23,7 +23,7 @@ std::filesystem::path printed_file(const RunAccess& run) { return run.folder / "
 game::Order order_of(const wire::TestOrder& message) {
   game::OrderReason reason = game::OrderReason::proposal;
   for (const auto each : {game::OrderReason::base, game::OrderReason::mixture, game::OrderReason::random,
-                          game::OrderReason::discrimination, game::OrderReason::person}) {
+                          game::OrderReason::discrimination, game::OrderReason::person, game::OrderReason::family}) {
     if (message.reason == game::to_string(each)) reason = each;
   }
   return {.id = message.order_id,

@@ -18,6 +18,7 @@
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "store/simulation_cache.hpp"
+#include "validation_agent/family_work.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::cli {
@@ -57,7 +58,7 @@ class Scratch {
 /// The node as its own program makes it, except that its work writes into the scratch folder and its cache begins
 /// empty.
 runtime::NodeProgram make_node(const std::string& node, const game::Scenario& scenario, const fs::path& scratch) {
-  if (node == "validation_agent") return {.core = validation_agent::make_core(scenario), .work = {}};
+  if (node == "validation_agent") return {.core = validation_agent::make_core(scenario), .work = validation_agent::work_functions(scratch)};
   if (node == "proposal_agent") {
     return {.core = proposal_agent::make_core(scenario), .work = proposal_agent::work_functions()};
   }
@@ -97,6 +98,12 @@ int replay(const Options& options) {
   const game::Scenario scenario =
       game::read_scenario(options.scenario.empty() ? folder / "scenario.toml" : fs::path(options.scenario));
   const Scratch scratch;
+  // A person may have left the grouping of the family stage there.
+  const fs::path families = fs::path("families") / "families.toml";
+  if (fs::exists(folder / families)) {
+    fs::create_directories((scratch.path() / families).parent_path());
+    fs::copy_file(folder / families, scratch.path() / families);
+  }
   runtime::NodeProgram program = make_node(options.node, scenario, scratch.path());
   const runtime::ReplayReport report = is_bus_log
                                            ? runtime::replay_bus_log(path, options.node, *program.core, program.work)

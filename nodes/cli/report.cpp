@@ -1,14 +1,16 @@
-// nacre report: where the report of a run is.
+// nacre report: the figures and tables of the thesis from a run of one's own.
 
 #include <filesystem>
 #include <string>
 
+#include "analyser/paper.hpp"
 #include "analyser/report.hpp"
 #include "base/files.hpp"
 #include "command.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
 #include "runtime/round_history.hpp"
+#include "shipped_files.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre::cli {
@@ -16,22 +18,27 @@ namespace {
 
 struct Options {
   std::string run = "logs/latest";
+  std::string out;
   bool render = false;
 };
 
 int report(const Options& options) {
   const RunAccess run = open_run(options.run);
   for (const auto& round : runtime::read_rounds(run.folder)) remark(runtime::in_words(round));
-  const std::filesystem::path page = run.folder / "report.html";
-  if (options.render) {
-    const store::RunRecord record = store::read_run_record(run.folder / "run.db");
-    write_file_atomically(page, analyser::render_report(record, run.manifest.run_id));
-  }
-  if (!std::filesystem::exists(page)) {
-    remark(fmt::format("{}: no report yet; the analyser writes it after the first round", run.folder.string()));
+  const std::filesystem::path database = run.folder / "run.db", page = run.folder / "report.html";
+  if (!std::filesystem::exists(database)) {
+    remark(fmt::format("{}: nothing to report yet; the analyser keeps run.db from the first round on", run.folder.string()));
     return 1;
   }
-  fmt::print("{}\n", page.string());
+  if (options.render)
+    write_file_atomically(page, analyser::render_report(store::read_run_record(database), run.manifest.run_id));
+  const std::filesystem::path thesis = shipped_file("data/thesis");
+  if (!std::filesystem::exists(thesis)) remark("data/thesis is neither here nor above the program: its figures are left out");
+  const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
+  analyser::write_paper(folder, analyser::read_paper_source(run.folder, run.manifest.run_id,
+                                                            std::filesystem::exists(thesis) ? thesis : ""));
+  if (std::filesystem::exists(page)) fmt::print("{}\n", page.string());
+  fmt::print("{}\n", (folder / "index.html").string());
   return 0;
 }
 
@@ -39,10 +46,11 @@ int report(const Options& options) {
 
 void add_report(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      add_command(app, action, "report", "Print the rounds and where the report of a run is", options, report);
-  add_run_option(command, options->run);
-  command.add_flag("--render", options->render, "Write the page again from the run's database");
+  CLI::App& command = add_command(app, action, "report",
+                                  "Write the thesis' figures and tables from a run: one page, SVG and CSV", options, report);
+  command.add_option("RUN,--run", options->run, "Folder of the run")->capture_default_str();
+  command.add_option("--out", options->out, "Folder to write; default: RUN/paper");
+  command.add_flag("--render", options->render, "Write report.html, the page of the game, again as well");
 }
 
 }  // namespace nacre::cli

@@ -4,9 +4,7 @@
 
 namespace nacre::cli {
 
-std::filesystem::path numerics_floor_file(const std::string& given) {
-  if (!given.empty()) return given;
-  const std::filesystem::path name = "data/numerics_floor.toml";
+std::filesystem::path shipped_file(const std::filesystem::path& name) {
   std::error_code unreadable;
   std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", unreadable);
   while (folder.has_parent_path() && folder != folder.root_path()) {
@@ -14,6 +12,10 @@ std::filesystem::path numerics_floor_file(const std::string& given) {
     if (std::filesystem::exists(folder / name, unreadable)) return folder / name;
   }
   return name;
+}
+
+std::filesystem::path numerics_floor_file(const std::string& given) {
+  return given.empty() ? shipped_file("data/numerics_floor.toml") : std::filesystem::path(given);
 }
 
 }  // namespace nacre::cli

@@ -5,7 +5,10 @@
 
 namespace nacre::cli {
 
-/// data/numerics_floor.toml in the working folder or above the program; `given`, when it is not empty.
+/// A file or folder that comes with nacre, by its name from the root: above the program, else in the working folder.
+std::filesystem::path shipped_file(const std::filesystem::path& name);
+
+/// data/numerics_floor.toml; `given`, when it is not empty.
 std::filesystem::path numerics_floor_file(const std::string& given);
 
 }  // namespace nacre::cli

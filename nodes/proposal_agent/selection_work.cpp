@@ -1,7 +1,5 @@
 #include "proposal_agent/selection_work.hpp"
 
-#include <algorithm>
-#include <set>
 #include <stdexcept>
 
 #include "optimize/pareto.hpp"
@@ -31,27 +29,6 @@ Selection selection_from(const std::string& spec) {
   return selection;
 }
 
-void erase_patterns(std::vector<explore::Evaluated>& samples, const std::vector<pattern::Pattern>& patterns) {
-  const std::set<pattern::Pattern> gone(patterns.begin(), patterns.end());
-  std::erase_if(samples, [&](const explore::Evaluated& sample) { return gone.contains(sample.pattern); });
-}
-
-std::vector<select::Selected> choose(const Selection& selection, std::vector<explore::Evaluated> candidates) {
-  std::vector<pattern::Pattern> taken = selection.model.measured;
-  erase_patterns(candidates, taken);
-  std::vector<select::Selected> chosen =
-      select::select_designs(candidates, taken, selection.model.benchmark, {.count = selection.count});
-  const int missing = selection.count - static_cast<int>(chosen.size());
-  if (missing <= 0 || selection.model.benchmark.empty()) return chosen;
-  for (const select::Selected& each : chosen) taken.push_back(each.pattern);
-  erase_patterns(candidates, taken);
-  for (select::Selected& each : select::select_designs(candidates, taken, {}, {.count = missing})) {
-    each.reason = "below the homogeneous line, where too few samples lie above it: " + each.reason;
-    chosen.push_back(std::move(each));
-  }
-  return chosen;
-}
-
 std::string work(const std::string& spec) {
   const Selection selection = selection_from(spec);
   std::vector<explore::Evaluated> gamut;
@@ -65,7 +42,8 @@ std::string work(const std::string& spec) {
   proposal.gamut_hypervolume_staircase = optimize::hypervolume_staircase_gpa_mpa(performances);
   proposal.gamut_hypervolume_polygon = optimize::hypervolume_polygon_gpa_mpa(performances);
   proposal.simulations = selection.simulations;
-  for (const select::Selected& each : choose(selection, std::move(gamut))) {
+  for (const select::Selected& each : select::select_with_reserve(
+           std::move(gamut), selection.model.measured, selection.model.benchmark, selection.count)) {
     proposal.designs.push_back({.design = each.pattern,
                                 .modulus_pa = each.predicted.modulus_pa,
                                 .toughness_pa = each.predicted.toughness_pa,

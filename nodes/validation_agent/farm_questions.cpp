@@ -9,8 +9,6 @@
 namespace nacre::validation_agent {
 namespace {
 
-constexpr int kCurvePoints = 64;  // enough for the curve term of Eq. 2.8
-
 using ConditionsKey = std::tuple<double, double, double>;
 
 ConditionsKey key_of(const tester::TestConditions& conditions) {
@@ -30,15 +28,13 @@ sysid::Prediction prediction_of(const wire::SimulatedDesign& answer, bool modulu
 
 }  // namespace
 
-std::vector<wire::SimulateRequest> FarmQuestions::ask(const std::string& label,
-                                                      const std::vector<sysid::WantedEvaluation>& wanted,
-                                                      const std::vector<measurement::Replicates>& measured,
-                                                      tester::Fidelity fidelity) {
+std::vector<wire::SimulateRequest> FarmQuestions::ask(const FarmBatch& batch) {
+  const std::vector<measurement::Replicates>& measured = batch.measured;
   open_.clear();
   predictions_.clear();
   std::vector<wire::SimulateRequest> requests;
-  for (std::size_t evaluation = 0; evaluation < wanted.size(); ++evaluation) {
-    const sysid::WantedEvaluation& each = wanted[evaluation];
+  for (std::size_t evaluation = 0; evaluation < batch.wanted.size(); ++evaluation) {
+    const sysid::WantedEvaluation& each = batch.wanted[evaluation];
     predictions_.emplace_back(each.items.size());
     std::map<ConditionsKey, std::vector<std::size_t>> by_conditions;
     for (std::size_t item = 0; item < each.items.size(); ++item) {
@@ -48,13 +44,13 @@ std::vector<wire::SimulateRequest> FarmQuestions::ask(const std::string& label,
     for (const auto& [conditions, items] : by_conditions) {
       for (std::size_t first = 0; first < items.size(); first += wire::kMaximumDesigns) {
         wire::SimulateRequest request;
-        request.request_id = fmt::format("validation_agent/{}/{}/{}", label, each.id, part++);
+        request.request_id = fmt::format("validation_agent/{}/{}/{}", batch.label, each.id, part++);
         request.modulus = each.modulus;
         request.toughness = each.toughness;
-        request.fidelity = fidelity;
+        request.fidelity = batch.fidelity;
         request.conditions = measured[each.items[items[first]]].conditions;
         request.parameters = game::material_side(each.parameters);
-        request.curve_points = each.toughness ? kCurvePoints : 0;
+        request.curve_points = each.toughness ? batch.curve_points : 0;
         Place place{evaluation, {}, each.modulus, each.toughness};
         for (std::size_t index = first; index < std::min(first + wire::kMaximumDesigns, items.size()); ++index) {
           place.items.push_back(items[index]);

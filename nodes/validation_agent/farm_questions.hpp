@@ -11,15 +11,22 @@
 
 namespace nacre::validation_agent {
 
+/// What the farm is asked at once.
+struct FarmBatch {
+  std::string label;  ///< used once
+  std::vector<sysid::WantedEvaluation> wanted;
+  std::vector<measurement::Replicates> measured;  ///< the designs that `wanted` means, with their test conditions
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  int curve_points = 64;  ///< of toughness tests: enough for the curve term of Eq. 2.8
+};
+
 /// One batch of evaluations at the farm. Answers may come in any order and any number of times; what predictions()
 /// holds does not depend on it.
 class FarmQuestions {
  public:
   /// SIMULATE requests for the batch: items of one evaluation that share test conditions go together, at most 64 a
-  /// request. Request ids are `validation_agent/LABEL/EVALUATION/PART`; a label is used once.
-  std::vector<wire::SimulateRequest> ask(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
-                                         const std::vector<measurement::Replicates>& measured,
-                                         tester::Fidelity fidelity);
+  /// request. Request ids are `validation_agent/LABEL/EVALUATION/PART`.
+  std::vector<wire::SimulateRequest> ask(const FarmBatch& batch);
 
   /// Takes a SIMULATED. Returns whether the batch is complete with it.
   bool take(wire::SimulateResult part);

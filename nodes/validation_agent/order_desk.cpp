@@ -32,7 +32,7 @@ bool OrderDesk::refused(const pattern::Design& design) const {
 std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::Design> designs,
                                                std::vector<game::Experiment> experiments) {
   round_ = round;
-  waiting_.clear();
+  decided_under_ = round - 1;
   std::vector<game::Order> orders;
   const auto add = [&](std::vector<game::Order> more) {
     std::move(more.begin(), more.end(), std::back_inserter(orders));
@@ -41,16 +41,7 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
     add(game::opening_orders(scenario_, random_patterns_));
     if (experiments.empty()) experiments = game::rotated_twins(random_patterns_, scenario_.validation.replicates);
   }
-  std::vector<pattern::Design> approved;
-  for (const pattern::Design& design : designs) {
-    const auto decision = decisions_.find({round - 1, design.name()});
-    if (!scenario_.validation.approval || (decision != decisions_.end() && decision->second.approved)) {
-      approved.push_back(design);
-    } else if (decision == decisions_.end()) {
-      waiting_.push_back(design);
-    }
-  }
-  add(game::proposal_orders(scenario_, round, approved));
+  add(orders_for(approved_of(designs)));
   std::erase_if(own_, [&](const pattern::Design& each) {
     return std::find(designs.begin(), designs.end(), each) != designs.end();
   });
@@ -59,6 +50,32 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
   std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
   if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
   return place(std::move(orders));
+}
+
+std::vector<game::Order> OrderDesk::open_family_round(int round, std::vector<pattern::Design> designs) {
+  round_ = decided_under_ = round;
+  is_family_round_ = true;
+  return place(orders_for(approved_of(designs)));
+}
+
+/// Those that may be ordered at once; what a person has still to say something about waits.
+std::vector<pattern::Design> OrderDesk::approved_of(const std::vector<pattern::Design>& designs) {
+  waiting_.clear();
+  std::vector<pattern::Design> approved;
+  for (const pattern::Design& design : designs) {
+    const auto decision = decisions_.find({decided_under_, design.name()});
+    if (!scenario_.validation.approval || (decision != decisions_.end() && decision->second.approved)) {
+      approved.push_back(design);
+    } else if (decision == decisions_.end()) {
+      waiting_.push_back(design);
+    }
+  }
+  return approved;
+}
+
+std::vector<game::Order> OrderDesk::orders_for(std::span<const pattern::Design> designs) const {
+  return is_family_round_ ? game::family_orders(scenario_, round_, designs)
+                          : game::proposal_orders(scenario_, round_, designs);
 }
 
 Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pattern::Design& design,
@@ -71,10 +88,10 @@ Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pat
                 held->second.by);
   }
   const auto waiting = std::find(waiting_.begin(), waiting_.end(), design);
-  if (proposal_round != round_ - 1 || waiting == waiting_.end()) return std::vector<game::Order>{};
+  if (proposal_round != decided_under_ || waiting == waiting_.end()) return std::vector<game::Order>{};
   waiting_.erase(waiting);
   if (!decision.approved) return std::vector<game::Order>{};
-  return place(game::proposal_orders(scenario_, round_, std::vector{design}));
+  return place(orders_for(std::vector{design}));
 }
 
 Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& design, bool now) {

@@ -33,6 +33,10 @@ class OrderDesk {
   std::vector<game::Order> open_round(int round, std::vector<pattern::Design> designs,
                                       std::vector<game::Experiment> experiments);
 
+  /// Opens the round of the family stage: designs chosen of families, which a person decides on under the number of this
+  /// round. Returns the orders that can go out at once.
+  std::vector<game::Order> open_family_round(int round, std::vector<pattern::Design> designs);
+
   /// A decision about a design of the proposal of `proposal_round`, before or after that round is opened. The first one
   /// counts: its order may be in print. Returns orders that go out because of it, or why the decision changes nothing.
   Result<std::vector<game::Order>> decide(int proposal_round, const pattern::Design& design, const Decision& decision);
@@ -55,11 +59,15 @@ class OrderDesk {
 
  private:
   std::vector<game::Order> place(std::vector<game::Order> orders);
+  std::vector<pattern::Design> approved_of(const std::vector<pattern::Design>& designs);
+  std::vector<game::Order> orders_for(std::span<const pattern::Design> designs) const;
   bool refused(const pattern::Design& design) const;
 
   game::Scenario scenario_;
   std::vector<pattern::Pattern> random_patterns_;
   int round_ = 0;
+  int decided_under_ = -1;        // round that decisions about the open round's designs name
+  bool is_family_round_ = false;  // the open one
   std::vector<pattern::Design> waiting_;  // of the open round, undecided
   std::vector<pattern::Design> own_;      // of persons, for the next round
   std::vector<game::Order> orders_;

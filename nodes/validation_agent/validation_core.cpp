@@ -19,6 +19,7 @@ ValidationCore::ValidationCore(const game::Scenario& scenario, StartingTables ta
 runtime::Outputs ValidationCore::step(const runtime::Input& input) {
   outputs_ = {};
   if (const auto* message = std::get_if<runtime::Message>(&input)) accept_message(*message);
+  if (const auto* work = std::get_if<runtime::WorkDone>(&input)) accept_work(*work);
   return std::exchange(outputs_, {});
 }
 
@@ -53,6 +54,10 @@ void ValidationCore::accept_run(const std::string& payload) {
 void ValidationCore::accept_answer(const std::string& payload) {
   auto part = wire::read<wire::SimulateResult>(payload);
   if (!part) return say(LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
+  if (phase_ == Phase::working_out_families) {
+    families_->accept_answer(*std::move(part), outputs_);
+    return measure_families_when_chosen();
+  }
   if (!questions_.take(*std::move(part))) return;
   if (phase_ == Phase::predicting) {
     finish_held_out(questions_.predictions().front());
@@ -60,6 +65,13 @@ void ValidationCore::accept_answer(const std::string& payload) {
     fitting_->tell(questions_.predictions());
     calibrate_on();
   }
+}
+
+void ValidationCore::accept_work(const runtime::WorkDone& work) {
+  if (phase_ != Phase::working_out_families)
+    return say(LogLevel::warning, "the result of " + work.id + " is ignored: it is not awaited");
+  families_->accept_work(work, outputs_);
+  measure_families_when_chosen();
 }
 
 void ValidationCore::accept_gamut(const std::string& payload) {
@@ -145,6 +157,11 @@ void ValidationCore::accept_approval(const std::string& payload) {
                                                 approval->design, approval->round));
     }
   }
+  if (families_ && approval->round == round_) {
+    const std::vector<pattern::Design> chosen = families_->chosen();
+    if (std::find(chosen.begin(), chosen.end(), *design) == chosen.end())
+      return say(LogLevel::warning, fmt::format("an APPROVAL is ignored: {} is chosen of no family", approval->design));
+  }
   const auto orders = desk_.decide(approval->round, *design, {approval->approved != 0, approval->by, approval->why});
   if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} {} {}: {}", approval->by, approval->approved ? "approves" : "refuses",
@@ -185,6 +202,10 @@ runtime::Status ValidationCore::status() const {
       break;
     case Phase::waiting_for_proposal:
       status.phase = "waiting for gamut and proposal";
+      break;
+    case Phase::working_out_families:
+      status.phase = families_->phase();
+      status.progress = families_->progress();
       break;
     case Phase::finished:
       status.phase = "the game is over";

@@ -14,6 +14,7 @@
 #include "game/scenario.hpp"
 #include "optimize/pareto.hpp"
 #include "runtime/node_core.hpp"
+#include "validation_agent/family_stage.hpp"
 #include "validation_agent/farm_questions.hpp"
 #include "validation_agent/fitting.hpp"
 #include "validation_agent/order_desk.hpp"
@@ -30,7 +31,8 @@ struct StartingTables {
 
 /// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).
 /// Round n: TEST_ORDERs -> MEASUREMENTs -> held-out errors -> calibration -> DIAGNOSE, DIAGNOSIS -> PARAMETERS(n) ->
-/// GAMUT(n), PROPOSAL(n) -> ROUND(n).
+/// GAMUT(n), PROPOSAL(n) -> ROUND(n). Where the scenario wants families, they follow the last ROUND, which is then said
+/// once more as the last (family_stage.hpp).
 class ValidationCore : public runtime::NodeCore {
  public:
   ValidationCore(const game::Scenario& scenario, StartingTables tables);
@@ -38,7 +40,16 @@ class ValidationCore : public runtime::NodeCore {
   runtime::Status status() const override;
 
  private:
-  enum class Phase { waiting_for_run, measuring, predicting, calibrating, diagnosing, waiting_for_proposal, finished };
+  enum class Phase {
+    waiting_for_run,
+    measuring,
+    predicting,
+    calibrating,
+    diagnosing,
+    waiting_for_proposal,
+    working_out_families,
+    finished
+  };
 
   // Inputs (validation_core.cpp).
   void accept_message(const runtime::Message& message);
@@ -50,6 +61,7 @@ class ValidationCore : public runtime::NodeCore {
   void accept_measurement(const std::string& payload);
   void accept_review(const std::string& payload);
   void accept_approval(const std::string& payload);
+  void accept_work(const runtime::WorkDone& work);
   void add_own_design(const pattern::Design& design, const approval_t& approval);
 
   // The course of a round (validation_rounds.cpp).
@@ -63,8 +75,15 @@ class ValidationCore : public runtime::NodeCore {
   void diagnose();
   bool adopt(const diagnosis_t& diagnosis);
   void publish_model();
+  std::vector<optimize::Performance> benchmark() const;
+  std::set<pattern::Pattern> settled_patterns() const;
   void close_round_when_proposed();
   wire::RoundSummary summary() const;
+
+  // The stage after the last round.
+  StageBeginning stage_beginning() const;
+  void measure_families_when_chosen();
+  void finish_families();
 
   // Short cuts for outputs.
   template <class Domain>
@@ -103,6 +122,9 @@ class ValidationCore : public runtime::NodeCore {
   std::map<int, wire::Proposal> proposals_;
   std::optional<diagnosis_t> diagnosis_;  // of the last round that had one
   std::vector<game::RoundFigures> history_;
+
+  std::optional<FamilyStage> families_;  // begun with the last round's end
+  wire::RoundSummary last_round_;        // to be closed for good when the stage is over
 };
 
 /// Reads the scenario's tables. Throws InputError when one cannot be used.

@@ -69,6 +69,7 @@ void ValidationCore::send_orders(const std::vector<game::Order>& orders) {
 void ValidationCore::measure_on() {
   const auto [complete, all] = desk_.completed(book_);
   if (desk_.undecided() > 0 || complete < all) return;
+  if (families_) return finish_families();
   specimens_ = book_.specimens();
   calibration_set_ = game::calibration_set(specimens_);
   say(LogLevel::info, fmt::format("round {}: measured, {} designs to calibrate on", round_, calibration_set_.size()));
@@ -123,7 +124,7 @@ void ValidationCore::begin_calibration() {
 void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
                               const std::vector<measurement::Replicates>& measured) {
   for (const wire::SimulateRequest& request :
-       questions_.ask(fmt::format("r{}/{}", round_, label), wanted, measured, scenario_.fidelity)) {
+       questions_.ask({.label = fmt::format("r{}/{}", round_, label), .wanted = wanted, .measured = measured, .fidelity = scenario_.fidelity})) {
     send("SIMULATE", request);
   }
 }
@@ -199,13 +200,22 @@ void ValidationCore::publish_model() {
   adopted.after = after_;
   adopted.simulations = simulations_;
   adopted.provenance = provenance_;
-  adopted.benchmark = game::benchmark_line(specimens_);
-  if (adopted.benchmark.empty()) adopted.benchmark = tables_.benchmark;
-  std::set<pattern::Pattern> settled = desk_.settled_patterns();
-  for (const auto& [pattern, values] : game::measured_values(specimens_)) settled.insert(pattern);
+  adopted.benchmark = benchmark();
+  const std::set<pattern::Pattern> settled = settled_patterns();
   adopted.measured.assign(settled.begin(), settled.end());
   phase_ = Phase::waiting_for_proposal;
   send("PARAMETERS", adopted);
+}
+
+std::vector<optimize::Performance> ValidationCore::benchmark() const {
+  const std::vector<optimize::Performance> measured = game::benchmark_line(specimens_);
+  return measured.empty() ? tables_.benchmark : measured;
+}
+
+std::set<pattern::Pattern> ValidationCore::settled_patterns() const {
+  std::set<pattern::Pattern> settled = desk_.settled_patterns();
+  for (const auto& [pattern, values] : game::measured_values(specimens_)) settled.insert(pattern);
+  return settled;
 }
 
 void ValidationCore::close_round_when_proposed() {
@@ -222,14 +232,49 @@ void ValidationCore::close_round_when_proposed() {
   if (round.last && !verdict.equilibrium)
     round.decided_by += fmt::format("; the limit of {} rounds is reached", scenario_.rounds);
   gamuts_.clear();
+  StageBeginning beginning = stage_beginning();
+  const bool families_follow = round.last && scenario_.families.enabled && FamilyStage::is_possible(beginning);
+  if (families_follow) {
+    last_round_ = round;
+    round.last = false;
+    round.decided_by += "; families follow";
+  }
   send("ROUND", round);
   say(LogLevel::info, fmt::format("round {} is closed: gap {:.4g}, measured hypervolume {:.4g} GPa MPa; {}", round_,
                                   round.gap, round.measured_hypervolume_staircase, round.decided_by));
-  if (round.last) {
+  if (families_follow) {
+    phase_ = Phase::working_out_families;
+    families_.emplace(scenario_, std::move(beginning));
+    families_->begin(outputs_);
+  } else if (round.last) {
     phase_ = Phase::finished;
   } else {
     begin_round(round_ + 1);
   }
+}
+
+StageBeginning ValidationCore::stage_beginning() const {
+  const std::set<pattern::Pattern> settled = settled_patterns();
+  return {.round = round_ + 1,
+          .model = model_,
+          .measured = game::patterns_with_both(specimens_),
+          .benchmark = benchmark(),
+          .settled = {settled.begin(), settled.end()},
+          .floor = tables_.floor};
+}
+
+void ValidationCore::measure_families_when_chosen() {
+  if (!families_->has_chosen()) return;
+  ++round_;
+  phase_ = Phase::measuring;
+  send_orders(desk_.open_family_round(round_, families_->chosen()));
+  measure_on();
+}
+
+void ValidationCore::finish_families() {
+  families_->conclude(game::calibration_set(book_.specimens()), outputs_);
+  phase_ = Phase::finished;
+  send("ROUND", last_round_);
 }
 
 wire::RoundSummary ValidationCore::summary() const {

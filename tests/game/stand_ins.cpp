@@ -10,6 +10,7 @@
 #include "proposal_agent/proposal_core.hpp"
 #include "proposal_agent/selection_work.hpp"
 #include "simulator_farm/farm_core.hpp"
+#include "validation_agent/family_work.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::game_test {
@@ -221,7 +222,7 @@ void add_players(InProcessGame& game, const game::Scenario& scenario, const Labo
                  std::function<diagnosis_t(int)> diagnosis, std::set<std::string> failing) {
   game.add("simulator_farm", simulator_farm::make_core(scenario), closed_form_work(std::move(failing)));
   game.add("proposal_agent", proposal_agent::make_core(scenario), proposal_agent::work_functions());
-  game.add("validation_agent", validation_agent::make_core(scenario));
+  game.add("validation_agent", validation_agent::make_core(scenario), validation_agent::work_functions({}));
   if (scenario.laboratory.virtual_lab) game.add("virtual_lab", make_laboratory(laboratory));
   game.add("analyser", make_analyser(std::move(diagnosis)));
 }

@@ -297,6 +297,27 @@ TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
   EXPECT_TRUE(analyser.core.status().finished);
 }
 
+TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
+  Watched analyser;
+  analyser.hear("PARAMETERS", model_of(1));
+  analyser.hear("ROUND", round_of(1, false));
+  analyser.finish_stores();
+  analyser.finish(analyser.ids("report").at(0));
+  wire::Family family;
+  family.name = "family-1";
+  family.parameters = material::default_parameters();
+  analyser.hear("FAMILY", wire::write(family));
+  analyser.hear("FAMILY_GAMUT", wire::write(wire::GamutChunk{}));
+  EXPECT_THAT(analyser.ids("store"), SizeIs(4)) << "kept like everything else";
+  analyser.finish_stores();
+  EXPECT_FALSE(analyser.core.status().finished);
+  analyser.hear("ROUND", round_of(1, true));
+  analyser.hear("ROUND", round_of(1, false));  // an old word that comes late
+  analyser.finish_stores();
+  analyser.finish(analyser.ids("report").at(1));
+  EXPECT_TRUE(analyser.core.status().finished);
+}
+
 TEST(Analyser, LateMessagesAfterTheLastRoundReachTheReport) {
   Watched analyser;
   analyser.hear("PARAMETERS", model_of(0));

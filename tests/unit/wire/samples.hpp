@@ -93,6 +93,22 @@ inline GamutChunk gamut() {
   return {1, tester::Fidelity::tiny, 0, 1, {{pattern::Pattern(7), {1e9, 2e6}}, {pattern::Pattern(8), {2e9, 1e6}}}};
 }
 
+inline Family family() {
+  Family family;
+  family.round = 4;
+  family.fidelity = tester::Fidelity::preview;
+  family.number = 1;
+  family.count = 3;
+  family.name = "family-2";
+  family.is_validated = true;
+  family.parameters = parameters();
+  family.simulations = 170;
+  family.samples = 300;
+  family.designs = {{pattern::Pattern(0x577fffe9fffdef), true, {1.5e9, 4e5}, {1.6e9, 3e5}, {1.5e9, 4.1e5}},
+                    {pattern::Pattern(0x3ffc9b4ad4d2d9), false, {1.4e9, {}}, {1.3e9, 3e5}, {1.2e9, {}}}};
+  return family;
+}
+
 inline Proposal proposal() {
   Proposal proposal;
   proposal.round = 1;
@@ -165,6 +181,8 @@ inline std::vector<std::pair<std::string, std::string>> payloads() {
           {"DIAGNOSE", write(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}})},
           {"DIAGNOSIS", encode(diagnosis())},
           {"ROUND", write(round())},
+          {"FAMILY", write(family())},
+          {"FAMILY_GAMUT", write(gamut())},
           {"ACK", encode(ack)},
           {"STATUS", encode(status)}};
 }

@@ -1,0 +1,41 @@
+#pragma once
+// The family stage after the game (thesis 2.4.1): the designs of a family, and whether its own model is worth more than
+// the global one.
+
+#include <optional>
+#include <span>
+
+#include "pattern/layout.hpp"
+#include "sysid/calibration.hpp"
+
+namespace nacre::game {
+
+/// E and T of one design as far as they are known, Pa.
+struct DesignValues {
+  std::optional<double> modulus_pa, toughness_pa;
+  bool operator==(const DesignValues&) const = default;
+};
+
+/// A design of a family, as in a row of Tables A.5 and A.6.
+struct FamilyDesign {
+  pattern::Pattern pattern;
+  bool is_seed = false;       ///< a measured design that the family grew from; else chosen from its variants
+  DesignValues measured;
+  DesignValues global_model;  ///< predicted by the model of the game's last round
+  DesignValues family_model;  ///< and by the family's own; of chosen designs before they were measured
+  bool operator==(const FamilyDesign&) const = default;
+};
+
+/// Tables 3.6 (seeds) and 3.7 (chosen designs) of one family.
+struct FamilyErrors {
+  sysid::PredictionErrors seeds_global, seeds_family, chosen_global, chosen_family;
+  /// The family's model knows the seeds better than the global one and the chosen designs worse: it over-fits. False
+  /// before the chosen designs are measured.
+  bool over_fits_modulus() const;
+  bool over_fits_toughness() const;
+  bool operator==(const FamilyErrors&) const = default;
+};
+
+FamilyErrors family_errors(std::span<const FamilyDesign> designs);
+
+}  // namespace nacre::game

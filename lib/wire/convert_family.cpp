@@ -1,0 +1,94 @@
+// Conversions of FAMILY.
+
+#include "wire/checks.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::wire {
+namespace {
+
+using game::FamilyDesign;
+
+constexpr std::size_t kMostDesigns = 500;  // of a message below 60 kB
+
+std::optional<double> value_or_none(double value_pa) {
+  return value_pa > 0.0 ? std::optional<double>(value_pa) : std::nullopt;
+}
+
+family_design_t to_wire_design(const FamilyDesign& design) {
+  return {static_cast<std::int64_t>(design.pattern.bits()),
+          design.is_seed,
+          design.measured.modulus_pa.value_or(0.0),
+          design.measured.toughness_pa.value_or(0.0),
+          design.global_model.modulus_pa.value_or(0.0),
+          design.global_model.toughness_pa.value_or(0.0),
+          design.family_model.modulus_pa.value_or(0.0),
+          design.family_model.toughness_pa.value_or(0.0)};
+}
+
+Result<FamilyDesign> design_of(const family_design_t& message) {
+  const Result<pattern::Pattern> pattern = pattern_from_bits(message.pattern);
+  if (!pattern) return tl::unexpected(pattern.error());
+  const Result<void> sound = all_of(expect_pressure("measured_modulus_pa", message.measured_modulus_pa),
+                                    expect_pressure("measured_toughness_pa", message.measured_toughness_pa),
+                                    expect_pressure("global_modulus_pa", message.global_modulus_pa),
+                                    expect_pressure("global_toughness_pa", message.global_toughness_pa),
+                                    expect_pressure("family_modulus_pa", message.family_modulus_pa),
+                                    expect_pressure("family_toughness_pa", message.family_toughness_pa));
+  if (!sound) return tl::unexpected(sound.error());
+  return FamilyDesign{
+      .pattern = *pattern,
+      .is_seed = message.is_seed != 0,
+      .measured = {value_or_none(message.measured_modulus_pa), value_or_none(message.measured_toughness_pa)},
+      .global_model = {value_or_none(message.global_modulus_pa), value_or_none(message.global_toughness_pa)},
+      .family_model = {value_or_none(message.family_modulus_pa), value_or_none(message.family_toughness_pa)}};
+}
+
+}  // namespace
+
+family_t to_wire(const Family& family) {
+  family_t message{};
+  message.round = family.round;
+  message.fidelity = to_wire(family.fidelity);
+  message.number = family.number;
+  message.count = family.count;
+  message.name = family.name;
+  message.is_validated = family.is_validated;
+  message.parameters = to_wire(family.parameters);
+  message.simulations = family.simulations;
+  message.samples = family.samples;
+  for (const FamilyDesign& design : family.designs) message.designs.push_back(to_wire_design(design));
+  return message;
+}
+
+Result<Family> from_wire(const family_t& message) {
+  constexpr std::string_view type = "family_t";
+  const Result<void> sound =
+      all_of(expect_round(message.round), expect_range("count", message.count, 1, 1000),
+             expect_range("number", message.number, 0, message.count - 1), expect_name("name", message.name),
+             expect_range("simulations", message.simulations, 0, kLargestCount),
+             expect_range("samples", message.samples, 0, kLargestCount),
+             expect_count("designs", message.designs.size(), kMostDesigns));
+  if (!sound) return in_type(type, sound.error());
+  const Result<tester::Fidelity> fidelity = fidelity_from_wire(message.fidelity);
+  if (!fidelity) return in_type(type, fidelity.error());
+  const Result<material::ParameterSet> parameters = from_wire(message.parameters);
+  if (!parameters) return in_type(type, parameters.error());
+  Family family{.round = message.round,
+                .fidelity = *fidelity,
+                .number = message.number,
+                .count = message.count,
+                .name = message.name,
+                .is_validated = message.is_validated != 0,
+                .parameters = *parameters,
+                .simulations = message.simulations,
+                .samples = message.samples,
+                .designs = {}};
+  for (const family_design_t& each : message.designs) {
+    const Result<FamilyDesign> design = design_of(each);
+    if (!design) return in_type(type, design.error());
+    family.designs.push_back(*design);
+  }
+  return family;
+}
+
+}  // namespace nacre::wire

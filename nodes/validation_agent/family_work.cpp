@@ -1,0 +1,112 @@
+#include "validation_agent/family_work.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/files.hpp"
+#include "families/dense_sampling.hpp"
+#include "runtime/journal.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::validation_agent {
+namespace {
+
+constexpr const char* kFamiliesFile = "families.toml";
+
+// What this program wrote itself must read back.
+template <class T>
+T expected(Result<T> result) {
+  if (!result) throw std::logic_error("work of the family stage: " + result.error().message);
+  return *std::move(result);
+}
+
+std::vector<families::Member> members_from(const std::string& payload) {
+  std::vector<families::Member> members;
+  for (const explore::Evaluated& each : expected(wire::read<wire::GamutChunk>(payload)).samples)
+    members.push_back({each.pattern, each.performance});
+  return members;
+}
+
+/// Seeds must be measured: the calibration stands on them.
+void check_seeds(const std::vector<families::Family>& families, const std::vector<families::Member>& measured,
+                 const std::filesystem::path& file) {
+  for (const families::Family& family : families) {
+    for (const pattern::Pattern& seed : family.seeds) {
+      if (std::ranges::count(measured, seed, &families::Member::pattern) == 0)
+        throw InputError::format("{}: family '{}': seed {} is not measured in both tests", file.string(), family.name,
+                                 seed.key());
+    }
+  }
+}
+
+std::string grouping_work(const std::filesystem::path& folder, const std::string& spec) {
+  const std::vector<std::string> fields = expected(runtime::unpack(spec));
+  const std::vector<families::Member> measured = members_from(fields.at(0));
+  const std::filesystem::path file = folder / kFamiliesFile;
+  const auto answer = [](const std::vector<families::Family>& families, const std::string& remark, bool is_faulty) {
+    return runtime::pack({families::to_toml(families), remark, is_faulty ? "faulty" : ""});
+  };
+  const auto proposed = families::proposed_families(families::near_pareto(measured, std::stoi(fields.at(1))));
+  if (!folder.empty() && std::filesystem::exists(file)) {
+    try {
+      const std::vector<families::Family> chosen = families::read_families(file);
+      check_seeds(chosen, measured, file);
+      // A file that says what would be proposed may be this program's own, from before a restart.
+      if (chosen != proposed) return answer(chosen, fmt::format("{} families of {}", chosen.size(), kFamiliesFile), false);
+    } catch (const InputError& error) {
+      return answer(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()), true);
+    }
+  }
+  if (!folder.empty()) {
+    std::filesystem::create_directories(folder);
+    write_file_atomically(file, families::to_toml(proposed));
+  }
+  return answer(proposed, fmt::format("{} families proposed by pattern and properties", proposed.size()), false);
+}
+
+std::string sampling_work(const std::string& spec) {
+  const std::vector<std::string> fields = expected(runtime::unpack(spec));
+  const std::vector<families::Family> families = families::parse_families(fields.at(0), "a sampling");
+  families::DenseSampler sampler(families.at(0).seeds, {.seed = std::stoull(fields.at(2))});
+  const auto wanted = static_cast<std::size_t>(std::stoi(fields.at(1)));
+  while (sampler.members().size() < wanted && !sampler.exhausted()) sampler.next();
+  std::vector<std::string> keys;
+  for (const pattern::Pattern& member : sampler.members()) keys.push_back(member.key());
+  return runtime::pack(keys);
+}
+
+}  // namespace
+
+std::string grouping_spec(const std::vector<families::Member>& measured, int rank) {
+  wire::GamutChunk chunk;
+  for (const families::Member& each : measured) chunk.samples.push_back({each.pattern, each.performance});
+  return runtime::pack({wire::write(chunk), std::to_string(rank)});
+}
+
+Grouping grouping_from(const std::string& result) {
+  const std::vector<std::string> fields = expected(runtime::unpack(result));
+  return {.families = families::parse_families(fields.at(0), "a grouping"),
+          .remark = fields.at(1),
+          .file_is_faulty = !fields.at(2).empty()};
+}
+
+std::string sampling_spec(const families::Family& family, int samples, std::uint64_t seed) {
+  return runtime::pack({families::to_toml({family}), std::to_string(samples), std::to_string(seed)});
+}
+
+std::vector<pattern::Pattern> sample_from(const std::string& result) {
+  std::vector<pattern::Pattern> sample;
+  for (const std::string& key : expected(runtime::unpack(result)))
+    sample.push_back(pattern::Pattern::from_layout(expected(pattern::layout_from_key(key))).value());
+  return sample;
+}
+
+std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir) {
+  const std::filesystem::path folder = run_dir.empty() ? run_dir : run_dir / "families";
+  return {{"group_families", [folder](const std::string& spec) { return grouping_work(folder, spec); }},
+          {"sample_family", sampling_work}};
+}
+
+}  // namespace nacre::validation_agent
