@@ -110,7 +110,7 @@ std::vector<Exhibit> exhibits_of(const PaperSource& source) {
 std::string render_paper(const PaperSource& source, const std::vector<Exhibit>& exhibits) {
   constexpr std::string_view kExtraStyle =
       ".design { display: inline-flex; align-items: center; gap: 8px; } figure { margin: 0; max-width: 220px; font-size: 13px; } "
-      "figcaption { color: var(--quiet); } td { font-size: 13px; } @media print { .files { display: none; } }";
+      "figcaption { color: var(--quiet); } td { font-size: 13px; } td:first-child { white-space: nowrap; } @media print { .files { display: none; } }";
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

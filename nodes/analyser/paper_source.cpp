@@ -84,6 +84,16 @@ game::DesignValues as_measured(const optimize::Performance& simulated, const tes
   return {shown.modulus_pa, shown.toughness_pa};
 }
 
+/// Whether two sets of eta are the same to a test of this design: of a pure material only its own constants count.
+bool same_toughness_model(const pattern::Design& design, const material::ToughnessParameters& a, const material::ToughnessParameters& b) {
+  const std::string name = design.name();
+  if (a.gamma_per_s != b.gamma_per_s) return false;
+  if (name == "soft") return a.e_tb_pa == b.e_tb_pa && a.nu_tb == b.nu_tb && a.w_tb_j_per_m3 == b.w_tb_j_per_m3;
+  if (name == "rigid") return a.e_vw_pa == b.e_vw_pa && a.nu_vw == b.nu_vw && a.w_vw_j_per_m3 == b.w_vw_j_per_m3;
+  if (name == "interface") return a.e_if_pa == b.e_if_pa && a.nu_if == b.nu_if && a.w_if_j_per_m3 == b.w_if_j_per_m3;
+  return a == b;
+}
+
 /// What adopted models say of designs under standard conditions, as far as the validation agent ever asked.
 Answers answers_in(const FarmTalk& talk, const std::map<int, material::ParameterSet>& models) {
   Answers answers;
@@ -94,8 +104,8 @@ Answers answers_in(const FarmTalk& talk, const std::map<int, material::Parameter
       const material::ParameterSet own = game::material_side(model);
       if (own.extensions != request.parameters.extensions) continue;
       const bool modulus = request.modulus && own.modulus == request.parameters.modulus;
-      const bool toughness = request.toughness && own.toughness == request.parameters.toughness;
       for (const wire::SimulatedDesign& design : answer->second) {
+        const bool toughness = request.toughness && same_toughness_model(design.design, own.toughness, request.parameters.toughness);
         if (!design.failure.empty() || (!modulus && !toughness)) continue;
         game::DesignValues& values = answers[round][design.design.name()];
         const game::DesignValues shown = as_measured({design.modulus_pa, design.toughness_pa}, design.curve, model.extensions);

@@ -1,6 +1,7 @@
 #include "validation_agent/family_work.hpp"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -73,7 +74,9 @@ std::string sampling_work(const std::string& spec) {
   const auto wanted = static_cast<std::size_t>(std::stoi(fields.at(1)));
   while (sampler.members().size() < wanted && !sampler.exhausted()) sampler.next();
   std::vector<std::string> keys;
-  for (const pattern::Pattern& member : sampler.members()) keys.push_back(member.key());
+  // The last batch may be more than was wanted; seeds, which come first, stay whatever is wanted.
+  const std::size_t count = std::min(sampler.members().size(), std::max(wanted, families.at(0).seeds.size()));
+  for (const pattern::Pattern& member : std::span(sampler.members()).first(count)) keys.push_back(member.key());
   return runtime::pack(keys);
 }
 

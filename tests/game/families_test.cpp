@@ -152,7 +152,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) chosen.push_back(design.pattern);
   }
-  ASSERT_FALSE(chosen.empty());
+  ASSERT_FALSE(chosen.empty()) << game.status_of("validation_agent").phase << "; " << testing::PrintToString(game.complaints_of("validation_agent"));
   for (const pattern::Pattern& each : chosen) decide(2, each, each != chosen.front());
   game.play();
   ASSERT_FALSE(validated(game).empty());
