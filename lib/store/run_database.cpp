@@ -163,12 +163,9 @@ void keep(SQLite::Database& db, const wire::Family& f) {
   }
 }
 
-/// FAMILY_GAMUT: a gamut whose round is the number of a family.
-void keep_variants(SQLite::Database& db, const std::string& payload) {
-  const auto chunk = wire::read<wire::GamutChunk>(payload);
-  if (!chunk) return;
-  for (const explore::Evaluated& sample : chunk->samples) {
-    run(db, "INSERT OR REPLACE INTO family_gamut VALUES (?,?,?,?)", chunk->round, sample.pattern.key(), sample.performance.modulus_pa, sample.performance.toughness_pa);
+void keep(SQLite::Database& db, const wire::FamilyGamut& g) {
+  for (const explore::Evaluated& sample : g.samples) {
+    run(db, "INSERT OR REPLACE INTO family_gamut VALUES (?,?,?,?)", g.number, sample.pattern.key(), sample.performance.modulus_pa, sample.performance.toughness_pa);
   }
 }
 
@@ -192,7 +189,7 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
   if (channel == "SIMULATED") keep_domain<wire::SimulateResult>(db, payload);
   if (channel == "FRACTURE") keep_domain<wire::Fracture>(db, payload);
   if (channel == "FAMILY") keep_domain<wire::Family>(db, payload);
-  if (channel == "FAMILY_GAMUT") keep_variants(db, payload);
+  if (channel == "FAMILY_GAMUT") keep_domain<wire::FamilyGamut>(db, payload);
   if (channel == "REVIEW") keep_message<review_t>(db, payload);
   if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);
 }

@@ -56,7 +56,7 @@ std::vector<Channel> make_channels() {
       type_channel<diagnosis_t>("DIAGNOSIS", {"validation_agent", "proposal_agent"}),
       domain_channel<RoundSummary>("ROUND", everyone),
       domain_channel<Family>("FAMILY", {"analyser"}),
-      domain_channel<GamutChunk>("FAMILY_GAMUT", {"analyser"}),
+      domain_channel<FamilyGamut>("FAMILY_GAMUT", {"analyser"}),
       type_channel<ack_t>("ACK", everyone, false),
       type_channel<node_status_t>("STATUS", everyone, false),
   };

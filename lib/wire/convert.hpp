@@ -177,6 +177,17 @@ struct Family {
   bool operator==(const Family&) const = default;
 };
 
+/// FAMILY_GAMUT: one chunk of a family's variants.
+struct FamilyGamut {
+  using Wire = family_gamut_t;
+  int number = 0;  ///< of the family
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  int chunk = 0;
+  int chunks = 1;
+  std::vector<explore::Evaluated> samples;
+  bool operator==(const FamilyGamut&) const = default;
+};
+
 /// ROUND: hypervolumes and gap in GPa MPa.
 struct RoundSummary {
   using Wire = round_summary_t;
@@ -210,6 +221,8 @@ Result<Fracture> from_wire(const fracture_t& message);
 Result<SimulateResult> from_wire(const simulate_result_t& message);
 family_t to_wire(const Family& family);
 Result<Family> from_wire(const family_t& message);
+family_gamut_t to_wire(const FamilyGamut& gamut);
+Result<FamilyGamut> from_wire(const family_gamut_t& message);
 gamut_t to_wire(const GamutChunk& chunk);
 Result<GamutChunk> from_wire(const gamut_t& message);
 proposal_t to_wire(const Proposal& proposal);
@@ -255,6 +268,10 @@ std::vector<SimulateResult> simulate_answer(const std::string& request_id, const
 
 /// Cuts a gamut into chunks of at most kGamutChunk samples; an empty gamut is one empty chunk.
 std::vector<GamutChunk> gamut_chunks(int round, tester::Fidelity fidelity, std::span<const explore::Evaluated> samples);
+
+/// Cuts the variants of a family into chunks as gamut_chunks() does.
+std::vector<FamilyGamut> family_gamut_chunks(int number, tester::Fidelity fidelity,
+                                             std::span<const explore::Evaluated> samples);
 
 /// Joins the chunks of answers to requests, in any order and any number of times.
 class AnswerCollector {

@@ -91,4 +91,39 @@ Result<Family> from_wire(const family_t& message) {
   return family;
 }
 
+family_gamut_t to_wire(const FamilyGamut& gamut) {
+  const gamut_t same = to_wire(GamutChunk{gamut.number, gamut.fidelity, gamut.chunk, gamut.chunks, gamut.samples});
+  family_gamut_t message{};
+  message.number = gamut.number;
+  message.fidelity = same.fidelity;
+  message.chunk = gamut.chunk;
+  message.chunks = gamut.chunks;
+  message.pattern = same.pattern;
+  message.modulus_pa = same.modulus_pa;
+  message.toughness_pa = same.toughness_pa;
+  return message;
+}
+
+Result<FamilyGamut> from_wire(const family_gamut_t& message) {
+  gamut_t same{};
+  same.round = message.number;
+  same.fidelity = message.fidelity;
+  same.chunk = message.chunk;
+  same.chunks = message.chunks;
+  same.pattern = message.pattern;
+  same.modulus_pa = message.modulus_pa;
+  same.toughness_pa = message.toughness_pa;
+  Result<GamutChunk> chunk = from_wire(same);
+  if (!chunk) return in_type("family_gamut_t", chunk.error());
+  return FamilyGamut{message.number, chunk->fidelity, chunk->chunk, chunk->chunks, std::move(chunk->samples)};
+}
+
+std::vector<FamilyGamut> family_gamut_chunks(int number, tester::Fidelity fidelity,
+                                             std::span<const explore::Evaluated> samples) {
+  std::vector<FamilyGamut> chunks;
+  for (GamutChunk& chunk : gamut_chunks(number, fidelity, samples))
+    chunks.push_back({number, fidelity, chunk.chunk, chunk.chunks, std::move(chunk.samples)});
+  return chunks;
+}
+
 }  // namespace nacre::wire

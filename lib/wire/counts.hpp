@@ -10,6 +10,7 @@
 #include "nacre/approval_t.hpp"
 #include "nacre/diagnose_request_t.hpp"
 #include "nacre/diagnosis_t.hpp"
+#include "nacre/family_gamut_t.hpp"
 #include "nacre/family_t.hpp"
 #include "nacre/fracture_t.hpp"
 #include "nacre/gamut_t.hpp"
@@ -49,6 +50,9 @@ inline void set_counts(diagnosis_t& m) {
   m.n_effects = common_length("diagnosis_t", m.effects);
   m.n_candidates = common_length("diagnosis_t", m.candidates);
   m.n_next_experiments = common_length("diagnosis_t", m.next_experiments);
+}
+inline void set_counts(family_gamut_t& m) {
+  m.n = common_length("family_gamut_t", m.pattern, m.modulus_pa, m.toughness_pa);
 }
 inline void set_counts(family_t& m) {
   set_counts(m.parameters);

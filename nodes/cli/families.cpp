@@ -95,9 +95,9 @@ std::vector<StagedFamily> staged_families(const RunAccess& run) {
   for (const std::string& payload : sent_by_validation_agent(run, "FAMILY"))
     if (auto family = wire::read<wire::Family>(payload)) families[family->number].stated = std::move(*family);
   for (const std::string& payload : sent_by_validation_agent(run, "FAMILY_GAMUT")) {
-    const auto chunk = wire::read<wire::GamutChunk>(payload);
+    const auto chunk = wire::read<wire::FamilyGamut>(payload);
     if (!chunk) continue;
-    auto& variants = families[chunk->round].variants;
+    auto& variants = families[chunk->number].variants;
     variants.insert(variants.end(), chunk->samples.begin(), chunk->samples.end());
   }
   std::vector<StagedFamily> all;

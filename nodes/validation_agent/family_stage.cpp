@@ -213,7 +213,7 @@ void FamilyStage::finish_family(runtime::Outputs& outputs) {
       fmt::format("{}: {} seeds, {} variants; on the seeds the global model misses by {}, its own by {}", family.name,
                   groups_[families_.size() - 1].seeds.size(), family.samples, errors_in_words(errors.seeds_global),
                   errors_in_words(errors.seeds_family)));
-  for (const wire::GamutChunk& chunk : wire::gamut_chunks(family.number, family.fidelity, gamut_))
+  for (const wire::FamilyGamut& chunk : wire::family_gamut_chunks(family.number, family.fidelity, gamut_))
     outputs.messages.push_back({"FAMILY_GAMUT", wire::write(chunk)});
   outputs.messages.push_back({"FAMILY", wire::write(family)});
   begin_family(outputs);

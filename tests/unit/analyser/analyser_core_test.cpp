@@ -307,7 +307,7 @@ TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   family.name = "family-1";
   family.parameters = material::default_parameters();
   analyser.hear("FAMILY", wire::write(family));
-  analyser.hear("FAMILY_GAMUT", wire::write(wire::GamutChunk{}));
+  analyser.hear("FAMILY_GAMUT", wire::write(wire::FamilyGamut{}));
   EXPECT_THAT(analyser.ids("store"), SizeIs(4)) << "kept like everything else";
   analyser.finish_stores();
   EXPECT_FALSE(analyser.core.status().finished);

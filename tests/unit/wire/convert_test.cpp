@@ -25,6 +25,7 @@ TEST(Convert, EveryDomainValueComesBack) {
   expect_round_trip(samples::measurement());
   expect_round_trip(samples::round());
   expect_round_trip(samples::family());
+  expect_round_trip(samples::family_gamut());
   expect_round_trip(DiagnoseRequest{1, tester::Fidelity::full, material::default_parameters(), {"a", "b"}});
 }
 

@@ -93,6 +93,10 @@ inline GamutChunk gamut() {
   return {1, tester::Fidelity::tiny, 0, 1, {{pattern::Pattern(7), {1e9, 2e6}}, {pattern::Pattern(8), {2e9, 1e6}}}};
 }
 
+inline FamilyGamut family_gamut() {
+  return {2, tester::Fidelity::preview, 0, 1, {{pattern::Pattern(0x577fffe9fffdef), {1.5e9, 4e5}}}};
+}
+
 inline Family family() {
   Family family;
   family.round = 4;
@@ -182,7 +186,7 @@ inline std::vector<std::pair<std::string, std::string>> payloads() {
           {"DIAGNOSIS", encode(diagnosis())},
           {"ROUND", write(round())},
           {"FAMILY", write(family())},
-          {"FAMILY_GAMUT", write(gamut())},
+          {"FAMILY_GAMUT", write(family_gamut())},
           {"ACK", encode(ack)},
           {"STATUS", encode(status)}};
 }
