@@ -56,17 +56,24 @@ struct Coverage {
   int covered = 0, determined = 0;
 };
 
-/// How many of the parameters called determined have their true value in the 90 % interval.
-Coverage coverage_of(const Calibrated& calibrated, const virtual_laboratory::Truth& truth) {
+/// How many of the parameters called determined have their true value in the 90 % interval; each parameter is a row of
+/// `intervals` behind `cells`.
+Coverage coverage_of(const Calibrated& calibrated, const virtual_laboratory::Truth& truth,
+                     const std::vector<std::string>& cells, Table& intervals) {
   const material::ModulusVector theta = to_vector(truth.modulus);
   const material::ToughnessVector eta = to_vector(truth.toughness);
   Coverage coverage;
   for (std::size_t j = 0; j < calibrated.estimates.size(); ++j) {
     const sysid::ParameterEstimate& estimate = calibrated.estimates[j];
-    if (!estimate.determined) continue;
     const double value = j < theta.size() ? theta[j] : eta[j - theta.size()];
-    ++coverage.determined;
-    coverage.covered += estimate.low90 <= value && value <= estimate.high90;
+    std::vector<std::string> row(cells.begin(), cells.begin() + kKeyColumns);
+    row.push_back(estimate.name);
+    for (const double number : {value, estimate.value, estimate.low90, estimate.high90})
+      row.push_back(fmt::format("{:.5g}", number));
+    row.push_back(estimate.determined ? "1" : "0");
+    intervals.add(row);
+    coverage.determined += estimate.determined;
+    coverage.covered += estimate.determined && estimate.low90 <= value && value <= estimate.high90;
   }
   return coverage;
 }
@@ -113,7 +120,11 @@ Calibrated calibrate(const Case& study_case, const sysid::CalibrationSettings& s
                                         progress);
 }
 
-void study_one(const Options& options, std::uint64_t seed, const std::string& search, Table& table, Table& curves,
+struct Tables {
+  Table held_out, convergence, intervals;
+};
+
+void study_one(const Options& options, std::uint64_t seed, const std::string& search, Tables& tables,
                const std::function<void()>& may_go_on) {
   std::string effect = options.effects.empty() ? "none" : "";
   for (const std::string& each : options.effects) effect += (effect.empty() ? "" : "+") + each;
@@ -124,7 +135,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
       options.begin_at.empty() ? search : fmt::format("{} after {}", search, options.begin_at),
       std::to_string(options.fitted),
       std::to_string(options.budget)};
-  if (table.has(cells)) return;
+  if (tables.held_out.has(cells)) return;
   const Case study_case = measured_case(seed, options, may_go_on);
   sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   sysid::CalibrationSettings settings;
@@ -146,7 +157,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   const PredictionErrors mean = sysid::prediction_errors(study_case.held_out, sysid::mean_prediction(predictions));
   const Baselines baselines = baselines_of(study_case);
   const Floor floor = floor_of(study_case, simulator, may_go_on);
-  const Coverage coverage = coverage_of(calibrated, study_case.truth);
+  const Coverage coverage = coverage_of(calibrated, study_case.truth, cells, tables.intervals);
   cells.push_back(std::to_string(calibrated.simulations));
   append(cells, {calibrated.modulus_objective_after,
                  calibrated.toughness_objective_after,
@@ -173,7 +184,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   cells.push_back(std::to_string(coverage.determined));
   append(cells, {calibrated.modulus_fit.p_value, calibrated.toughness_fit.p_value,
                  calibrated.modulus_fit.chi_squared_replicates, calibrated.toughness_fit.chi_squared_replicates});
-  table.add(cells);
+  tables.held_out.add(cells);
   fmt::print(
       "{} {} seed {} {:12} n {} budget {}: T objective {:.3f}  E held out {:.4f}  T held out {:.3f} (mean of ensemble "
       "{:.3f}; line {:.3f}, floor {:.3f})  "
@@ -184,8 +195,9 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
       coverage.determined);
   std::fflush(stdout);
   for (std::size_t k = 0; k < calibrated.toughness_objectives.size(); ++k) {
-    curves.add({options.fidelity, effect, std::to_string(seed), cells[3], std::to_string(options.fitted),
-                std::to_string(options.budget), std::to_string(k + 1), number(calibrated.toughness_objectives[k])});
+    tables.convergence.add({options.fidelity, effect, std::to_string(seed), cells[3], std::to_string(options.fitted),
+                            std::to_string(options.budget), std::to_string(k + 1),
+                            number(calibrated.toughness_objectives[k])});
   }
 }
 
@@ -202,12 +214,17 @@ void measure_laboratories(const Options& options) {
 
 void study_held_out(const Options& options) {
   const auto may_go_on = deadline(options.minutes);
-  Table table(options.out + "/held_out.csv", kColumns, kKeyColumns);
-  Table curves(options.out + "/convergence.csv",
-               {"fidelity", "effect", "seed", "search", "fitted", "budget", "evaluation", "T_objective"}, 7);
+  Tables tables = {
+      Table(options.out + "/held_out.csv", kColumns, kKeyColumns),
+      Table(options.out + "/convergence.csv",
+            {"fidelity", "effect", "seed", "search", "fitted", "budget", "evaluation", "T_objective"}, kKeyColumns + 1),
+      Table(options.out + "/intervals.csv",
+            {"fidelity", "effect", "seed", "search", "fitted", "budget", "parameter", "truth", "estimate", "low90",
+             "high90", "determined"},
+            kKeyColumns + 1)};
   for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
     for (const std::string& search : options.searches) {
-      study_one(options, static_cast<std::uint64_t>(seed), search, table, curves, may_go_on);
+      study_one(options, static_cast<std::uint64_t>(seed), search, tables, may_go_on);
     }
   }
 }

@@ -222,18 +222,16 @@ struct Calibration::State {
   template <class Vector>
   void add_estimates(std::string_view table, std::span<const std::string_view> names,
                      std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit) {
-    constexpr double kReach90 = 1.645;  // standard deviations
-    std::vector<double> deviations;
-    if (fit != nullptr) deviations = fit->deviations();
-    deviations.resize(vector.size(), kUnknownDeviation);  // theta's gamma is not searched
+    std::vector<CoordinateInterval> intervals;
+    if (fit != nullptr) intervals = fit->intervals();
+    intervals.resize(vector.size(), {0.0, 1.0, kUnknownDeviation});  // theta's gamma is not searched
     for (std::size_t j = 0; j < vector.size(); ++j) {
       ParameterEstimate estimate{fmt::format("{}.{}", table, names[j]), vector[j], ranges[j].minimum, ranges[j].maximum,
                                  false};
-      estimate.determined = deviations[j] < 0.5 * kUnknownDeviation;
+      estimate.determined = intervals[j].deviation < 0.5 * kUnknownDeviation;
       if (estimate.determined) {
-        const double unit = to_unit(ranges[j], vector[j]), reach = kReach90 * deviations[j];
-        estimate.low90 = from_unit(ranges[j], std::max(0.0, unit - reach));
-        estimate.high90 = from_unit(ranges[j], std::min(1.0, unit + reach));
+        estimate.low90 = from_unit(ranges[j], intervals[j].low90);
+        estimate.high90 = from_unit(ranges[j], intervals[j].high90);
       }
       result.estimates.push_back(std::move(estimate));
     }

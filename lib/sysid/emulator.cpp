@@ -36,6 +36,17 @@ double matern52(double distance) {
   return (1.0 + r + r * r / 3.0) * std::exp(-r);
 }
 
+/// Distance over which what is not linear changes. The common scales of moduli and of failure energies hardly count:
+/// dimensions fix what they do, but for inertia, damping and large strains.
+double curved_distance(Eigen::VectorXd difference) {
+  constexpr double kScaleShare = 0.2;
+  for (const int first : {kE0, kW0}) {
+    auto group = difference.segment<3>(first);
+    group.array() -= (1.0 - kScaleShare) * group.mean();
+  }
+  return difference.norm();
+}
+
 double prior_mean(const std::array<double, kEtaCount>& slope, const Eigen::VectorXd& at) {
   double sum = 0.0;
   for (int j = 0; j < kEtaCount; ++j) sum += slope[static_cast<std::size_t>(j)] * at[j];
@@ -84,7 +95,7 @@ double FeatureEmulator::covariance(const Eigen::VectorXd& a, const Eigen::Vector
                         group_covariance(prior_, from_a.data() + kW0, from_b.data() + kW0) +
                         square(kPoissonDeviation) * from_a.segment<3>(kNu0).dot(from_b.segment<3>(kNu0)) +
                         square(kGammaDeviation) * from_a[kGamma] * from_b[kGamma];
-  const double distance = (a - b).norm() / prior_.curved_length;
+  const double distance = curved_distance(a - b) / prior_.curved_length;
   return square(kOffsetDeviation) + linear + square(prior_.curved_deviation) * matern52(distance);
 }
 
@@ -223,6 +234,11 @@ double FeatureEmulator::deviation(const Point& point) const {
   return std::sqrt(std::max(0.0, prior - difference.dot(factor_.solve(difference))));
 }
 
+double FeatureEmulator::smooth_deviation(const Point& point) const {
+  const Eigen::VectorXd at = coordinates(point), to_inputs = covariances(at);
+  return std::sqrt(std::max(0.0, covariance(at, at) - factor_.matrixL().solve(to_inputs).squaredNorm()));
+}
+
 Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at, std::size_t design_count,
                                bool poisson_searched) {
   constexpr double kStep = 0.05;
@@ -269,7 +285,8 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
     weights[designs + i] = weights[i];
   }
   if (weights.sum() <= 0.0) return unknown;
-  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise, shared_fracture_errors(data.measured, floor));
+  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise,
+                              shared_fracture_errors(data.measured, floor));
 }
 
 void FeatureEmulator::add_pending(const Point& point) {

@@ -52,6 +52,8 @@ class FeatureEmulator {
   void predict_smooth(const Point& point, std::vector<FeatureChange>& changes) const;
   /// Standard deviation of that change; it does not depend on the design.
   double deviation(const Point& point) const;
+  /// Standard deviation of `point` as it would be without jumps: what predict_smooth() may be wrong by, in any design.
+  double smooth_deviation(const Point& point) const;
   /// A point whose result is not known yet: deviations become small around it.
   void add_pending(const Point& point);
 

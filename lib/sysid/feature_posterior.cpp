@@ -73,6 +73,32 @@ double FeaturePosterior::operator()(const Point& point, std::span<const FeatureC
   return cost;
 }
 
+double FeaturePosterior::operator()(const Point& point, std::span<const FeatureChange> changes, double deviation,
+                                    const Eigen::VectorXd& shared) const {
+  const Eigen::Index designs = static_cast<Eigen::Index>(toughness_.measured.size());
+  Eigen::VectorXd offsets = Eigen::VectorXd::Zero(2 * designs);
+  if (shared.size() > 0) offsets = shared_errors_ * shared;
+  double cost = 0.5 * shared.squaredNorm();
+  const auto add = [&](const Feature& feature, double FeatureChange::*change, Eigen::Index first) {
+    double sum = 0.0, count = 0.0;
+    for (Eigen::Index i = 0; i < designs; ++i) {
+      const std::size_t index = static_cast<std::size_t>(i);
+      const double residual =
+          feature.base[index] + changes[index].*change - offsets[first + i] - feature.measured[index];
+      if (std::isnan(residual)) continue;
+      const double variance = feature.variances[index] + square(deviation);
+      sum += square(residual) / variance;
+      cost += 0.5 * std::log(variance / feature.variances[index]);
+      count += 1.0;
+    }
+    cost += 0.5 * (count + kPriorFreedom) * std::log(kPriorFreedom + sum);
+  };
+  add(toughness_, &FeatureChange::log_toughness, 0);
+  add(peak_, &FeatureChange::log_peak, designs);
+  for (std::size_t j = 0; j < point.size(); ++j) cost += 0.5 * square((point[j] - start_[j]) / kUnknownDeviation);
+  return cost;
+}
+
 Eigen::VectorXd FeaturePosterior::learnt_variances() const {
   const Eigen::Index designs = static_cast<Eigen::Index>(toughness_.measured.size());
   Eigen::VectorXd variances = Eigen::VectorXd::Constant(2 * designs, std::numeric_limits<double>::infinity());
@@ -100,14 +126,6 @@ Eigen::MatrixXd FeaturePosterior::information(const Eigen::MatrixXd& slopes, con
 Eigen::MatrixXd FeaturePosterior::posterior_covariance(const Eigen::MatrixXd& slopes) const {
   const Eigen::MatrixXd precision = information(slopes, learnt_variances());
   return precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
-}
-
-Eigen::MatrixXd FeaturePosterior::estimate_covariance(const Eigen::MatrixXd& slopes) const {
-  const Eigen::VectorXd variances = learnt_variances();
-  const Eigen::MatrixXd covariance = posterior_covariance(slopes);
-  // The estimate moves by a column of `moves` for a shared error of normal size.
-  const Eigen::MatrixXd moves = covariance * slopes.transpose() * variances.cwiseInverse().asDiagonal() * shared_errors_;
-  return covariance + moves * moves.transpose();
 }
 
 }  // namespace nacre::sysid

@@ -17,12 +17,14 @@ class FeaturePosterior {
   void set_base(const Trial& trial);
   /// -log posterior density, constants left out, where the features of design i change by changes[i].
   double operator()(const Point& point, std::span<const FeatureChange> changes) const;
+  /// The same where the changes may be wrong by `deviation`, in each design and feature by itself, and the errors that
+  /// all designs share (shared_errors.hpp) have the sizes `shared`, which are standard normal; none: no such errors.
+  double operator()(const Point& point, std::span<const FeatureChange> changes, double deviation,
+                    const Eigen::VectorXd& shared) const;
+  Eigen::Index shared_error_count() const { return shared_errors_.cols(); }
   /// What the data leave possible around the base, in unit coordinates: residuals independent. `slopes` as
   /// feature_slopes() gives them.
   Eigen::MatrixXd posterior_covariance(const Eigen::MatrixXd& slopes) const;
-  /// How far the estimate may lie from the truth: beside scatter, what the floor has in common over all designs, which
-  /// parameters take over where they can.
-  Eigen::MatrixXd estimate_covariance(const Eigen::MatrixXd& slopes) const;
 
  private:
   struct Feature {

@@ -27,6 +27,12 @@ struct Trial {
   double objective = 0.0;
 };
 
+/// What the data tell of one coordinate of a fit's best point.
+struct CoordinateInterval {
+  double low90 = 0.0, high90 = 1.0;  ///< 90 % interval
+  double deviation = 0.0;            ///< standard deviation
+};
+
 class Fit {
  public:
   virtual ~Fit() = default;
@@ -40,9 +46,8 @@ class Fit {
   virtual const Trial& best() const = 0;
   /// Everything evaluated, in order.
   virtual const std::vector<Trial>& trials() const = 0;
-  /// Standard deviation of every coordinate of best().point as far as the data tell it (spread.hpp); kUnknownDeviation
-  /// where they do not, or were not asked.
-  virtual std::vector<double> deviations() const = 0;
+  /// Of every coordinate of best().point; the whole axis where the data tell nothing, or were not asked.
+  virtual std::vector<CoordinateInterval> intervals() const = 0;
   /// Points drawn from what the data leave possible around best().point; empty from fits that cannot tell.
   virtual std::vector<Point> plausible(int /*count*/) const { return {}; }
   /// Objective of the best trial of each search, when there are several side by side.

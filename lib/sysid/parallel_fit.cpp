@@ -40,7 +40,7 @@ class ParallelFit final : public Fit {
   const Trial& first() const override { return fits_.front()->first(); }
   const Trial& best() const override { return leader().best(); }
   const std::vector<Trial>& trials() const override { return trials_; }
-  std::vector<double> deviations() const override { return leader().deviations(); }
+  std::vector<CoordinateInterval> intervals() const override { return leader().intervals(); }
   std::vector<Point> plausible(int count) const override { return leader().plausible(count); }
 
   std::vector<double> best_objectives() const override {

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "base/random.hpp"
+#include "base/statistics.hpp"
+#include "optimize/ensemble_sampler.hpp"
 #include "optimize/sobol.hpp"
 #include "sysid/emulator.hpp"
 #include "sysid/eta_moves.hpp"
@@ -24,6 +26,9 @@ constexpr int kIdleBatches = 4;  // in a row within the smallest radius without 
 /// common scales of moduli and failure energies; what these leave has valleys longer than a trust region's way.
 constexpr std::array<std::size_t, 5> kSplits = {kE0, kE0 + 2, kW0, kW0 + 2, kGamma};
 constexpr std::size_t kSpread = 9;  // points spread over the splits before the search narrows
+
+/// Coordinates that are searched: Poisson's ratios are not.
+constexpr std::array<std::size_t, 7> kSearched = {kE0, kE0 + 1, kE0 + 2, kW0, kW0 + 1, kW0 + 2, kGamma};
 
 class PosteriorFit final : public RecordedFit {
  public:
@@ -55,16 +60,30 @@ class PosteriorFit final : public RecordedFit {
     radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : std::max(kSmallestRadius, 0.6 * radius_);
   }
 
-  std::vector<double> deviations() const override {
-    if (trials_.size() < 2) return std::vector<double>(kEtaCount, kUnknownDeviation);
-    const Eigen::MatrixXd covariance = posterior_.estimate_covariance(slopes());
-    std::vector<double> result;
-    for (Eigen::Index j = 0; j < covariance.cols(); ++j) result.push_back(std::sqrt(covariance(j, j)));
+  std::vector<CoordinateInterval> intervals() const override {
+    std::vector<CoordinateInterval> result(kEtaCount, {0.0, 1.0, kUnknownDeviation});
+    if (trials_.size() < 2) return result;
+    const std::vector<Eigen::VectorXd> draws = possible(posterior_.shared_error_count());
+    std::vector<double> values(draws.size());
+    for (std::size_t k = 0; k < kSearched.size(); ++k) {
+      std::transform(draws.begin(), draws.end(), values.begin(),
+                     [&](const Eigen::VectorXd& draw) { return draw[static_cast<Eigen::Index>(k)]; });
+      // The estimate is the best evaluation and not the middle of what is possible: it may stand at the edge.
+      const double at = trials_[best_].point[kSearched[k]];
+      result[kSearched[k]] = {std::min(at, quantile(values, 0.05)), std::max(at, quantile(values, 0.95)),
+                              standard_deviation(values)};
+    }
     return result;
   }
 
   std::vector<Point> plausible(int count) const override {
-    return draws(trials_[best_].point, count, RandomStream(settings_.seed, "sysid/plausible"));
+    if (trials_.size() < 2 || count <= 0) return {};
+    const std::vector<Eigen::VectorXd> draws = possible(/*shared_errors=*/0);
+    RandomStream random(settings_.seed, "sysid/plausible");
+    std::vector<Point> points;
+    for (int k = 0; k < count; ++k)
+      points.push_back(point_at(draws[static_cast<std::size_t>(random.index(static_cast<int>(draws.size())))]));
+    return points;
   }
 
  private:
@@ -149,6 +168,39 @@ class PosteriorFit final : public RecordedFit {
     constexpr double kSamePoint = 1e-12;  // mean square distance
     return std::none_of(trials_.begin(), trials_.end(),
                         [&](const Trial& trial) { return pull_to_start(trial.point, point, 1.0) < kSamePoint; });
+  }
+
+  /// The start with the searched coordinates of a draw.
+  Point point_at(const Eigen::VectorXd& draw) const {
+    Point point = trials_[best_].point;
+    for (std::size_t k = 0; k < kSearched.size(); ++k) point[kSearched[k]] = draw[static_cast<Eigen::Index>(k)];
+    return point;
+  }
+
+  /// Draws from what the data leave possible by the emulator, its own uncertainty included: searched coordinates, then
+  /// sizes of the errors that all designs share, when they take part.
+  std::vector<Eigen::VectorXd> possible(Eigen::Index shared_errors) const {
+    constexpr int kWalkers = 40, kBurnIn = 500, kSteps = 300;
+    constexpr double kFirstSpread = 0.15;
+    const auto searched = static_cast<Eigen::Index>(kSearched.size());
+    std::vector<FeatureChange> changes;
+    const auto cost = [&](const Eigen::VectorXd& at) {
+      const auto inside = at.head(searched);
+      if (inside.minCoeff() < 0.0 || inside.maxCoeff() > 1.0) return HUGE_VAL;
+      const Point point = point_at(at);
+      emulator_.predict_smooth(point, changes);
+      return posterior_(point, changes, emulator_.smooth_deviation(point), at.tail(shared_errors));
+    };
+    RandomStream random(settings_.seed, "sysid/walkers");
+    std::vector<Eigen::VectorXd> walkers(kWalkers, Eigen::VectorXd(searched + shared_errors));
+    for (Eigen::VectorXd& walker : walkers) {
+      for (double& value : walker) value = random.normal();
+      for (Eigen::Index k = 0; k < searched; ++k)
+        walker[k] = std::clamp(trials_[best_].point[kSearched[static_cast<std::size_t>(k)]] + kFirstSpread * walker[k],
+                               0.0, 1.0);
+    }
+    return optimize::sample_ensemble(cost, std::move(walkers), kBurnIn, kSteps,
+                                     RandomStream(settings_.seed, "sysid/sampler"));
   }
 
   Eigen::MatrixXd slopes() const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sysid/fit.hpp"
+#include "sysid/spread.hpp"
 
 namespace nacre::sysid {
 
@@ -16,11 +17,27 @@ class RecordedFit : public Fit {
   const Trial& first() const final { return trials_.front(); }
   const Trial& best() const final { return trials_[best_]; }
   const std::vector<Trial>& trials() const final { return trials_; }
+  std::vector<CoordinateInterval> intervals() const override {
+    constexpr double kReach90 = 1.645;  // standard deviations
+    std::vector<CoordinateInterval> result;
+    const std::vector<double> of_coordinates = deviations();
+    for (std::size_t j = 0; j < of_coordinates.size(); ++j) {
+      const double at = best().point[j], reach = kReach90 * of_coordinates[j];
+      result.push_back({std::max(0.0, at - reach), std::min(1.0, at + reach), of_coordinates[j]});
+    }
+    return result;
+  }
 
  protected:
   /// `pull` is the cost of moving every parameter across its whole range.
   RecordedFit(FitData data, const FitSettings& settings, double pull)
       : data_(std::move(data)), settings_(settings), pull_(pull) {}
+
+  /// Standard deviation of every coordinate of best().point as far as the data tell it (spread.hpp); kUnknownDeviation
+  /// where they do not, or were not asked.
+  virtual std::vector<double> deviations() const {
+    return std::vector<double>(settings_.start.size(), kUnknownDeviation);
+  }
 
   /// The part of the cost that no simulation tells.
   double pull_on(const Point& point) const { return pull_to_start(point, settings_.start, pull_); }
