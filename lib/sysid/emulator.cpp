@@ -206,11 +206,9 @@ void FeatureEmulator::learn_with_prior(const std::vector<Trial>& trials, std::si
   solve();
 }
 
-void FeatureEmulator::change(const Point& point, const Eigen::RowVectorXd& offset,
-                             std::vector<FeatureChange>& changes) const {
-  const Eigen::VectorXd at = coordinates(point);
-  const Eigen::VectorXd weights = covariances(at).head(coefficients_.rows());
-  const Eigen::RowVectorXd learnt = weights.transpose() * coefficients_ - offset;
+void FeatureEmulator::change(const Eigen::VectorXd& at, const Eigen::VectorXd& to_inputs,
+                             const Eigen::RowVectorXd& offset, std::vector<FeatureChange>& changes) const {
+  const Eigen::RowVectorXd learnt = to_inputs.head(coefficients_.rows()).transpose() * coefficients_ - offset;
   const double toughness = prior_mean(kToughnessSlope, at - centre_), peak = prior_mean(kPeakSlope, at - centre_);
   changes.resize(design_count_);
   for (std::size_t i = 0; i < design_count_; ++i) {
@@ -220,11 +218,19 @@ void FeatureEmulator::change(const Point& point, const Eigen::RowVectorXd& offse
 }
 
 void FeatureEmulator::predict(const Point& point, std::vector<FeatureChange>& changes) const {
-  change(point, at_centre_, changes);
+  const Eigen::VectorXd at = coordinates(point);
+  change(at, covariances(at), at_centre_, changes);
 }
 
 void FeatureEmulator::predict_smooth(const Point& point, std::vector<FeatureChange>& changes) const {
-  change(point, Eigen::RowVectorXd::Zero(at_centre_.size()), changes);
+  const Eigen::VectorXd at = coordinates(point);
+  change(at, covariances(at), Eigen::RowVectorXd::Zero(at_centre_.size()), changes);
+}
+
+double FeatureEmulator::predict_with_deviation(const Point& point, std::vector<FeatureChange>& changes) const {
+  const Eigen::VectorXd at = coordinates(point), to_inputs = covariances(at);
+  change(at, to_inputs, Eigen::RowVectorXd::Zero(at_centre_.size()), changes);
+  return std::sqrt(std::max(0.0, covariance(at, at) - factor_.matrixL().solve(to_inputs).squaredNorm()));
 }
 
 double FeatureEmulator::deviation(const Point& point) const {
@@ -232,11 +238,6 @@ double FeatureEmulator::deviation(const Point& point) const {
   const Eigen::VectorXd difference = covariances(at) - covariances(centre_);
   const double prior = covariance(at, at) - 2.0 * covariance(at, centre_) + covariance(centre_, centre_);
   return std::sqrt(std::max(0.0, prior - difference.dot(factor_.solve(difference))));
-}
-
-double FeatureEmulator::smooth_deviation(const Point& point) const {
-  const Eigen::VectorXd at = coordinates(point), to_inputs = covariances(at);
-  return std::sqrt(std::max(0.0, covariance(at, at) - factor_.matrixL().solve(to_inputs).squaredNorm()));
 }
 
 Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at, std::size_t design_count,

@@ -52,8 +52,8 @@ class FeatureEmulator {
   void predict_smooth(const Point& point, std::vector<FeatureChange>& changes) const;
   /// Standard deviation of that change; it does not depend on the design.
   double deviation(const Point& point) const;
-  /// Standard deviation of `point` as it would be without jumps: what predict_smooth() may be wrong by, in any design.
-  double smooth_deviation(const Point& point) const;
+  /// As predict_smooth(), and returns by how much that may be wrong, in any design: a standard deviation.
+  double predict_with_deviation(const Point& point, std::vector<FeatureChange>& changes) const;
   /// A point whose result is not known yet: deviations become small around it.
   void add_pending(const Point& point);
 
@@ -64,7 +64,8 @@ class FeatureEmulator {
   void factorise();
   void take_targets(const std::vector<Trial>& trials, std::size_t centre);
   void solve();
-  void change(const Point& point, const Eigen::RowVectorXd& offset, std::vector<FeatureChange>& changes) const;
+  void change(const Eigen::VectorXd& at, const Eigen::VectorXd& to_inputs, const Eigen::RowVectorXd& offset,
+              std::vector<FeatureChange>& changes) const;
   double log_evidence() const;
 
   std::vector<double> spans_;

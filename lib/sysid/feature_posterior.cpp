@@ -128,4 +128,9 @@ Eigen::MatrixXd FeaturePosterior::posterior_covariance(const Eigen::MatrixXd& sl
   return precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
+Eigen::MatrixXd FeaturePosterior::moves_by_shared_errors(const Eigen::MatrixXd& slopes) const {
+  return posterior_covariance(slopes) * slopes.transpose() * learnt_variances().cwiseInverse().asDiagonal() *
+         shared_errors_;
+}
+
 }  // namespace nacre::sysid

@@ -25,6 +25,8 @@ class FeaturePosterior {
   /// What the data leave possible around the base, in unit coordinates: residuals independent. `slopes` as
   /// feature_slopes() gives them.
   Eigen::MatrixXd posterior_covariance(const Eigen::MatrixXd& slopes) const;
+  /// How far parameters move (rows) to take over a shared error of normal size (columns).
+  Eigen::MatrixXd moves_by_shared_errors(const Eigen::MatrixXd& slopes) const;
 
  private:
   struct Feature {

@@ -180,27 +180,38 @@ class PosteriorFit final : public RecordedFit {
   /// Draws from what the data leave possible by the emulator, its own uncertainty included: searched coordinates, then
   /// sizes of the errors that all designs share, when they take part.
   std::vector<Eigen::VectorXd> possible(Eigen::Index shared_errors) const {
-    constexpr int kWalkers = 40, kBurnIn = 500, kSteps = 300;
-    constexpr double kFirstSpread = 0.15;
+    constexpr int kBurnIn = 100, kSteps = 60;  // from walkers that are nearly right
     const auto searched = static_cast<Eigen::Index>(kSearched.size());
     std::vector<FeatureChange> changes;
     const auto cost = [&](const Eigen::VectorXd& at) {
       const auto inside = at.head(searched);
       if (inside.minCoeff() < 0.0 || inside.maxCoeff() > 1.0) return HUGE_VAL;
       const Point point = point_at(at);
-      emulator_.predict_smooth(point, changes);
-      return posterior_(point, changes, emulator_.smooth_deviation(point), at.tail(shared_errors));
+      const double deviation = emulator_.predict_with_deviation(point, changes);
+      return posterior_(point, changes, deviation, at.tail(shared_errors));
     };
-    RandomStream random(settings_.seed, "sysid/walkers");
-    std::vector<Eigen::VectorXd> walkers(kWalkers, Eigen::VectorXd(searched + shared_errors));
-    for (Eigen::VectorXd& walker : walkers) {
-      for (double& value : walker) value = random.normal();
-      for (Eigen::Index k = 0; k < searched; ++k)
-        walker[k] = std::clamp(trials_[best_].point[kSearched[static_cast<std::size_t>(k)]] + kFirstSpread * walker[k],
-                               0.0, 1.0);
-    }
-    return optimize::sample_ensemble(cost, std::move(walkers), kBurnIn, kSteps,
+    return optimize::sample_ensemble(cost, first_walkers(shared_errors), kBurnIn, kSteps,
                                      RandomStream(settings_.seed, "sysid/sampler"));
+  }
+
+  /// From the normal distribution that slopes at the best trial suggest, shared errors taken over by the parameters.
+  std::vector<Eigen::VectorXd> first_walkers(Eigen::Index shared_errors) const {
+    constexpr int kWalkers = 32;
+    const auto searched = static_cast<Eigen::Index>(kSearched.size());
+    const Eigen::MatrixXd moves = posterior_.moves_by_shared_errors(slopes());
+    RandomStream random(settings_.seed, "sysid/walkers");
+    std::vector<Eigen::VectorXd> walkers;
+    for (const Point& point : draws(trials_[best_].point, kWalkers, RandomStream(settings_.seed, "sysid/first"))) {
+      Eigen::VectorXd& walker = walkers.emplace_back(searched + shared_errors);
+      auto errors = walker.tail(shared_errors);
+      for (double& value : errors) value = random.normal();
+      for (Eigen::Index k = 0; k < searched; ++k) {
+        const std::size_t coordinate = kSearched[static_cast<std::size_t>(k)];
+        const double move = moves.row(static_cast<Eigen::Index>(coordinate)).head(shared_errors).dot(errors);
+        walker[k] = std::clamp(point[coordinate] + move, 0.0, 1.0);
+      }
+    }
+    return walkers;
   }
 
   Eigen::MatrixXd slopes() const {
