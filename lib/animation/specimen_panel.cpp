@@ -104,13 +104,17 @@ void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placeme
   const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
   const std::vector<crack::Mark> marks = crack::marks_of(grid_of(film), film.crack);
   const std::vector<Point> node = node_positions(film, frame, placement);
-  constexpr double kAside = 14.0;  // the crack itself stays in sight
+  constexpr double kAside = 14.0;    // the crack itself stays in sight
+  constexpr int kMostOfAKind = 5;    // more would cover the specimen; branches come longest first
+  std::array<int, crack::kMarkKinds> shown{};
   for (const crack::Mark& mark : marks) {
     if (frame.strain < mark.strain || frame.strain > mark.until_strain) continue;
+    if (++shown[static_cast<std::size_t>(mark.kind)] > kMostOfAKind) continue;
     const int corner = mark.element / film.columns * (film.columns + 1) + mark.element % film.columns;
     const Point at = node[static_cast<std::size_t>(corner)];
     const bool above = mark.kind == crack::MarkKind::bridging || mark.kind == crack::MarkKind::soft_arrest;
-    draw_tag(canvas, {at.x, at.y + (above ? -kAside : kAside)}, style_of(mark.kind));
+    const double left = mark.kind == crack::MarkKind::deflection ? kAside : 0.0;  // a guided stretch often has its turn
+    draw_tag(canvas, {at.x - left, at.y + (above ? -kAside : kAside)}, style_of(mark.kind));
   }
   double x = kLeft;
   for (int kind = 0; kind < crack::kMarkKinds; ++kind) {

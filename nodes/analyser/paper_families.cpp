@@ -164,7 +164,7 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
     }
     if (!first) exhibit.figures.push_back({"figure-3-13-" + source.groups[f].name, plot.svg()});
   }
-  exhibit.notes.push_back(fmt::format("One replicate of each seed (notched, upright), VW = the notched rigid specimen{}. In the thesis every seed but TB-rich ones more than doubles the failure strain of VW.", rigid == curves.end() ? ", which this run did not measure" : ""));
+  exhibit.notes.push_back(fmt::format("One replicate of each seed (notched, upright), VW = the notched rigid specimen{}. In the thesis every seed has more than twice the failure strain of VW.", rigid == curves.end() ? ", which this run did not measure" : ""));
   if (without > 0) exhibit.notes.push_back(fmt::format("{} seeds have no measured curve.", without));
   exhibit.tables.push_back(std::move(table));
   return exhibit;

@@ -94,9 +94,9 @@ std::string example_picture(const SubfamilyMap& map) {
   std::string content;
   int column = 0;
   for (const MapPoint* point : examples_of(map)) {
-    content += tile(point->pattern, column++, 0, point->performance ? fmt::format("{:.2f} GPa, {:.2f} MPa", 1e-9 * point->performance->modulus_pa, 1e-6 * point->performance->toughness_pa) : point->source);
+    content += tile(point->pattern, column++, 0, point->performance ? fmt::format("{:.2f}, {:.2f}", 1e-9 * point->performance->modulus_pa, 1e-6 * point->performance->toughness_pa) : point->source);
   }
-  return tiles("From its map, far from each other", kExamples, 1, content);
+  return tiles("Far from each other on it; E (GPa), T (MPa)", kExamples, 1, content);
 }
 
 Eigen::MatrixX2d points_before(const SubfamilyMap& map, std::vector<pattern::Pattern>& members) {

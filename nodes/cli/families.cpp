@@ -34,6 +34,7 @@ namespace {
 using families::Family;
 using pattern::Pattern;
 
+constexpr double kEstablished = 0.05;  // family-wise
 constexpr double kOthersWeight = 0.1;  // of designs outside the family in its calibration (thesis 2.4.1)
 
 struct Options {
@@ -332,10 +333,14 @@ void print_family(const nlohmann::ordered_json& family) {
     fmt::print("  {}  {} sampled, {} interpolated (+{:.1f} %; thesis, Table A.7: 4.5 %), map explains {:.1f} %\n",
                map["seed"].get<std::string>(), map["sampled"].get<int>(), map["interpolated"].get<int>(),
                100.0 * map["growth"].get<double>(), 100.0 * (1.0 - map["residual_variance"].get<double>()));
-  for (const auto& found : family["mechanisms"])
-    fmt::print("  {:<11} goes with toughness at equal rigid fraction and modulus: {:+.2f} (p {:.3f}, {} patterns)\n",
-               found["mechanism"].get<std::string>(), found["partial"].get<double>(), found["p_family_wise"].get<double>(),
-               found["patterns"].get<int>());
+  if (family["mechanisms"].empty()) return;
+  fmt::print("  what goes with toughness among patterns of equal rigid fraction and modulus ({} broken; evidence, not cause):\n",
+             family["mechanisms"][0]["patterns"].get<int>());
+  for (const auto& found : family["mechanisms"]) {
+    const double p = found["p_family_wise"].get<double>();
+    fmt::print("    {:<11} {:+.2f}, p {:.3f}{}\n", found["mechanism"].get<std::string>(), found["partial"].get<double>(), p,
+               p < kEstablished ? "" : ": no more than chance would give");
+  }
 }
 
 int find_families(const Options& options) {
