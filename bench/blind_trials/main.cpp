@@ -55,6 +55,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Blind trials of the diagnosis"};
   Options options;
   study::add_fidelity_option(app, options.fidelity);
+  options.trials.program = NACRE_BINARY_DIR "/nacre";
+  app.add_option("--program", options.trials.program, "nacre under test: a copy outlives the next build")->capture_default_str();
   app.add_option("--work", options.work, "Folder of the trials")->capture_default_str();
   app.add_flag("--fracture", options.trials.fracture, "Toughness specimens beside the moduli");
   app.add_option("--nulls", options.trials.nulls)->capture_default_str();

@@ -169,7 +169,7 @@ void generate(const Trial& trial, const TrialOptions& options, const std::filesy
 
 void diagnose(const TrialOptions& options, const std::filesystem::path& folder) {
   const std::string answer = (folder / "diagnosis.json").string();
-  const std::string command = fmt::format("'{}/nacre' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", NACRE_BINARY_DIR, (folder / "set").string(), tester::to_string(options.fidelity),
+  const std::string command = fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program, (folder / "set").string(), tester::to_string(options.fidelity),
                                           options.fracture ? "--fracture" : "",
                                           (folder / "store").string(), answer, (folder / "log").string());
   const int status = std::system(command.c_str());

@@ -26,6 +26,7 @@ struct TrialOptions {
   bool fracture = false;  ///< toughness specimens beside the moduli
   int nulls = 149, outside = 40, doubles = 30, pairs = 20;
   int seeds_per_effect = 3;
+  std::string program;           ///< nacre under test
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
 };
 

@@ -65,7 +65,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
                          d.common_ground.empty() ? "" : fmt::format(" Common to all of them: {}.", d.common_ground));
     case Verdict::unexplained: break;
   }
-  std::string text = fmt::format("Something is wrong that no effect of the library explains: {}.", decision.reason);
+  std::string text = fmt::format("Something is wrong, and no cause can be named: {}.", decision.reason);
   if (!d.contrasts.empty()) {
     text += fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", d.contrasts.front().name, d.contrasts.front().statistic);
   }
@@ -155,6 +155,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   Diagnosis diagnosis;
   diagnosis.verdict = decision.verdict;
   diagnosis.p_misfit = decision.p_misfit;
+  diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
   diagnosis.replicate_sd = shown_replicate_sd(observations);
   diagnosis.numerics_sd = observations.numerics_sd;

@@ -121,6 +121,7 @@ struct Diagnosis {
   std::optional<Gain> partial_gain;   ///< of what comes nearest, when unexplained
   std::vector<NextExperiment> next_experiments;
   double p_misfit = 1.0;              ///< omnibus: chance of a base misfit as large
+  double p_outside = 1.0;             ///< chance that a cause outside the library would lead to a name as surely; 1 when no name was in question
   double replicate_sd = 0.0;          ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
   double numerics_sd = 0.0;           ///< what numerics leave of log E: independent part, per layout
   double numerics_shared_sd = 0.0;    ///< and along the directions that all layouts share, root mean square over groups

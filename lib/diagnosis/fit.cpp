@@ -7,7 +7,7 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Finite-difference step in coordinates: well above the solver's error, well below the curvature of log E.
+/// Finite-difference step in coordinates: well above what curves of fracture tests jump by, well below the curvature of log E.
 constexpr double kStep = 0.01;
 constexpr int kIterations = 12;
 /// A drop of chi2 that no threshold would notice.
@@ -15,21 +15,6 @@ constexpr double kConverged = 0.02;
 
 double prior_chi2(const Fit& fit, const Eigen::VectorXd& u) {
   return ((u.head(fit.base_count).array() - 0.5) / fit.prior_sd.array()).square().sum();
-}
-
-/// Columns d row / d u by one-sided differences that stay inside the bounds.
-Eigen::MatrixXd jacobian_at(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted) {
-  std::vector<Eigen::VectorXd> points;
-  std::vector<double> steps;
-  for (int i = 0; i < map.size(); ++i) {
-    Eigen::VectorXd moved = u;
-    steps.push_back(u[i] + kStep <= map.upper(i) ? kStep : -kStep);
-    moved[i] += steps.back();
-    points.push_back(moved);
-  }
-  Eigen::MatrixXd columns = model.predict(map, points);
-  for (int i = 0; i < map.size(); ++i) columns.col(i) = (columns.col(i) - predicted) / steps[static_cast<std::size_t>(i)];
-  return columns;
 }
 
 Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
@@ -127,7 +112,7 @@ Fit begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::Vect
 Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
   const CoordinateMap map = model.base_map();
   Fit fit = begun(model, map, u);
-  fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
+  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
   fit.free.resize(static_cast<std::size_t>(map.size()));
   std::iota(fit.free.begin(), fit.free.end(), 0);
   fit.parameters = map.parameters(fit.u);
@@ -142,7 +127,7 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
   fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
+    fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
     fit.free = free_coordinates(fit, map, y, whitener);
     double gained = 0.0;
     for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
@@ -161,7 +146,7 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
     }
     if (gained < kConverged) break;
   }
-  fit.jacobian = jacobian_at(model, map, fit.u, fit.predicted);
+  fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
   fit.free = free_coordinates(fit, map, y, whitener);
   fit.parameters = map.parameters(fit.u);
   fit.extension_on_bound = ends_on_bound(map, fit.u);

@@ -92,6 +92,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"gain", d.gain ? json_of(*d.gain) : ordered_json(nullptr)},
                                  {"next_experiments", array_of(d.next_experiments)},
                                  {"p_misfit", d.p_misfit},
+                                 {"p_outside_library", d.p_outside},
                                  {"replicate_sd", d.replicate_sd},
                                  {"numerics_sd", d.numerics_sd},
                                  {"numerics_shared_sd", d.numerics_shared_sd},

@@ -32,31 +32,58 @@ Basis basis_for(const Observations& observations, const material::ParameterSet& 
 }
 
 FeatureModel::FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity, const FractureSurface* surface)
-    : observations_(observations), basis_(basis), fidelity_(fidelity), surface_(surface), rows_of_group_(observations.groups.size()) {
+    : observations_(observations), basis_(basis), fidelity_(fidelity), surface_(surface), rows_of_group_(observations.groups.size()), last_(observations.groups.size()) {
   for (int i = 0; i < observations.size(); ++i) {
     const int group = observations.rows[static_cast<std::size_t>(i)].group;
     if (group >= 0) rows_of_group_[static_cast<std::size_t>(group)].push_back(i);
   }
 }
 
-double FeatureModel::modulus(const Observation& group, const material::ParameterSet& set) const {
-  const tester::Simulation simulation{group.design, set, group.conditions, fidelity_};
+double FeatureModel::modulus(std::size_t group, const material::ParameterSet& set) const {
+  const Observation& g = observations_.groups[group];
+  const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
   const std::string key = tester::simulation_key(simulation, TestKind::modulus);
   {
     const std::lock_guard lock(mutex_);
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
   }
-  const auto result = tester::test_modulus(simulation);
-  if (!result) throw std::runtime_error(fmt::format("modulus of {}: {}", group.design.name(), result.error().message));
+  double result = 0.0;
+  if (g.design.layout()) {
+    result = probe(group, set)->modulus_pa();
+  } else {
+    const auto pulled = tester::test_modulus(simulation);
+    if (!pulled) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), pulled.error().message));
+    result = pulled->modulus_pa;
+  }
   const std::lock_guard lock(mutex_);
-  return known_.emplace(key, result->modulus_pa).first->second;
+  return known_.emplace(key, result).first->second;
+}
+
+std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t group, const material::ParameterSet& set) const {
+  const Observation& g = observations_.groups[group];
+  const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
+  std::string key = tester::simulation_key(simulation, TestKind::modulus);
+  {
+    const std::lock_guard lock(mutex_);
+    if (last_[group].key == key) return last_[group].probe;
+  }
+  auto solved = tester::ModulusProbe::at(simulation);
+  if (!solved) throw std::runtime_error(fmt::format("modulus of {}: {}", g.design.name(), solved.error().message));
+  auto shared = std::make_shared<const tester::ModulusProbe>(*std::move(solved));
+  const std::lock_guard lock(mutex_);
+  last_[group] = {std::move(key), shared};
+  return shared;
+}
+
+void FeatureModel::put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
+  const double shown = std::log(measurement::observe_modulus(modulus_pa, set.extensions, {.batch_step = observations_.groups[group].batch_step}));
+  for (const int row : rows_of_group_[group]) rows[row] = shown;
 }
 
 void FeatureModel::put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
-  FeatureValues values;
-  if (g.test == TestKind::modulus) value_of(values, Feature::log_modulus) = std::log(measurement::observe_modulus(modulus(g, set), set.extensions, {.batch_step = g.batch_step}));
-  if (g.test == TestKind::tensile) values = tensile_features(coupon_curve(g, set));
+  if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
+  const FeatureValues values = tensile_features(coupon_curve(g, set));
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[static_cast<std::size_t>(row)].feature);
     // A feature that the model does not show (a permanent set, say) is one that it puts at nothing.
@@ -79,28 +106,57 @@ void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eig
   }
 }
 
-Eigen::MatrixXd FeatureModel::predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const {
+void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u, Eigen::Ref<Eigen::MatrixXd> y) const {
   const int groups = static_cast<int>(observations_.groups.size()), points = static_cast<int>(u.size());
-  Eigen::MatrixXd y(observations_.size(), points);
-  std::vector<material::ParameterSet> layouts, coupons;
-  for (const Eigen::VectorXd& each : u) {
-    layouts.push_back(map.parameters(each));
-    coupons.push_back(basis_.coupon ? map.coupon_parameters(each) : material::ParameterSet{});
-  }
   parallel_for(groups * points, [&](int job) {
     const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
     const Observation& g = observations_.groups[group];
-    if (g.test == TestKind::toughness) return;
-    put_group(group, g.design.layout() ? layouts[point] : coupons[point], y.col(static_cast<Eigen::Index>(point)));
+    if (g.test == TestKind::toughness || g.design.layout()) return;
+    put_group(group, map.coupon_parameters(u[point]), y.col(static_cast<Eigen::Index>(point)));
   });
-  for (int p = 0; p < points; ++p) put_history(layouts[static_cast<std::size_t>(p)], y.col(p));
-  if (surface_ != nullptr && basis_.toughness) {
-    parallel_for(points, [&](int p) {
-      const Eigen::VectorXd values = surface_->predict(layouts[static_cast<std::size_t>(p)]);
-      for (std::size_t k = 0; k < surface_->rows().size(); ++k) y(surface_->rows()[k].row, p) = values[static_cast<Eigen::Index>(k)];
-    });
-  }
+  parallel_for(points, [&](int p) {
+    const material::ParameterSet set = map.parameters(u[static_cast<std::size_t>(p)]);
+    put_history(set, y.col(p));
+    if (surface_ == nullptr || !basis_.toughness) return;
+    const Eigen::VectorXd values = surface_->predict(set);
+    for (std::size_t k = 0; k < surface_->rows().size(); ++k) y(surface_->rows()[k].row, p) = values[static_cast<Eigen::Index>(k)];
+  });
+}
+
+Eigen::MatrixXd FeatureModel::predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const {
+  const int groups = static_cast<int>(observations_.groups.size()), points = static_cast<int>(u.size());
+  Eigen::MatrixXd y(observations_.size(), points);
+  parallel_for(groups * points, [&](int job) {
+    const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
+    const Observation& g = observations_.groups[group];
+    if (g.test == TestKind::modulus && g.design.layout()) put_group(group, map.parameters(u[point]), y.col(static_cast<Eigen::Index>(point)));
+  });
+  predict_others(map, u, y);
   return y;
+}
+
+Eigen::MatrixXd FeatureModel::slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted, double step) const {
+  std::vector<Eigen::VectorXd> points;
+  Eigen::VectorXd steps(map.size());
+  for (int i = 0; i < map.size(); ++i) {
+    steps[i] = u[i] + step <= map.upper(i) ? step : -step;
+    points.push_back(u);
+    points.back()[i] += steps[i];
+  }
+  Eigen::MatrixXd y(observations_.size(), map.size());
+  predict_others(map, points, y);
+  const material::ParameterSet own = map.parameters(u);
+  parallel_for(static_cast<int>(observations_.groups.size()), [&](int i) {
+    const auto group = static_cast<std::size_t>(i);
+    const Observation& g = observations_.groups[group];
+    if (g.test != TestKind::modulus || !g.design.layout()) return;
+    const auto solved = probe(group, own);
+    for (int k = 0; k < map.size(); ++k) {
+      const material::ParameterSet set = map.parameters(points[static_cast<std::size_t>(k)]);
+      put_modulus(group, solved->nearby(simulated_side(set)), set, y.col(k));
+    }
+  });
+  return (y.colwise() - predicted) * steps.cwiseInverse().asDiagonal();
 }
 
 Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const {
@@ -112,7 +168,7 @@ Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen:
     const auto result = tester::test_modulus({group.design, set, group.conditions, fidelity_}, {.refinement = 2});
     if (!result) throw std::runtime_error(fmt::format("modulus of {} at h/2: {}", group.design.name(), result.error().message));
     const double finer = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
-    const double own = std::log(measurement::observe_modulus(modulus(group, set), set.extensions));
+    const double own = std::log(measurement::observe_modulus(modulus(static_cast<std::size_t>(i), set), set.extensions));
     for (const int row : rows_of_group_[static_cast<std::size_t>(i)]) change[row] = finer - own;
   });
   return change;

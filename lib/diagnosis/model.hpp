@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "diagnosis/coordinates.hpp"
 #include "diagnosis/fracture_surface.hpp"
 #include "diagnosis/observations.hpp"
+#include "tester/modulus_probe.hpp"
 
 namespace nacre::diagnosis {
 
@@ -25,6 +27,9 @@ class FeatureModel {
   /// Predicted features, rows x coordinate vectors; all cores. Throws std::runtime_error when a simulation is impossible.
   Eigen::MatrixXd predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const;
   Eigen::VectorXd predict(const CoordinateMap& map, const Eigen::VectorXd& u) const { return predict(map, std::span(&u, 1)); }
+  /// Columns d row / d coordinate at u by one-sided differences of size `step` that stay inside the bounds; `predicted`: the rows at u. Moduli of
+  /// layouts need one solution each for all coordinates (tester::ModulusProbe).
+  Eigen::MatrixXd slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted, double step) const;
   /// log E on elements of size h/2 less log E on the tester's elements, measurement side included; 0 in rows that are no modulus
   /// of a layout. Not remembered.
   Eigen::VectorXd mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const;
@@ -32,8 +37,14 @@ class FeatureModel {
   tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
 
  private:
-  double modulus(const Observation& group, const material::ParameterSet& set) const;
+  /// E of a layout before the testing machine, remembered.
+  double modulus(std::size_t group, const material::ParameterSet& set) const;
+  /// The probe of a layout there: that of the last solution where it is the same.
+  std::shared_ptr<const tester::ModulusProbe> probe(std::size_t group, const material::ParameterSet& set) const;
   void put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
+  void put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
+  /// All rows at `u` but those of moduli of layouts.
+  void predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u, Eigen::Ref<Eigen::MatrixXd> y) const;
   void put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
 
   const Observations& observations_;
@@ -43,6 +54,11 @@ class FeatureModel {
   std::vector<std::vector<int>> rows_of_group_;
   mutable std::mutex mutex_;
   mutable std::unordered_map<std::string, double> known_;
+  struct LastProbe {
+    std::string key;
+    std::shared_ptr<const tester::ModulusProbe> probe;
+  };
+  mutable std::vector<LastProbe> last_;  ///< per group
 };
 
 /// Blocks of base constants that these observations need; what is not searched from `start`.

@@ -48,6 +48,7 @@ class Whitener {
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& differences) const { return factor_.matrixL().solve(differences); }
   /// The squared length of the whitened vector.
   double chi2(const Eigen::VectorXd& differences) const { return factor_.matrixL().solve(differences).squaredNorm(); }
+  Eigen::MatrixXd covariance() const { return factor_.reconstructedMatrix(); }
 
  private:
   Eigen::LLT<Eigen::MatrixXd> factor_;

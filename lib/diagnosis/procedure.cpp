@@ -5,12 +5,13 @@
 #include "base/hash.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
+#include "diagnosis/outsider.hpp"
 
 namespace nacre::diagnosis {
 
 std::string procedure_text(const DiagnosisSettings& settings) {
-  std::string text = fmt::format("kernel {}\nlevels {} {}\nsignal {} distance {} absorption {}\n", tester::kKernelVersion, settings.name_level, settings.unexplained_level, kVisibleSignal, kToldApart,
-                                 kInvisibleAbsorption);
+  std::string text = fmt::format("kernel {}\nlevels {} {} {}\nsignal {} {} distance {} absorption {}\n", tester::kKernelVersion, settings.name_level, settings.unexplained_level, kOutsiderLevel, kVisibleSignal,
+                                 kNameableSignal, kToldApart, kInvisibleAbsorption);
   for (const material::Effect& effect : material::effect_library()) {
     text += fmt::format("effect {} {}", effect.name, effect.family);
     for (const material::EffectParameter& p : effect.parameters) text += fmt::format(" [{} {:a} {:a}]", p.unit, p.minimum, p.maximum);

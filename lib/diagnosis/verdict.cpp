@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/result.hpp"
+#include "diagnosis/candidates.hpp"
+#include "diagnosis/outsider.hpp"
+
 namespace nacre::diagnosis {
 namespace {
 
@@ -92,8 +96,26 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
   return decision;
 }
 
-/// Names one, or keeps several: `possible` is not empty.
-Decision settled(Decision decision, std::vector<Fit> possible, std::string reason) {
+/// Signal-to-noise of what a model adds to the base, beyond what the base imitates.
+double signal_of(const Evidence& evidence, const Fit& fit) {
+  return signature_size(evidence.base.fit, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance())).projected;
+}
+
+/// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.
+Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> possible, std::string reason) {
+  const Fit& best = possible.front();
+  const double signal = signal_of(evidence, best);
+  decision.p_outside = outsider_against(evidence, best.chi2, static_cast<int>(best.effects.size())).p;
+  const std::string nearest = fmt::format("{} comes nearest", fmt::join(best.effects, " with "));
+  if (signal < kNameableSignal) {
+    return unexplained(std::move(decision), possible,
+                       fmt::format("{}, but its traces are only {:.1f} times the noise: a cause that the library does not hold could look the same (a name needs {:.1f})", nearest, signal, kNameableSignal));
+  }
+  if (decision.p_outside > kOutsiderLevel) {
+    return unexplained(std::move(decision), possible,
+                       fmt::format("{}, but a cause that the library does not hold could follow the same differences between these specimens (chance {:.2f}, a name needs {:.2f})", nearest,
+                                   decision.p_outside, kOutsiderLevel));
+  }
   decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
   decision.possible = std::move(possible);
   decision.reason = std::move(reason);
@@ -134,7 +156,7 @@ Decision decide(const Evidence& evidence) {
   }
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
-    return settled(std::move(decision), confidence_set(evidence, evidence.singles, decision.p_fit), "one effect fitted jointly with the base explains the data");
+    return settled(evidence, std::move(decision), confidence_set(evidence, evidence.singles, decision.p_fit), "one effect fitted jointly with the base explains the data");
   }
   report(0.9, "fitting pairs of effects");
   std::vector<Fit> pairs = significant_pairs(evidence, evidence.singles[best]);
@@ -147,7 +169,7 @@ Decision decide(const Evidence& evidence) {
     tried.insert(tried.end(), pairs.begin(), pairs.end());
     return unexplained(std::move(decision), tried, "even the best effects of the library leave a misfit larger than noise");
   }
-  return settled(std::move(decision), std::move(possible), "no single effect suffices; two together explain the data");
+  return settled(evidence, std::move(decision), std::move(possible), "no single effect suffices; two together explain the data");
 }
 
 }  // namespace nacre::diagnosis

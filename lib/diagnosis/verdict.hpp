@@ -30,6 +30,7 @@ struct Decision {
   std::vector<double> p_fit;            ///< per effect: chance of a misfit as large when base + effect is true; 1 when not tested
   std::vector<double> p_family_wise;    ///< per effect
   double p_misfit = 1.0;
+  double p_outside = 1.0;               ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1 when not tested
   std::vector<Contrast> contrasts;      ///< of the base model's residuals, strongest first
   std::string reason;                   ///< the step that decided, in words
 };

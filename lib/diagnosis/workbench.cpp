@@ -72,8 +72,15 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
+  // Rows that may show an effect whose traces in moduli of layouts do not count.
+  std::vector<int> others;
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.probe != Probe::mean || row.test != tester::TestKind::modulus || !observations.group_of(i).design.layout()) others.push_back(i);
+  }
   std::vector<std::string> acting;
   for (const material::Effect& effect : material::effect_library()) {
+    if (!tells_on_moduli(effect) && others.empty()) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
     const CoordinateMap map = model.map(names);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
@@ -85,17 +92,8 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
       u[own] = std::clamp(size, map.lower(own), map.upper(own));
       change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
     }
-    if (tells_on_moduli(effect)) {
-      if (change.maxCoeff() > kNothing) acting.push_back(names.front());
-      continue;
-    }
-    for (int i = 0; i < observations.size(); ++i) {
-      const Row& row = observations.rows[static_cast<std::size_t>(i)];
-      const bool modulus_of_layout = row.probe == Probe::mean && row.test == tester::TestKind::modulus && observations.group_of(i).design.layout();
-      if (modulus_of_layout || change[i] <= kNothing) continue;
-      acting.push_back(names.front());
-      break;
-    }
+    const bool seen = tells_on_moduli(effect) ? change.maxCoeff() > kNothing : std::any_of(others.begin(), others.end(), [&](int i) { return change[i] > kNothing; });
+    if (seen) acting.push_back(names.front());
   }
   return acting;
 }

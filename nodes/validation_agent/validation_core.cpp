@@ -59,7 +59,9 @@ void ValidationCore::accept_answer(const std::string& payload) {
     return measure_families_when_chosen();
   }
   if (!questions_.take(*std::move(part))) return;
-  if (phase_ == Phase::predicting) {
+  if (phase_ == Phase::foretelling) {
+    finish_foretelling();
+  } else if (phase_ == Phase::predicting) {
     finish_held_out(questions_.predictions().front());
   } else if (phase_ == Phase::calibrating) {
     fitting_->tell(questions_.predictions());
@@ -98,11 +100,7 @@ void ValidationCore::accept_diagnosis(const std::string& payload) {
   if (phase_ != Phase::diagnosing || diagnosis->round != round_) return;
   diagnosis_ = *diagnosis;
   say(LogLevel::info, fmt::format("round {}: diagnosis {}: {}", round_, diagnosis->verdict, diagnosis->summary));
-  if (adopt(*diagnosis)) {
-    begin_calibration();
-  } else {
-    publish_model();
-  }
+  weigh(*diagnosis);
 }
 
 void ValidationCore::accept_measurement(const std::string& payload) {
@@ -183,6 +181,9 @@ runtime::Status ValidationCore::status() const {
     case Phase::waiting_for_run:
       status.phase = "waiting for the run to be announced";
       break;
+    case Phase::foretelling:
+      status.phase = "noting what the extension on trial expects";
+      break;
     case Phase::measuring: {
       const auto [complete, all] = desk_.completed(book_);
       status.phase = fmt::format("measuring, {} of {} orders complete", complete, all);
@@ -194,7 +195,7 @@ runtime::Status ValidationCore::status() const {
       status.phase = "comparing predictions with measurements";
       break;
     case Phase::calibrating:
-      status.phase = extended_ ? "calibrating the extended model" : "calibrating";
+      status.phase = extending_ ? "calibrating the extended model" : "calibrating";
       status.progress = fitting_->progress();
       break;
     case Phase::diagnosing:

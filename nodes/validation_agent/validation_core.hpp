@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "game/equilibrium.hpp"
+#include "game/extension_trial.hpp"
 #include "game/measurement_book.hpp"
 #include "game/scenario.hpp"
 #include "optimize/pareto.hpp"
@@ -32,7 +33,9 @@ struct StartingTables {
 /// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).
 /// Round n: TEST_ORDERs -> MEASUREMENTs -> held-out errors -> calibration -> DIAGNOSE, DIAGNOSIS -> PARAMETERS(n) ->
 /// GAMUT(n), PROPOSAL(n) -> ROUND(n). Where the scenario wants families, they follow the last ROUND, which is then said
-/// once more as the last (family_stage.hpp).
+/// once more as the last (family_stage.hpp). An extension that the diagnosis names
+/// is calibrated beside the adopted model and put on trial: before TEST_ORDERs go out it says what it expects of the proposed designs. It is adopted
+/// once it is still named and has foretold designs better (game::gain_is_established).
 class ValidationCore : public runtime::NodeCore {
  public:
   ValidationCore(const game::Scenario& scenario, StartingTables tables);
@@ -42,6 +45,7 @@ class ValidationCore : public runtime::NodeCore {
  private:
   enum class Phase {
     waiting_for_run,
+    foretelling,
     measuring,
     predicting,
     calibrating,
@@ -49,6 +53,14 @@ class ValidationCore : public runtime::NodeCore {
     waiting_for_proposal,
     working_out_families,
     finished
+  };
+
+  /// An extension that is named and not yet adopted.
+  struct OnTrial {
+    std::vector<std::string> effects;                   ///< sorted
+    material::ParameterSet model;                       ///< the base refitted with them
+    std::map<std::string, sysid::Prediction> foretold;  ///< what it expects of the designs of this round, through the testing machine
+    game::TrialErrors errors;                           ///< of all rounds since it was first named
   };
 
   // Inputs (validation_core.cpp).
@@ -66,14 +78,20 @@ class ValidationCore : public runtime::NodeCore {
 
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);
+  void foretell();
+  void finish_foretelling();
+  void order();
   void measure_on();
   void predict_held_out();
   void finish_held_out(const std::vector<sysid::Prediction>& predictions);
-  void begin_calibration();
+  void begin_calibration(const material::ParameterSet& start);
   void calibrate_on();
   void finish_calibration();
+  void take_over(const sysid::Calibrated& result);
   void diagnose();
-  bool adopt(const diagnosis_t& diagnosis);
+  std::optional<material::ParameterSet> extended_by(const diagnosis_t& diagnosis);
+  void weigh(const diagnosis_t& diagnosis);
+  void finish_trial(const sysid::Calibrated& result);
   void publish_model();
   std::vector<optimize::Performance> benchmark() const;
   std::set<pattern::Pattern> settled_patterns() const;
@@ -114,7 +132,8 @@ class ValidationCore : public runtime::NodeCore {
   sysid::PredictionErrors before_, after_, held_out_;
   sysid::Provenance provenance_;  ///< of model_
   int simulations_ = 0;
-  bool extended_ = false;  // calibrated again because of an extension adopted in this round
+  bool extending_ = false;  // the calibration in progress is that of a named extension
+  std::optional<OnTrial> trial_;
 
   std::set<std::string> calibrated_designs_;  // ever calibrated on: no longer held out
   wire::GamutCollector gamut_chunks_;

@@ -8,7 +8,6 @@
 #include "base/random.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
-#include "material/extensions.hpp"
 #include "sysid/objective.hpp"
 #include "validation_agent/validation_core.hpp"
 
@@ -35,17 +34,20 @@ void ValidationCore::begin_round(int round) {
   round_ = round;
   before_ = after_ = held_out_ = {};
   simulations_ = 0;
-  extended_ = false;
   if (round == 0) {
     calibration_set_ = tables_.base_materials;
-    begin_calibration();
-    return;
+    return begin_calibration(model_);
   }
+  if (trial_ && !proposals_.at(round - 1).designs.empty()) return foretell();
+  order();
+}
+
+void ValidationCore::order() {
   std::vector<pattern::Design> designs;
-  for (const wire::ProposedDesign& proposed : proposals_.at(round - 1).designs) designs.push_back(proposed.design);
+  for (const wire::ProposedDesign& proposed : proposals_.at(round_ - 1).designs) designs.push_back(proposed.design);
   const auto experiments = diagnosis_ ? experiments_of(*diagnosis_) : std::vector<game::Experiment>{};
   phase_ = Phase::measuring;
-  send_orders(desk_.open_round(round, std::move(designs), experiments));
+  send_orders(desk_.open_round(round_, std::move(designs), experiments));
   measure_on();
 }
 
@@ -104,13 +106,19 @@ void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predi
     shown.push_back(game::has_measurement_side(model_) ? sysid::observed(prediction, model_.extensions) : prediction);
   }
   held_out_ = sysid::prediction_errors(held_out_set_, shown);
-  begin_calibration();
+  if (trial_) {
+    std::map<std::string, sysid::Prediction> adopted;
+    for (std::size_t i = 0; i < held_out_set_.size(); ++i) adopted.emplace(held_out_set_[i].design.name(), shown[i]);
+    trial_->errors.add(held_out_set_, adopted, trial_->foretold);
+  }
+  extending_ = false;
+  begin_calibration(model_);
 }
 
-void ValidationCore::begin_calibration() {
+void ValidationCore::begin_calibration(const material::ParameterSet& start) {
   sysid::CalibrationSettings settings;
   settings.target = round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
-  settings.start = model_;
+  settings.start = start;
   settings.modulus_budget = scenario_.validation.modulus_evaluations;
   settings.toughness_budget = scenario_.validation.calibration_evaluations;
   settings.batch = scenario_.validation.calibration_batch;
@@ -131,14 +139,26 @@ void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid:
 
 void ValidationCore::calibrate_on() {
   if (fitting_->finished()) return finish_calibration();
-  ask_farm(extended_ ? "x" : "c", fitting_->wanted(), fitting_->measured());
+  ask_farm(extending_ ? "x" : "c", fitting_->wanted(), fitting_->measured());
 }
 
 void ValidationCore::finish_calibration() {
-  const sysid::Calibrated& result = fitting_->result();
-  if (!extended_) before_ = result.before;
-  after_ = result.after;
+  const sysid::Calibrated result = fitting_->result();
+  fitting_.reset();
   simulations_ += result.simulations;
+  if (extending_) return finish_trial(result);
+  before_ = result.before;
+  take_over(result);
+  for (const measurement::Replicates& measured : calibration_set_) calibrated_designs_.insert(measured.design.name());
+  say(LogLevel::info, fmt::format("round {}: calibrated with {} simulations, mean errors E {:.1f} %, T {:.1f} %",
+                                  round_, simulations_, 100.0 * after_.modulus_mean, 100.0 * after_.toughness_mean));
+  const bool something_to_diagnose = round_ > 0 && !calibration_set_.empty();
+  if (scenario_.diagnosis.enabled && something_to_diagnose) return diagnose();
+  publish_model();
+}
+
+void ValidationCore::take_over(const sysid::Calibrated& result) {
+  after_ = result.after;
   model_ = result.parameters;
   provenance_ = sysid::provenance_of(
       result, round_ == 0 ? "base_materials" : sysid::to_string(sysid::CalibrationSettings{}.toughness_search));
@@ -147,13 +167,6 @@ void ValidationCore::finish_calibration() {
       say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom", round_, what,
                                          fit.chi_squared, fit.freedom));
   }
-  fitting_.reset();
-  for (const measurement::Replicates& measured : calibration_set_) calibrated_designs_.insert(measured.design.name());
-  say(LogLevel::info, fmt::format("round {}: calibrated with {} simulations, mean errors E {:.1f} %, T {:.1f} %",
-                                  round_, simulations_, 100.0 * after_.modulus_mean, 100.0 * after_.toughness_mean));
-  const bool something_to_diagnose = round_ > 0 && !calibration_set_.empty();
-  if (scenario_.diagnosis.enabled && something_to_diagnose && !extended_) return diagnose();
-  publish_model();
 }
 
 void ValidationCore::diagnose() {
@@ -163,32 +176,6 @@ void ValidationCore::diagnose() {
   }
   phase_ = Phase::diagnosing;
   send("DIAGNOSE", request);
-}
-
-bool ValidationCore::adopt(const diagnosis_t& diagnosis) {
-  const bool established = diagnosis.has_gain && diagnosis.relative_reduction > 0.0 && diagnosis.reduction_low > 0.0;
-  if (diagnosis.verdict != "named" || !established) return false;
-  material::ParameterSet extended = model_;
-  for (const effect_t& effect : diagnosis.effects) {
-    if (material::find_effect(effect.name) == nullptr) {
-      say(LogLevel::warning,
-          fmt::format("the diagnosis names {}, which is not in the library of effects", effect.name));
-      return false;
-    }
-    extended.extensions[effect.name] = {effect.parameter};
-  }
-  if (extended == model_) return false;
-  if (const std::string fault = material::parameter_fault(extended); !fault.empty()) {
-    say(LogLevel::warning, "the diagnosed extension cannot be adopted: " + fault);
-    return false;
-  }
-  model_ = std::move(extended);
-  extended_ = true;
-  say(LogLevel::info,
-      fmt::format("round {}: the model is extended, held-out error falls by {:.0f} % (90 %: {:.0f} to {:.0f})", round_,
-                  100.0 * diagnosis.relative_reduction, 100.0 * diagnosis.reduction_low,
-                  100.0 * diagnosis.reduction_high));
-  return true;
 }
 
 void ValidationCore::publish_model() {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,9 @@ diagnosis_t nothing_wrong() {
   return diagnosis;
 }
 
-InProcessGame played(const game::Scenario& scenario, std::function<diagnosis_t(int)> diagnosis) {
+InProcessGame played(const game::Scenario& scenario, std::function<diagnosis_t(int)> diagnosis, const LaboratorySettings& laboratory = {}) {
   InProcessGame game;
-  add_players(game, scenario, {}, std::move(diagnosis));
+  add_players(game, scenario, laboratory, std::move(diagnosis));
   game.announce(scenario);
   game.play();
   EXPECT_EQ(game.payloads("ROUND").size(), static_cast<std::size_t>(scenario.rounds) + 1);
@@ -60,45 +61,87 @@ bool proposal_agent_asked_with(const InProcessGame& game, const std::string& eff
   });
 }
 
-TEST(Diagnosis, AnEstablishedEffectOfTheMaterialExtendsTheModelOfTheSearch) {
+/// A game of `rounds` whose laboratory hides an effect that the diagnosis names in the rounds that `names` holds.
+InProcessGame played_with(const std::string& effect, double value, int rounds, const std::set<int>& names) {
   game::Scenario scenario = small_scenario();
-  const auto game =
-      played(scenario, [](int round) { return round == 1 ? named("interface_anisotropy", 0.2) : nothing_wrong(); });
-  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
-  EXPECT_THAT(models[0].parameters.extensions, IsEmpty());
-  ASSERT_TRUE(models[1].parameters.extensions.contains("interface_anisotropy"));
-  EXPECT_EQ(models[1].parameters.extensions.at("interface_anisotropy"), std::vector<double>{0.2});
-  EXPECT_TRUE(models[2].parameters.extensions.contains("interface_anisotropy")) << "an adopted extension stays";
-  EXPECT_TRUE(proposal_agent_asked_with(game, "interface_anisotropy"));
+  scenario.rounds = rounds;
+  LaboratorySettings laboratory;
+  laboratory.hidden[effect] = {value};
+  return played(scenario, [&](int round) { return names.contains(round) ? named(effect, value) : nothing_wrong(); }, laboratory);
+}
+
+std::vector<bool> adopted(const InProcessGame& game, const std::string& effect) {
+  std::vector<bool> held;
+  for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS")) held.push_back(model.parameters.extensions.contains(effect));
+  return held;
+}
+
+// Round 1 names it, what it expects of the designs of round 2 comes true, so round 2 adopts it.
+TEST(Diagnosis, AnEffectOfTheMaterialThatForetellsBetterExtendsTheModelOfTheSearch) {
+  const auto game = played_with("droplet_mixing", 0.3, 3, {1, 2});
+  EXPECT_EQ(adopted(game, "droplet_mixing"), (std::vector<bool>{false, false, true, true})) << "named in round 1, adopted in round 2, kept";
+  EXPECT_TRUE(proposal_agent_asked_with(game, "droplet_mixing"));
+}
+
+TEST(Diagnosis, WhatAnExtensionExpectsIsNotedBeforeAnythingIsOrdered) {
+  const auto game = played_with("droplet_mixing", 0.3, 2, {1, 2});
+  int noted = 0;
+  bool ordered = false;
+  for (const runtime::Message& message : game.everything_said()) {
+    if (message.channel == "TEST_ORDER") ordered = ordered || wire::read<wire::TestOrder>(message.payload)->round == 2;
+    if (message.channel != "SIMULATED") continue;
+    const auto answer = wire::read<wire::SimulateResult>(message.payload).value();
+    if (!answer.request_id.starts_with("validation_agent/r2/f/")) continue;
+    EXPECT_FALSE(ordered) << answer.request_id;
+    noted += static_cast<int>(answer.results.size());
+  }
+  EXPECT_EQ(noted, 3) << "designs proposed in round 1";
 }
 
 TEST(Diagnosis, AnEffectOfTheTestingMachineActsInComparisonsOnly) {
-  game::Scenario scenario = small_scenario();
-  const auto game =
-      played(scenario, [](int round) { return round == 1 ? named("machine_compliance", 5e-11) : nothing_wrong(); });
-  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
-  EXPECT_TRUE(models[1].parameters.extensions.contains("machine_compliance"));
+  const auto game = played_with("machine_compliance", 2e-9, 3, {1, 2, 3});
+  EXPECT_TRUE(adopted(game, "machine_compliance").back());
   for (const auto& request : game.said<wire::SimulateRequest>("SIMULATE")) {
     EXPECT_THAT(request.parameters.extensions, IsEmpty()) << request.request_id;
   }
-  // Held-out errors of round 2 are taken of what the machine would show: asked again, with curves.
-  const auto requests = game.said<wire::SimulateRequest>("SIMULATE");
-  EXPECT_TRUE(std::any_of(requests.begin(), requests.end(), [](const wire::SimulateRequest& request) {
-    return request.request_id.starts_with("validation_agent/r2/h/") && request.curve_points > 0;
-  }));
-  EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[2].held_out.toughness_count, 3);
+  EXPECT_FALSE(proposal_agent_asked_with(game, "machine_compliance"));
 }
 
-TEST(Diagnosis, NothingIsAdoptedWithoutANameAndAnEstablishedGain) {
+// Held-out errors are taken of what the machine would show: asked again, with curves.
+TEST(Diagnosis, HeldOutErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
+  const auto game = played_with("machine_compliance", 2e-9, 4, {1, 2, 3, 4});
+  const std::vector<bool> held = adopted(game, "machine_compliance");
+  const auto first = std::find(held.begin(), held.end(), true) - held.begin();
+  ASSERT_LT(first, 4);
+  const auto requests = game.said<wire::SimulateRequest>("SIMULATE");
+  EXPECT_TRUE(std::any_of(requests.begin(), requests.end(), [&](const wire::SimulateRequest& request) {
+    return request.request_id.starts_with("validation_agent/r" + std::to_string(first + 1) + "/h/") && request.curve_points > 0;
+  }));
+  EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 3);
+}
+
+TEST(Diagnosis, ANameThatForetellsNothingBetterIsNeverAdopted) {
   game::Scenario scenario = small_scenario();
-  scenario.rounds = 1;
-  std::vector<diagnosis_t> unconvincing(4, named("interface_anisotropy", 0.2));
-  unconvincing[0].verdict = "ambiguous";
-  unconvincing[1].has_gain = false;
-  unconvincing[2].reduction_low = -0.1;
-  unconvincing[3].effects[0].parameter = 1e6;  // outside what the effect allows
-  for (const diagnosis_t& diagnosis : unconvincing) {
-    const auto game = played(scenario, [&](int) { return diagnosis; });
+  scenario.rounds = 3;
+  const auto game = played(scenario, [](int) { return named("droplet_mixing", 0.3); });
+  EXPECT_EQ(adopted(game, "droplet_mixing"), std::vector<bool>(4, false)) << "the laboratory hides nothing";
+}
+
+TEST(Diagnosis, ANameThatIsNotHeldEndsItsTrial) {
+  const auto game = played_with("droplet_mixing", 0.3, 4, {1, 3, 4});
+  EXPECT_EQ(adopted(game, "droplet_mixing"), (std::vector<bool>{false, false, false, false, true})) << "what it foretold for round 2 does not count in round 3";
+}
+
+TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
+  game::Scenario scenario = small_scenario();
+  LaboratorySettings laboratory;
+  laboratory.hidden["droplet_mixing"] = {0.3};
+  std::vector<diagnosis_t> unusable(3, named("droplet_mixing", 0.3));
+  unusable[0].verdict = "ambiguous";
+  unusable[1].effects[0].parameter = 1e6;  // outside what the effect allows
+  unusable[2].effects[0].name = "gremlins";
+  for (const diagnosis_t& diagnosis : unusable) {
+    const auto game = played(scenario, [&](int) { return diagnosis; }, laboratory);
     for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS"))
       EXPECT_THAT(model.parameters.extensions, IsEmpty());
   }

@@ -52,6 +52,8 @@ class InProcessGame {
     return all;
   }
   std::vector<std::string> payloads(const std::string& channel) const;
+  /// Everything that was published, in order; repeats of the same content once.
+  const std::vector<runtime::Message>& everything_said() const { return said_; }
 
   /// Channels and contents that equal games share (docs/ARCHITECTURE.md).
   std::set<std::pair<std::string, std::string>> essence() const;

@@ -6,7 +6,9 @@
 
 #include "base/hash.hpp"
 #include "base/random.hpp"
+#include "game/model.hpp"
 #include "material/extensions.hpp"
+#include "sysid/objective.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "proposal_agent/selection_work.hpp"
 #include "simulator_farm/farm_core.hpp"
@@ -74,6 +76,7 @@ class Responder : public runtime::NodeCore {
 
 tester::Simulation truth_of(const wire::TestOrder& order, const LaboratorySettings& settings) {
   tester::Simulation simulation{order.design, material::default_parameters(), order.conditions, order.fidelity};
+  simulation.parameters.extensions = game::material_side({.modulus = {}, .toughness = {}, .extensions = settings.hidden}).extensions;
   for (double* modulus_pa : {&simulation.parameters.modulus.e_tb_pa, &simulation.parameters.modulus.e_vw_pa,
                              &simulation.parameters.modulus.e_if_pa}) {
     *modulus_pa *= settings.modulus_factor;
@@ -109,11 +112,13 @@ wire::SimulatedDesign closed_form(const tester::Simulation& simulation, bool mod
   const material::ToughnessParameters& eta = simulation.parameters.toughness;
   const double turned = simulation.conditions.orientation_deg == 90.0 ? -1.0 : 1.0;
   const double anisotropy = material::extension_value(simulation.parameters.extensions, "interface_anisotropy");
+  const double mixing = material::extension_value(simulation.parameters.extensions, "droplet_mixing");
+  const double mixed = simulation.design.layout() && content_hash64(simulation.design.name()) % 2 == 1 ? mixing : -mixing;
   wire::SimulatedDesign answer;
   answer.design = simulation.design;
   if (modulus) {
     answer.modulus_pa = geometric_mean(shares, theta.e_tb_pa, theta.e_vw_pa, theta.e_if_pa) *
-                        (1.0 + turned * anisotropy * shares.interface);
+                        (1.0 + turned * anisotropy * shares.interface) * std::exp(mixed);
   }
   if (toughness) {
     answer.toughness_pa =
@@ -144,7 +149,12 @@ std::map<std::string, runtime::WorkFunction> closed_form_work(std::set<std::stri
 }
 
 std::vector<wire::Measurement> measure(const wire::TestOrder& order, const LaboratorySettings& settings) {
-  const wire::SimulatedDesign truth = true_answer(order, settings);
+  const wire::SimulatedDesign answer = true_answer(order, settings);
+  const bool pulled = order.test == tester::TestKind::modulus;
+  const sysid::Prediction truth = sysid::observed({.modulus_pa = pulled ? std::optional(answer.modulus_pa) : std::nullopt,
+                                                   .toughness_pa = pulled ? std::nullopt : std::optional(answer.toughness_pa),
+                                                   .curve = answer.curve},
+                                                  settings.hidden);
   std::vector<wire::Measurement> measurements;
   for (int replicate = 1; replicate <= order.replicates; ++replicate) {
     wire::Measurement measured;
@@ -159,10 +169,10 @@ std::vector<wire::Measurement> measure(const wire::TestOrder& order, const Labor
     record.batch = order.batch;
     RandomStream noise(content_hash64(record.specimen), "noise");
     if (order.test == tester::TestKind::modulus) {
-      record.modulus_pa = truth.modulus_pa * (1.0 + settings.modulus_noise * noise.normal());
+      record.modulus_pa = *truth.modulus_pa * (1.0 + settings.modulus_noise * noise.normal());
     } else {
       const double factor = std::max(0.1, 1.0 + settings.toughness_noise * noise.normal());
-      record.toughness_pa = truth.toughness_pa * factor;
+      record.toughness_pa = *truth.toughness_pa * factor;
       record.curve = truth.curve;
       for (double& stress_pa : record.curve.stress_pa) stress_pa *= factor;
     }

@@ -1,0 +1,126 @@
+#include "diagnosis/outsider.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "base/parallel.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Amplitudes that are tried, in standard deviations of a row; 0 is the base model.
+constexpr std::array kAmplitudes = {0.0, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 23.0, 32.0};
+/// Enough to tell 3 %.
+constexpr int kMostDraws = 1000;
+
+/// Mean of `matrix`'s diagonal over the rows of each kind (feature, test, probe) is brought to `noise`'s.
+Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix, const Observations& observations) {
+  std::map<std::tuple<Feature, tester::TestKind, Probe>, std::pair<double, double>> sums;
+  const auto kind = [&](int i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    return std::tuple(row.feature, row.test, row.probe);
+  };
+  for (int i = 0; i < observations.size(); ++i) sums[kind(i)].first += matrix(i, i), sums[kind(i)].second += noise(i, i);
+  Eigen::VectorXd scale(observations.size());
+  for (int i = 0; i < observations.size(); ++i) {
+    const auto& [own, wanted] = sums[kind(i)];
+    scale[i] = own > 0.0 ? std::sqrt(wanted / own) : 0.0;
+  }
+  return scale.asDiagonal() * matrix * scale.asDiagonal();
+}
+
+/// Residuals of one data set with the base's coordinates integrated out (their prior is Gaussian), under one covariance of the noise.
+struct Marginal {
+  Eigen::VectorXd residual;    ///< from the middle of the prior
+  Eigen::MatrixXd covariance;  ///< noise and what the base can move
+};
+
+Marginal marginal(const Fit& base, const NoisyData& data) {
+  Marginal result{data.values - base.predicted, data.whitener.covariance()};
+  for (const int i : base.free) {
+    if (i >= base.base_count) continue;
+    const Eigen::VectorXd column = base.jacobian.col(i);
+    result.residual -= column * (0.5 - base.u[i]);
+    result.covariance += std::pow(base.prior_sd[i], 2) * column * column.transpose();
+  }
+  return result;
+}
+
+/// -2 log likelihood at the most probable amplitude, less the logarithmic determinant of the base's covariance; that amplitude.
+std::pair<double, double> most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
+  double least = 0.0, at = 0.0, reference = 0.0;
+  for (const double amplitude : kAmplitudes) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + amplitude * amplitude * unit);
+    const double determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    if (amplitude == 0.0) reference = determinant;
+    const double deviance = factor.matrixL().solve(data.residual).squaredNorm() + determinant - reference;
+    if (amplitude == 0.0 || deviance < least) least = deviance, at = amplitude;
+  }
+  return {least, at};
+}
+
+/// The least chi2 that `count` effects reach on these data, added one by one along their signatures.
+double best_chi2(const Marginal& data, const std::vector<Signature>& signatures, int count) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance);
+  Eigen::VectorXd residual = factor.matrixL().solve(data.residual);
+  std::vector<Eigen::VectorXd> taken;
+  for (int step = 0; step < count; ++step) {
+    double best = 0.0;
+    Eigen::VectorXd along_best;
+    for (const Signature& signature : signatures) {
+      for (const Eigen::VectorXd& change : signature.changes) {
+        Eigen::VectorXd g = factor.matrixL().solve(change);
+        for (const Eigen::VectorXd& other : taken) g -= other * other.dot(g);
+        const double length = g.norm(), along = length > 1e-6 ? g.dot(residual) / length : 0.0;
+        if ((signature.one_sided && along < 0.0) || along * along <= best) continue;
+        best = along * along;
+        along_best = g / length;
+      }
+    }
+    if (best == 0.0) break;
+    residual -= along_best * along_best.dot(residual);
+    taken.push_back(along_best);
+  }
+  return residual.squaredNorm();
+}
+
+}  // namespace
+
+Eigen::MatrixXd outsider_covariance(const Observations& observations, const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise) {
+  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(observations.size(), observations.size()), own = along;
+  for (const ContrastDirection& direction : directions) along += direction.values * direction.values.transpose();
+  for (int i = 0; i < observations.size(); ++i) {
+    for (int j = 0; j < observations.size(); ++j) {
+      const Row &a = observations.rows[static_cast<std::size_t>(i)], &b = observations.rows[static_cast<std::size_t>(j)];
+      const bool alike = a.feature == b.feature && a.test == b.test && a.probe == b.probe;
+      if (alike && a.probe == Probe::mean && observations.group_of(i).design == observations.group_of(j).design) own(i, j) = 1.0;
+    }
+  }
+  return 0.5 * in_units_of(noise, std::move(along), observations) + 0.5 * in_units_of(noise, std::move(own), observations);
+}
+
+Outsider outsider_against(const Evidence& evidence, double chi2, int count) {
+  const Observations& observations = evidence.observations;
+  const Fit& base = evidence.base.fit;
+  const Eigen::MatrixXd noise = observations.covariance(), unit = outsider_covariance(observations, evidence.base.directions, noise);
+  const auto [deviance, amplitude] = most_probable(marginal(base, {observations.values, Whitener(noise)}), unit);
+  Outsider outsider{amplitude, deviance - chi2, 1.0};
+  const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
+  std::vector<double> leads(static_cast<std::size_t>(draws));
+  const DataSource source(observations);
+  const Eigen::MatrixXd spread = amplitude * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) * Eigen::MatrixXd::Identity(unit.rows(), unit.cols())).llt().matrixL());
+  parallel_for(draws, [&](int i) {
+    RandomStream random(evidence.settings.seed + 4, "outsider/" + std::to_string(i));
+    Eigen::VectorXd cause(observations.size());
+    for (double& value : cause) value = random.normal();
+    const Marginal data = marginal(base, source.draw(base.predicted + spread * cause, random));
+    leads[static_cast<std::size_t>(i)] = most_probable(data, unit).first - best_chi2(data, evidence.base.signatures, count);
+  });
+  outsider.p = exceedance(leads, outsider.lead);
+  return outsider;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,59 @@
+#include "tester/modulus_probe.hpp"
+
+#include "fem/element.hpp"
+#include "fem/static_solver.hpp"
+#include "material/extended_law.hpp"
+#include "tester/assembly.hpp"
+#include "tester/fidelity.hpp"
+#include "tester/usable.hpp"
+#include "thesis/constants.hpp"
+
+namespace nacre::tester {
+namespace {
+
+fem::Grid grid_of(const Simulation& simulation, const material::ParameterSet& parameters) {
+  const SpecimenUnits units = modulus_units(simulation.fidelity);
+  return assemble(simulation.design, parameters, simulation.conditions, AssemblyTarget::modulus, units.x, units.y);
+}
+
+double at_rate(const Simulation& simulation, const material::ParameterSet& parameters) {
+  return material::rate_stiffening(material::law_extensions(parameters.extensions), simulation.conditions.strain_rate_per_s);
+}
+
+}  // namespace
+
+Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
+  if (simulation.design.mixture() != nullptr) return fail("modulus probe: expected a layout");
+  if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty()) return fail("modulus probe: {}", fault);
+  const fem::Grid grid = grid_of(simulation, simulation.parameters);
+  const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
+  if (!solution) return fail("modulus probe: {}", solution.error().message);
+  ModulusProbe probe;
+  probe.simulation_ = simulation;
+  probe.modulus_pa_ = solution->top_stress_pa / thesis::kModulusStrain * at_rate(simulation, simulation.parameters);
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      fem::ElementVector moved;
+      int a = 0;
+      for (const int node : fem::element_nodes(grid, row, column)) {
+        for (int direction = 0; direction < 2; ++direction) moved[2 * a + direction] = solution->displacement[static_cast<std::size_t>(2 * node + direction)];
+        ++a;
+      }
+      probe.shear_.push_back(0.5 * moved.dot(fem::unit_stiffness().shear * moved));
+      probe.bulk_.push_back(0.5 * moved.dot(fem::unit_stiffness().bulk * moved));
+    }
+  }
+  probe.energy_ = probe.energy(simulation.parameters);
+  return probe;
+}
+
+double ModulusProbe::energy(const material::ParameterSet& parameters) const {
+  const std::vector<material::Lame> lame = fem::lame_of(grid_of(simulation_, parameters));
+  double sum = 0.0;
+  for (std::size_t e = 0; e < lame.size(); ++e) sum += lame[e].mu_pa * shear_[e] + lame[e].lambda_pa * bulk_[e];
+  return sum * at_rate(simulation_, parameters);
+}
+
+double ModulusProbe::nearby(const material::ParameterSet& parameters) const { return modulus_pa_ * energy(parameters) / energy_; }
+
+}  // namespace nacre::tester

@@ -1,0 +1,30 @@
+#pragma once
+// The slopes of a modulus for the price of one solution. In equilibrium the elastic energy does not change to first order with the
+// displacements (Hellmann-Feynman); so the energy of other constants on the same displacements gives E with an error of second order
+// in their change. A derivative by differences needs no further solution.
+
+#include <vector>
+
+#include "tester/tester.hpp"
+
+namespace nacre::tester {
+
+class ModulusProbe {
+ public:
+  /// Solves for a layout (Error: what made the solution impossible; a homogeneous design).
+  static Result<ModulusProbe> at(const Simulation& simulation);
+  /// E of test_modulus() at these parameters, Pa.
+  double modulus_pa() const { return modulus_pa_; }
+  /// E of the same specimen with other parameters, exact to first order in their change, never too small to second order.
+  /// The parameters must be usable (material::parameter_fault empty). Cost: an assembly.
+  double nearby(const material::ParameterSet& parameters) const;
+
+ private:
+  double energy(const material::ParameterSet& parameters) const;
+
+  Simulation simulation_;
+  double modulus_pa_ = 0.0, energy_ = 0.0;
+  std::vector<double> shear_, bulk_;  ///< energy of each element per Pa of mu and of lambda
+};
+
+}  // namespace nacre::tester
