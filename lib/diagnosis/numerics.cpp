@@ -23,6 +23,19 @@ Eigen::MatrixXd matrix(const toml::table& table, const char* key, std::size_t si
   return result;
 }
 
+/// Sums over few parameter sets have directions without any variance, which four printed digits may turn into slightly negative ones; spread over
+/// all layouts these outweigh the scatter. They are set to nothing; a matrix that is no covariance at all is an error.
+Eigen::MatrixXd as_covariance(const Eigen::MatrixXd& given, const char* key, const std::string& place) {
+  constexpr double kRounding = 1e-3;
+  if (!given.isApprox(given.transpose(), 1e-6) || given.diagonal().minCoeff() <= 0.0) throw InputError::format("{} {}: expected a symmetric matrix with positive variances", place, key);
+  const Eigen::VectorXd deviation = given.diagonal().cwiseSqrt(), inverse = deviation.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inverse.asDiagonal() * given * inverse.asDiagonal());
+  if (parts.eigenvalues().minCoeff() < -kRounding * parts.eigenvalues().maxCoeff())
+    throw InputError::format("{} {}: no covariance: some combination of features has a negative variance", place, key);
+  const Eigen::MatrixXd correlation = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() * parts.eigenvectors().transpose();
+  return deviation.asDiagonal() * correlation * deviation.asDiagonal();
+}
+
 }  // namespace
 
 double FractureNumerics::covariance(Feature a, Feature b, double z_a, double z_b, bool same_layout) const {
@@ -45,9 +58,9 @@ FractureNumerics read_fracture_numerics(const std::filesystem::path& file, teste
     if (!feature) throw InputError::format("{} features: {}", place, feature.error().message);
     floor.features.push_back(*feature);
   }
-  floor.shared = matrix(*table, "covariance_shared", names->size(), place);
-  floor.rigid = matrix(*table, "covariance_rigid", names->size(), place);
-  floor.layout = matrix(*table, "covariance_layout", names->size(), place);
+  floor.shared = as_covariance(matrix(*table, "covariance_shared", names->size(), place), "covariance_shared", place);
+  floor.rigid = as_covariance(matrix(*table, "covariance_rigid", names->size(), place), "covariance_rigid", place);
+  floor.layout = as_covariance(matrix(*table, "covariance_layout", names->size(), place), "covariance_layout", place);
   return floor;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include "diagnosis/history_rows.hpp"
@@ -113,6 +114,10 @@ Observation mean_of(const std::vector<Measured>& replicates) {
 double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
 
 }  // namespace
+
+Whitener::Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {
+  if (factor_.info() != Eigen::Success) throw std::runtime_error("the covariance of the data is not positive definite");
+}
 
 std::string Observation::material() const { return design.layout() ? "layout" : design.name(); }
 

@@ -44,7 +44,8 @@ struct Row {
 /// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
 class Whitener {
  public:
-  explicit Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {}
+  /// Throws std::runtime_error when the matrix is not positive definite: no statement about such data would mean anything.
+  explicit Whitener(const Eigen::MatrixXd& covariance);
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& differences) const { return factor_.matrixL().solve(differences); }
   /// The squared length of the whitened vector.
   double chi2(const Eigen::VectorXd& differences) const { return factor_.matrixL().solve(differences).squaredNorm(); }

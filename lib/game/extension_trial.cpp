@@ -40,25 +40,28 @@ double student_exceedance(double t, int freedom) {
   return t >= 0.0 ? 0.5 * (1.0 - within) : 0.5 * (1.0 + within);
 }
 
-TrialGain gain_of(std::span<const ForetoldError> errors) {
+TrialGain gain_of(std::span<const ForetoldError> errors, double least) {
   TrialGain gain;
   gain.designs = static_cast<int>(errors.size());
   if (gain.designs < 2) return gain;
-  for (const ForetoldError& each : errors) gain.adopted += each.adopted / gain.designs, gain.extended += each.extended / gain.designs;
-  const double mean = gain.adopted - gain.extended;
-  double squares = 0.0;
-  for (const ForetoldError& each : errors) squares += std::pow(each.adopted - each.extended - mean, 2);
+  const auto factor = [least](const ForetoldError& each) { return std::log((each.adopted + least) / (each.extended + least)); };
+  double mean = 0.0, squares = 0.0;
+  for (const ForetoldError& each : errors) {
+    gain.adopted += each.adopted / gain.designs;
+    gain.extended += each.extended / gain.designs;
+    mean += factor(each) / gain.designs;
+  }
+  for (const ForetoldError& each : errors) squares += std::pow(factor(each) - mean, 2);
   const double standard_error = std::sqrt(squares / (gain.designs - 1) / gain.designs);
-  if (mean == 0.0) return gain;
   const double t = mean / std::max(standard_error, 1e-12);
-  gain.p_gain = student_exceedance(t, gain.designs - 1);
-  gain.p_loss = student_exceedance(-t, gain.designs - 1);
+  if (mean > 0.0 && gain.extended < gain.adopted) gain.p_gain = student_exceedance(t, gain.designs - 1);
+  if (mean < 0.0 && gain.extended > gain.adopted) gain.p_loss = student_exceedance(-t, gain.designs - 1);
   return gain;
 }
 
 bool gain_is_established(const TrialErrors& errors, int rounds) {
   const double level = kLevel / std::max(rounds, 1);
-  const TrialGain modulus = gain_of(errors.modulus), toughness = gain_of(errors.toughness);
+  const TrialGain modulus = gain_of(errors.modulus, kLeastModulusError), toughness = gain_of(errors.toughness, kLeastToughnessError);
   return modulus.designs >= kFewestDesigns && modulus.p_gain <= level && toughness.p_loss > level;
 }
 

@@ -29,10 +29,17 @@ struct TrialErrors {
 struct TrialGain {
   int designs = 0;
   double adopted = 0.0, extended = 0.0;  ///< mean errors
-  double p_gain = 1.0;                   ///< one-sided chance of such a gain when there is none (Student's t over the designs' paired differences)
+  double p_gain = 1.0;                   ///< one-sided chance of such a gain when there is none
   double p_loss = 1.0;                   ///< of such a loss
 };
-TrialGain gain_of(std::span<const ForetoldError> errors);
+
+/// Student's t over the designs' log((adopted + least)/(extended + least)): how many times smaller the error is, design by design, since errors of
+/// designs differ by far more than models do. `least` is an error that scatter and numerics leave anyway. Gain and loss also ask for the mean
+/// error to fall or rise.
+TrialGain gain_of(std::span<const ForetoldError> errors, double least);
+
+/// What scatter and numerics leave of log E and of log T.
+inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
 
 /// 5 % over the whole game: E is predicted better at 5 % over the number of rounds, as the diagnosis of a game compares moduli, and T is not
 /// shown to be predicted worse at the same level. At least three designs.

@@ -88,16 +88,17 @@ std::string cause_section(const Diagnosis& d) {
     if (!d.common_ground.empty()) content += paragraph("Common to all of them: " + spaced(d.common_ground) + ".");
   }
   if (d.verdict == Verdict::unexplained) {
-    content += paragraph("None of the causes that nacre knows fits. The simulation should not be extended by the one that comes nearest: it would predict better for the wrong reason.");
+    content += paragraph("No cause is named; the sentence above says why. The simulation should not be extended by the one that comes nearest: it may predict better for the wrong reason.");
     if (d.partial_gain) content += paragraph(fmt::format("(The nearest would take held-out errors from {} to {}.)", percent(d.partial_gain->held_out_error_before), percent(d.partial_gain->held_out_error_after)));
   }
   if (content.empty()) content = paragraph("No cause is needed.");
   return section("cause", "The cause", content);
 }
 
-std::string status_words(const Candidate& c) {
+std::string status_words(const Candidate& c, Verdict verdict) {
   if (c.status == "in_set") return "<strong>explains it</strong>";
-  if (c.status == "excluded") return c.p_family_wise <= 0.003 ? "helps, but others explain it better" : "no sign of it";
+  const char* helps = verdict == Verdict::unexplained ? "helps, but cannot be named" : "helps, but others explain it better";
+  if (c.status == "excluded") return c.p_family_wise <= 0.003 ? helps : "no sign of it";
   if (c.status == "invisible") return "invisible on these data (not: absent)";
   return "these tests cannot say";
 }
@@ -106,7 +107,7 @@ std::string rivals_section(const Diagnosis& d) {
   std::string rows;
   for (const Candidate& c : d.candidates) {
     const bool acts = c.status != "not_applicable";
-    rows += table_row({spaced(c.name), status_words(c), acts ? figure(c.signal_to_noise) : "–", acts ? percent(c.absorption) : "–", c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", spaced(c.nearest_rival), figure(c.rival_cosine)),
+    rows += table_row({spaced(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–", acts ? percent(c.absorption) : "–", c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", spaced(c.nearest_rival), figure(c.rival_cosine)),
                        acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
   }
   return section("rivals", "What else could explain it",

@@ -50,7 +50,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
 void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   const std::string name = fmt::format("{}", fmt::join(trial_->effects, " with "));
   const bool adopted_before = std::all_of(trial_->effects.begin(), trial_->effects.end(), [&](const std::string& each) { return model_.extensions.contains(each); });
-  const game::TrialGain gain = game::gain_of(trial_->errors.modulus);
+  const game::TrialGain gain = game::gain_of(trial_->errors.modulus, game::kLeastModulusError);
   if (adopted_before || game::gain_is_established(trial_->errors, scenario_.rounds)) {
     take_over(result);
     trial_.reset();

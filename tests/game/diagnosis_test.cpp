@@ -65,6 +65,7 @@ bool proposal_agent_asked_with(const InProcessGame& game, const std::string& eff
 InProcessGame played_with(const std::string& effect, double value, int rounds, const std::set<int>& names) {
   game::Scenario scenario = small_scenario();
   scenario.rounds = rounds;
+  scenario.proposal.designs = 4;
   LaboratorySettings laboratory;
   laboratory.hidden[effect] = {value};
   return played(scenario, [&](int round) { return names.contains(round) ? named(effect, value) : nothing_wrong(); }, laboratory);
@@ -95,7 +96,7 @@ TEST(Diagnosis, WhatAnExtensionExpectsIsNotedBeforeAnythingIsOrdered) {
     EXPECT_FALSE(ordered) << answer.request_id;
     noted += static_cast<int>(answer.results.size());
   }
-  EXPECT_EQ(noted, 3) << "designs proposed in round 1";
+  EXPECT_EQ(noted, 4) << "designs proposed in round 1";
 }
 
 TEST(Diagnosis, AnEffectOfTheTestingMachineActsInComparisonsOnly) {
@@ -117,7 +118,7 @@ TEST(Diagnosis, HeldOutErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
   EXPECT_TRUE(std::any_of(requests.begin(), requests.end(), [&](const wire::SimulateRequest& request) {
     return request.request_id.starts_with("validation_agent/r" + std::to_string(first + 1) + "/h/") && request.curve_points > 0;
   }));
-  EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 3);
+  EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 4);
 }
 
 TEST(Diagnosis, ANameThatForetellsNothingBetterIsNeverAdopted) {

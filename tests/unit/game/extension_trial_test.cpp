@@ -32,13 +32,18 @@ TEST(ExtensionTrial, OneLuckyDesignEstablishesNothing) {
   EXPECT_FALSE(gain_is_established(errors_of({0.30, 0.02, 0.02, 0.02}, {0.01, 0.02, 0.03, 0.02}), 3));
 }
 
+// Designs on which the adopted model is off by little and by much: what counts is how many times smaller the error is.
+TEST(ExtensionTrial, ErrorsOfDifferentSizeDoNotHideAGain) {
+  EXPECT_TRUE(gain_is_established(errors_of({0.60, 0.25, 0.12, 0.31}, {0.01, 0.02, 0.01, 0.01}), 3));
+}
+
 TEST(ExtensionTrial, TwoDesignsAreTooFew) { EXPECT_FALSE(gain_is_established(errors_of({0.10, 0.10}, {0.01, 0.01}), 1)); }
 
 TEST(ExtensionTrial, ALossIsNoGain) { EXPECT_FALSE(gain_is_established(errors_of({0.01, 0.02, 0.01, 0.02}, {0.11, 0.09, 0.10, 0.12}), 3)); }
 
 // The more rounds may try, the stronger the evidence has to be.
 TEST(ExtensionTrial, TheLevelIsSharedByTheRounds) {
-  const TrialErrors errors = errors_of({0.05, 0.03, 0.08, 0.04}, {0.02, 0.02, 0.02, 0.02});
+  const TrialErrors errors = errors_of({0.05, 0.03, 0.08, 0.04}, {0.02, 0.01, 0.02, 0.03});
   EXPECT_TRUE(gain_is_established(errors, 1));
   EXPECT_FALSE(gain_is_established(errors, 20));
 }
