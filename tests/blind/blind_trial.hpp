@@ -71,8 +71,12 @@ struct Trial {
 
 using Questions = std::function<std::vector<virtual_laboratory::Question>(std::uint64_t seed)>;
 
+/// In which batch a replicate is printed, both counted from 0.
+using BatchOf = std::function<int(const virtual_laboratory::Question&, int replicate)>;
+
 /// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and the opened truth.
-inline Trial run_trial(const std::string& laboratory, const Questions& questions, const std::string& fidelity) {
+inline Trial run_trial(const std::string& laboratory, const Questions& questions, const std::string& fidelity,
+                       const BatchOf& batch_of = [](const virtual_laboratory::Question&, int replicate) { return replicate; }) {
   const Scratch scratch;
   Trial trial;
   trial.truth = virtual_laboratory::parse_laboratory(laboratory, "trial");
@@ -81,8 +85,9 @@ inline Trial run_trial(const std::string& laboratory, const Questions& questions
   for (const auto& question : questions(trial.truth.seed)) {
     const auto response = virtual_laboratory::respond(trial.truth, question);
     for (int i = 0; i < kReplicates; ++i) {
-      const std::string name = question.design.name() + "-" + std::string(tester::to_string(question.test)) + (question.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
-      records.push_back(virtual_laboratory::record_specimen(trial.truth, question, response, {name, "batch " + std::to_string(i), ++print_order}));
+      std::string name = question.design.name() + "-" + std::string(tester::to_string(question.test)) + (question.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
+      if (question.test == tester::TestKind::tensile) name += "-at-" + std::to_string(question.conditions.strain_rate_per_s);
+      records.push_back(virtual_laboratory::record_specimen(trial.truth, question, response, {name, "batch " + std::to_string(1 + batch_of(question, i)), ++print_order}));
     }
   }
   measurement::write_measurement_set(scratch.folder() / "set", records);

@@ -1,0 +1,59 @@
+// Blind trials of homogeneous coupons pulled at two rates. The same hidden cause, printed so that two causes look alike, and printed so that they do not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "blind_trial.hpp"
+
+namespace nacre::blind {
+namespace {
+
+/// As slow as creep and as fast as an impact: a relaxation in between leaves no trace in the shape of either curve.
+constexpr double kSlow = 1e-6, kFast = 10.0;
+
+std::vector<virtual_laboratory::Question> coupons(std::uint64_t) {
+  std::vector<virtual_laboratory::Question> questions;
+  for (const double fraction : {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0}) {
+    for (const double rate : {kSlow, kFast}) {
+      virtual_laboratory::Question question;
+      question.design = pattern::Mixture{fraction};
+      question.test = tester::TestKind::tensile;
+      question.conditions.strain_rate_per_s = rate;
+      questions.push_back(question);
+    }
+  }
+  return questions;
+}
+
+std::string laboratory(int seed, const std::string& effect, const std::string& value) {
+  return laboratory_file(seed, "tiny", "modulus = 0.01\ntoughness = 0.01\nstrain = 0.002\n", effect, value);
+}
+
+std::vector<std::string> possible(const Trial& trial) {
+  std::vector<std::string> names;
+  for (const auto& model : trial.diagnosis["possible"]) names.push_back(model[0]);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// All fast coupons come from the second batch: batches that drift and materials that answer faster pulls more stiffly leave the same traces.
+TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeToldApart) {
+  const Trial trial = run_trial(laboratory(51, "batch_drift", "0.08"), coupons, "tiny", [](const auto& question, int) { return question.conditions.strain_rate_per_s == kFast ? 1 : 0; });
+  EXPECT_EQ(trial.diagnosis["verdict"], "ambiguous") << trial.diagnosis["summary"];
+  EXPECT_EQ(possible(trial), (std::vector<std::string>{"batch_drift", "rate_dependence"})) << trial.diagnosis["summary"] << trial.diagnosis["candidates"].dump(1);
+  EXPECT_TRUE(trial.diagnosis["effects"].empty());
+  EXPECT_NE(trial.diagnosis["summary"].get<std::string>().find("cannot tell"), std::string::npos) << trial.diagnosis["summary"];
+}
+
+// The same drift with both rates in both batches. Means over both batches do not gain by it: replicates show it.
+TEST(BlindCouponTrials, BatchesThatHoldBothRatesShowTheirDrift) {
+  const Trial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny", [](const auto&, int replicate) { return replicate % 2; });
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
+  EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "batch_drift");
+  EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.08, 0.012);
+}
+
+}  // namespace
+}  // namespace nacre::blind
