@@ -25,14 +25,6 @@ double matern52(double distance) {
   return (1.0 + r + r * r / 3.0) * std::exp(-r);
 }
 
-/// Covariance over the size of one effect: zero without the effect, linear and curved.
-double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const auto m = [](double distance) { return matern52(distance / kEffectLength); };
-  const double size = a[0] * b[0] + m(a[0] - b[0]) - m(a[0]) * m(b[0]);
-  const double shape = a.size() > 1 ? m((a.tail(a.size() - 1) - b.tail(b.size() - 1)).norm()) : 1.0;
-  return size * shape;
-}
-
 int library_index(std::string_view name) {
   const auto library = material::effect_library();
   const auto found = std::find_if(library.begin(), library.end(), [&](const material::Effect& e) { return e.name == name; });
@@ -40,6 +32,13 @@ int library_index(std::string_view name) {
 }
 
 }  // namespace
+
+double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const auto m = [](double distance) { return matern52(std::abs(distance) / kEffectLength); };
+  const double size = a[0] * b[0] + m(a[0] - b[0]) - m(a[0]) * m(b[0]);
+  const double shape = a.size() > 1 ? m((a.tail(a.size() - 1) - b.tail(b.size() - 1)).norm()) : 1.0;
+  return size * shape;
+}
 
 FractureSurface::FractureSurface(const Observations& observations, const FractureRuns& runs, material::ToughnessParameters centre)
     : observations_(observations), runs_(runs), centre_(to_vector(centre)) {

@@ -21,6 +21,10 @@ struct SurfaceRow {
   Feature feature = Feature::log_toughness;
 };
 
+/// Covariance of what one effect changes, between two points given by its strengths (-1 to 1; further parameters behind): zero without the effect,
+/// linear and curved in its size.
+double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 class FractureSurface {
  public:
   /// Rows of the observations that the surface predicts.

@@ -116,7 +116,7 @@ double rigid_position(const Observation& group) { return (group.design.rigid_fra
 }  // namespace
 
 Whitener::Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {
-  if (factor_.info() != Eigen::Success) throw std::runtime_error("the covariance of the data is not positive definite");
+  if (!covariance.allFinite() || factor_.info() != Eigen::Success) throw std::runtime_error("the covariance of the data is not positive definite");
 }
 
 std::string Observation::material() const { return design.layout() ? "layout" : design.name(); }

@@ -44,7 +44,7 @@ struct Row {
 /// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
 class Whitener {
  public:
-  /// Throws std::runtime_error when the matrix is not positive definite: no statement about such data would mean anything.
+  /// Throws std::runtime_error when the matrix is not finite and positive definite: no statement about such data would mean anything.
   explicit Whitener(const Eigen::MatrixXd& covariance);
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& differences) const { return factor_.matrixL().solve(differences); }
   /// The squared length of the whitened vector.

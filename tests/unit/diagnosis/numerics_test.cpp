@@ -37,8 +37,8 @@ Observations tidy_laboratory(const FractureNumerics& numerics) {
   return observations;
 }
 
-// The matrices are sums over five parameter sets, so that half of their eigenvalues are zero but for the digits that are printed. Below zero they
-// made the base fit end in parameters that were no numbers.
+// The matrices are sums over five parameter sets, so that half of their eigenvalues are zero but for the digits that are printed. Below zero, and
+// shared by all layouts, they can outweigh the scatter.
 TEST(FractureNumerics, TheShippedMatricesLeaveTheDataAPositiveCovariance) {
   const FractureNumerics numerics = read_fracture_numerics(kShipped, tester::Fidelity::tiny);
   ASSERT_FALSE(numerics.features.empty());
@@ -62,6 +62,8 @@ TEST(FractureNumerics, WhatIsNoCovarianceIsAnErrorThatNamesTheKey) {
     }
   }
 }
+
+TEST(Whitener, RefusesWhatIsNotFinite) { EXPECT_THROW(Whitener(Eigen::Matrix2d::Constant(std::nan(""))), std::runtime_error); }
 
 TEST(Whitener, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_THROW(Whitener((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished()), std::runtime_error);
