@@ -14,11 +14,16 @@ struct Background::Task {
 
 std::string_view to_string(Background::Stage stage) {
   switch (stage) {
-    case Background::Stage::queued: return "queued";
-    case Background::Stage::working: return "working";
-    case Background::Stage::ready: return "ready";
-    case Background::Stage::failed: return "failed";
-    case Background::Stage::unknown: break;
+    case Background::Stage::queued:
+      return "queued";
+    case Background::Stage::working:
+      return "working";
+    case Background::Stage::ready:
+      return "ready";
+    case Background::Stage::failed:
+      return "failed";
+    case Background::Stage::unknown:
+      break;
   }
   return "absent";
 }
@@ -55,7 +60,8 @@ Background::State Background::state(const std::string& key) const {
   const auto known = tasks_.find(key);
   if (known == tasks_.end()) return {};
   State state = known->second->state;
-  if (state.stage == Stage::working) state.working_s = 1e-6 * static_cast<double>(runtime::steady_us() - known->second->begun_us);
+  if (state.stage == Stage::working)
+    state.working_s = 1e-6 * static_cast<double>(runtime::steady_us() - known->second->begun_us);
   return state;
 }
 

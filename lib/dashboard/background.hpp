@@ -23,8 +23,8 @@ class Background {
   enum class Stage { unknown, queued, working, ready, failed };
   struct State {
     Stage stage = Stage::unknown;
-    double progress = -1.0;  ///< 0..1 while working, -1 unknown
-    double working_s = 0.0;  ///< so far
+    double progress = -1.0;                          ///< 0..1 while working, -1 unknown
+    double working_s = 0.0;                          ///< so far
     std::shared_ptr<const std::string> result = {};  ///< when ready
     std::string problem = {};                        ///< when failed
   };
@@ -33,7 +33,8 @@ class Background {
   explicit Background(std::size_t kept = 24, std::size_t longest_queue = 8);
   ~Background();
 
-  /// Puts work into the queue unless it is known under this key; failed work is tried again. False when the queue is full.
+  /// Puts work into the queue unless it is known under this key; failed work is tried again. False when the queue is
+  /// full.
   bool ask(const std::string& key, Work work);
   State state(const std::string& key) const;
 

@@ -103,7 +103,8 @@ Response Dashboard::handle(const Request& request) {
     const auto& routes = writes ? entries() : readings();
     if (const auto route = routes.find(request.path); route != routes.end()) return (this->*route->second)(request);
     if (auto file = writes ? std::nullopt : page_.find(request.path)) return *file;
-    if ((writes ? readings() : entries()).contains(request.path)) return error_response(405, writes ? "expected GET" : "expected POST");
+    if ((writes ? readings() : entries()).contains(request.path))
+      return error_response(405, writes ? "expected GET" : "expected POST");
     return error_response(404, "there is nothing here");
   } catch (const Unanswerable& refusal) {
     return error_response(refusal.status, refusal.message);
@@ -142,7 +143,9 @@ Response Dashboard::gamut(const Request& request) {
   return {.type = "application/octet-stream", .body = gamut_bytes(*data_.gamut(round), round), .headers = {}};
 }
 
-Response Dashboard::design(const Request& request) { return json_response(design_json(*data_.record(), design_of(request))); }
+Response Dashboard::design(const Request& request) {
+  return json_response(design_json(*data_.record(), design_of(request)));
+}
 
 Json Dashboard::simulation_state(const std::string& design, const std::string& model) {
   if (is_round(model) && films_.name_in_run(*data_.record(), design, number(model, "model")))
@@ -181,12 +184,14 @@ Response Dashboard::simulate(const Request& request) {
     parameters = or_refuse(families_.model(wish.model));
   }
   if (!parameters) return error_response(409, fmt::format("round {} has no model yet", wish.model));
-  if (!films_.make(wish.design, wish.model, *parameters)) return error_response(503, "too many simulations are waiting already");
+  if (!films_.make(wish.design, wish.model, *parameters))
+    return error_response(503, "too many simulations are waiting already");
   return json_response(simulation_state(wish.design.name(), wish.model), 202);
 }
 
 Response Dashboard::laboratory(const Request&) {
-  constexpr std::int64_t kLeastFresh_us = 500'000, kFreshPerCost = 10;  // however long the journal, most of the time is for others
+  constexpr std::int64_t kLeastFresh_us = 500'000,
+                         kFreshPerCost = 10;  // however long the journal, most of the time is for others
   const std::lock_guard lock(desk_mutex_);
   const std::int64_t begun_us = runtime::steady_us();
   if (begun_us >= laboratory_fresh_until_us_) {
@@ -229,7 +234,8 @@ Response Dashboard::map(const Request& request) {
   }
   if (state.result) return {.body = R"({"state":"ready","map":)" + *state.result + "}", .headers = {}};
   if (state.stage == Background::Stage::failed) return error_response(404, state.problem);
-  return json_response({{"state", to_string(state.stage)}, {"progress", state.progress < 0.0 ? Json(nullptr) : Json(state.progress)}});
+  return json_response(
+      {{"state", to_string(state.stage)}, {"progress", state.progress < 0.0 ? Json(nullptr) : Json(state.progress)}});
 }
 
 Response Dashboard::between(const Request& request) {
@@ -243,15 +249,18 @@ Response Dashboard::report(const Request&) {
     return error_response(404, "there is no report yet; the analyser writes it after the first round");
   return {.type = "text/html; charset=utf-8",
           .body = read_file_up_to(file, kMostReportBytes),
-          .headers = {{"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
+          .headers = {
+              {"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
 }
 
 Response Dashboard::answered(Answer answer) {
   laboratory_fresh_until_us_ = 0;
   const int status = answer == Answer::unanswered ? 504 : answer == Answer::conflicting ? 409 : 200;
   Json json = {{"answer", to_string(answer)}};
-  if (answer == Answer::unanswered) json["error"] = "the validation agent did not answer: does the game play? Handing it in again is safe.";
-  if (answer == Answer::conflicting) json["error"] = "the run has another measurement of this name, which stays: take a new name, or judge the old one";
+  if (answer == Answer::unanswered)
+    json["error"] = "the validation agent did not answer: does the game play? Handing it in again is safe.";
+  if (answer == Answer::conflicting)
+    json["error"] = "the run has another measurement of this name, which stays: take a new name, or judge the old one";
   return json_response(json, status);
 }
 
@@ -275,10 +284,14 @@ Response Dashboard::decide(const Request& request) {
 
 std::string_view to_string(Answer answer) {
   switch (answer) {
-    case Answer::accepted: return "accepted";
-    case Answer::repeated: return "repeated";
-    case Answer::conflicting: return "conflicting";
-    case Answer::unanswered: break;
+    case Answer::accepted:
+      return "accepted";
+    case Answer::repeated:
+      return "repeated";
+    case Answer::conflicting:
+      return "conflicting";
+    case Answer::unanswered:
+      break;
   }
   return "unanswered";
 }

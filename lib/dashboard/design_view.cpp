@@ -24,7 +24,10 @@ Json specimen_json(const store::MeasuredSpecimen& specimen) {
 
 Json crack_json(const store::RecordedCrack& recorded) {
   const crack::Record& c = recorded.crack;
-  Json json = {{"film", !recorded.film.empty()}, {"broken", recorded.broken}, {"branches", c.branches}, {"separate_cracks", c.separate_cracks}};
+  Json json = {{"film", !recorded.film.empty()},
+               {"broken", recorded.broken},
+               {"branches", c.branches},
+               {"separate_cracks", c.separate_cracks}};
   if (!c.path) return json;
   json["path_ratio"] = c.path->ratio();
   json["bridged_share"] = c.path->bridged_share;
@@ -53,9 +56,13 @@ Json design_json(const store::RunRecord& run, const pattern::Design& design) {
   for (const auto& [number, round] : run.rounds) {
     for (const auto& p : round.proposals) {
       if (p.design == name)
-        proposals.push_back({{"round", number}, {"modulus_pa", p.predicted.modulus_pa}, {"toughness_pa", p.predicted.toughness_pa}, {"reason", p.reason}});
+        proposals.push_back({{"round", number},
+                             {"modulus_pa", p.predicted.modulus_pa},
+                             {"toughness_pa", p.predicted.toughness_pa},
+                             {"reason", p.reason}});
     }
-    if (const auto found = round.simulated.find(name); found != round.simulated.end()) simulated.push_back(simulated_json(number, found->second));
+    if (const auto found = round.simulated.find(name); found != round.simulated.end())
+      simulated.push_back(simulated_json(number, found->second));
     if (const auto found = round.cracks.find(name); found != round.cracks.end()) {
       cracks.push_back(crack_json(found->second));
       cracks.back()["round"] = number;
@@ -64,7 +71,8 @@ Json design_json(const store::RunRecord& run, const pattern::Design& design) {
   for (const auto& specimen : run.specimens) {
     if (specimen.record.design == design) specimens.push_back(specimen_json(specimen));
   }
-  Json json = {{"design", name},         {"rigid_fraction", design.rigid_fraction()}, {"proposals", proposals}, {"simulated", simulated},
+  Json json = {{"design", name},         {"rigid_fraction", design.rigid_fraction()},
+               {"proposals", proposals}, {"simulated", simulated},
                {"cracks", cracks},       {"specimens", specimens}};
   const auto symmetric = design.layout() == nullptr ? std::nullopt : pattern::Pattern::from_layout(*design.layout());
   if (symmetric) {

@@ -1,6 +1,6 @@
 #pragma once
-// What the dashboard asks of a run beside its database, and hands in on behalf of a person. A small interface, so that routes are
-// tested without a network.
+// What the dashboard asks of a run beside its database, and hands in on behalf of a person. A small interface, so that
+// routes are tested without a network.
 
 #include <optional>
 #include <string>

@@ -17,17 +17,25 @@ void explain(Json& effect, const std::string& name) {
 Json of_database(const store::RecordedDiagnosis& d) {
   Json effects = Json::array(), candidates = Json::array();
   for (const auto& e : d.effects) {
-    effects.push_back({{"name", e.name}, {"parameter", e.parameter}, {"interval90", {e.interval_low, e.interval_high}}, {"unit", e.unit}});
+    effects.push_back({{"name", e.name},
+                       {"parameter", e.parameter},
+                       {"interval90", {e.interval_low, e.interval_high}},
+                       {"unit", e.unit}});
     explain(effects.back(), e.name);
   }
   for (const auto& c : d.candidates) {
-    candidates.push_back({{"name", c.name}, {"status", c.status}, {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise}, {"absorption", c.absorption}});
+    candidates.push_back({{"name", c.name},
+                          {"status", c.status},
+                          {"statistic", c.statistic},
+                          {"p_family_wise", c.p_family_wise},
+                          {"absorption", c.absorption}});
     explain(candidates.back(), c.name);
   }
   Json gain = nullptr;
   if (d.held_out_error_before && d.held_out_error_after)
     gain = {{"held_out_error_before", *d.held_out_error_before}, {"held_out_error_after", *d.held_out_error_after}};
-  return {{"verdict", d.verdict}, {"summary", d.summary}, {"effects", effects}, {"candidates", candidates}, {"gain", gain}};
+  return {
+      {"verdict", d.verdict}, {"summary", d.summary}, {"effects", effects}, {"candidates", candidates}, {"gain", gain}};
 }
 
 Json next_experiments(const diagnosis_t& message) {

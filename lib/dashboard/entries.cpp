@@ -96,7 +96,8 @@ Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text) {
 Result<Judgement> judgement_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
-  const auto specimen = text_of(*object, "specimen", true), by = text_of(*object, "by", true), why = text_of(*object, "why", true);
+  const auto specimen = text_of(*object, "specimen", true), by = text_of(*object, "by", true),
+             why = text_of(*object, "why", true);
   const auto valid = flag_of(*object, "valid");
   for (const auto* each : {&specimen, &by, &why})
     if (!*each) return tl::unexpected(each->error());

@@ -9,8 +9,8 @@
 
 namespace nacre::dashboard {
 
-/// A specimen: the columns of a measurement set as members (text or numbers; `valid` may be a boolean), and `curve_csv`, the text
-/// of a curve file. The error names the column and what was expected.
+/// A specimen: the columns of a measurement set as members (text or numbers; `valid` may be a boolean), and
+/// `curve_csv`, the text of a curve file. The error names the column and what was expected.
 Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text);
 
 /// `specimen`, `valid`, `by`, `why` (not empty).

@@ -38,7 +38,8 @@ Result<std::string> simulated_film(const tester::Simulation& simulation) {
 MadeFilm unpacked(const std::string& made) {
   double modulus_pa = 0.0;
   std::memcpy(&modulus_pa, made.data(), sizeof(double));
-  return {modulus_pa > 0.0 ? std::optional<double>(modulus_pa) : std::nullopt, std::string_view(made).substr(sizeof(double))};
+  return {modulus_pa > 0.0 ? std::optional<double>(modulus_pa) : std::nullopt,
+          std::string_view(made).substr(sizeof(double))};
 }
 
 std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const std::string& design, int round) const {
@@ -48,11 +49,14 @@ std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const
   if (found == of_round->second.cracks.end() || !is_film_name(found->second.film)) return std::nullopt;
   std::error_code unreadable;
   // A link could lead anywhere.
-  if (std::filesystem::symlink_status(folder_ / found->second.film, unreadable).type() != std::filesystem::file_type::regular) return std::nullopt;
+  if (std::filesystem::symlink_status(folder_ / found->second.film, unreadable).type() !=
+      std::filesystem::file_type::regular)
+    return std::nullopt;
   return found->second.film;
 }
 
-std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, const std::string& design, int round) const {
+std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, const std::string& design,
+                                                 int round) const {
   const auto name = name_in_run(run, design, round);
   if (!name) return nullptr;
   try {
@@ -64,9 +68,12 @@ std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, co
 
 bool Films::make(const pattern::Design& design, const std::string& model, const material::ParameterSet& parameters) {
   const tester::Simulation simulation{design, parameters, {}, fidelity_};
-  return background_.ask(key_of(design.name(), model), [simulation](const auto&) { return simulated_film(simulation); });
+  return background_.ask(key_of(design.name(), model),
+                         [simulation](const auto&) { return simulated_film(simulation); });
 }
 
-Background::State Films::made(const std::string& design, const std::string& model) const { return background_.state(key_of(design, model)); }
+Background::State Films::made(const std::string& design, const std::string& model) const {
+  return background_.state(key_of(design, model));
+}
 
 }  // namespace nacre::dashboard

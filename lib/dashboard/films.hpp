@@ -14,14 +14,17 @@ namespace nacre::dashboard {
 
 class Films {
  public:
-  Films(std::filesystem::path run_folder, tester::Fidelity fidelity) : folder_(std::move(run_folder) / "films"), fidelity_(fidelity) {}
+  Films(std::filesystem::path run_folder, tester::Fidelity fidelity)
+      : folder_(std::move(run_folder) / "films"), fidelity_(fidelity) {}
 
-  /// The film that the farm made of a design with the model of a round; nullptr when there is none or its file cannot be read.
+  /// The film that the farm made of a design with the model of a round; nullptr when there is none or its file cannot
+  /// be read.
   std::shared_ptr<const std::string> of_run(const store::RunRecord& run, const std::string& design, int round) const;
   /// Name of that film's file when it is there.
   std::optional<std::string> name_in_run(const store::RunRecord& run, const std::string& design, int round) const;
 
-  /// Starts simulating and filming; `model` names the parameters among those of this design. False when too much waits already.
+  /// Starts simulating and filming; `model` names the parameters among those of this design. False when too much waits
+  /// already.
   bool make(const pattern::Design& design, const std::string& model, const material::ParameterSet& parameters);
   Background::State made(const std::string& design, const std::string& model) const;
 

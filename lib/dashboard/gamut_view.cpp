@@ -21,7 +21,8 @@ void append(std::string& bytes, const Number& number) {
 
 std::string gamut_bytes(const store::RecordedGamut& gamut, int round) {
   const auto ranks = optimize::non_dominated_ranks(gamut.performances);
-  nlohmann::ordered_json header = {{"round", round}, {"count", gamut.patterns.size()}, {"front", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json header = {
+      {"round", round}, {"count", gamut.patterns.size()}, {"front", nlohmann::ordered_json::array()}};
   for (std::size_t i = 0; i < ranks.size(); ++i)
     if (ranks[i] == 1) header["front"].push_back(i);
   std::string text = header.dump();

@@ -29,7 +29,8 @@ std::string cookie(const std::string& header, const std::string& name) {
   while (begin < header.size()) {
     const std::size_t end = std::min(header.find(';', begin), header.size());
     const std::size_t first = header.find_first_not_of(' ', begin);
-    if (first < end && header.compare(first, name.size(), name) == 0 && first + name.size() < end && header[first + name.size()] == '=')
+    if (first < end && header.compare(first, name.size(), name) == 0 && first + name.size() < end &&
+        header[first + name.size()] == '=')
       return header.substr(first + name.size() + 1, end - first - name.size() - 1);
     begin = end + 1;
   }
@@ -39,7 +40,8 @@ std::string cookie(const std::string& header, const std::string& name) {
 /// An IP address with or without port: nobody can make a name of theirs look like one.
 bool is_address(const std::string& host) {
   const bool brackets = !host.empty() && host.front() == '[';
-  return !host.empty() && host.find_first_not_of(brackets ? "0123456789abcdefABCDEF.:[]" : "0123456789.:") == std::string::npos;
+  return !host.empty() &&
+         host.find_first_not_of(brackets ? "0123456789abcdefABCDEF.:[]" : "0123456789.:") == std::string::npos;
 }
 
 bool is_named(const AccessRules& rules, const std::string& host) {
@@ -50,12 +52,15 @@ bool is_named(const AccessRules& rules, const std::string& host) {
 /// Lets a browser in that followed the link with the token: the token leaves the address bar and stays in a cookie.
 std::optional<Response> welcome(const AccessRules& rules, const Request& request) {
   const auto given = request.query.find("token");
-  if (request.method != "GET" || request.path != "/" || given == request.query.end() || !same_secret(given->second, rules.token)) return std::nullopt;
+  if (request.method != "GET" || request.path != "/" || given == request.query.end() ||
+      !same_secret(given->second, rules.token))
+    return std::nullopt;
   return Response{.status = 303,
                   .type = "text/plain; charset=utf-8",
                   .body = "",
                   .headers = {{"Location", "/"},
-                              {"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", rules.cookie_name, rules.token)}}};
+                              {"Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", rules.cookie_name,
+                                                         rules.token)}}};
 }
 
 bool knows_token(const AccessRules& rules, const Request& request) {
@@ -67,8 +72,10 @@ bool knows_token(const AccessRules& rules, const Request& request) {
 std::optional<Response> refused_post(const Request& request) {
   if (request.header("x-nacre") != "1") return error_response(403, "expected the header X-Nacre: 1");
   const std::string origin = request.header("origin"), site = request.header("sec-fetch-site");
-  if (!origin.empty() && origin != "http://" + request.header("host")) return error_response(403, "this request comes from another page");
-  if (!site.empty() && site != "same-origin" && site != "none") return error_response(403, "this request comes from another page");
+  if (!origin.empty() && origin != "http://" + request.header("host"))
+    return error_response(403, "this request comes from another page");
+  if (!site.empty() && site != "same-origin" && site != "none")
+    return error_response(403, "this request comes from another page");
   if (!request.header("content-type").starts_with("application/json") || !request.header("content-encoding").empty())
     return error_response(415, "expected application/json, not compressed");
   if (request.header("content-length").empty() || !request.header("transfer-encoding").empty())
@@ -80,7 +87,8 @@ std::optional<Response> refused_post(const Request& request) {
 
 std::vector<std::string> host_names(const std::string& host, int port) {
   std::array<char, 256> own{};
-  std::vector<std::string> names = {"localhost", "127.0.0.1", "[::1]", host.find(':') == std::string::npos ? host : "[" + host + "]"};
+  std::vector<std::string> names = {"localhost", "127.0.0.1", "[::1]",
+                                    host.find(':') == std::string::npos ? host : "[" + host + "]"};
   if (::gethostname(own.data(), own.size() - 1) == 0) names.emplace_back(own.data());
   std::vector<std::string> with_port;
   for (const std::string& name : names) {
@@ -92,7 +100,8 @@ std::vector<std::string> host_names(const std::string& host, int port) {
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) throw InputError("the system gives no random numbers");
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw InputError("the system gives no random numbers");
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;

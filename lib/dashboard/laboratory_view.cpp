@@ -11,16 +11,18 @@ Json optional_json(const std::optional<double>& value) { return value ? Json(*va
 Json specimens_json(const game::MeasurementBook& book) {
   Json specimens = Json::array();
   for (const measurement::SpecimenRecord& r : book.specimens()) {
-    specimens.push_back({{"specimen", r.specimen},
-                         {"design", r.design.name()},
-                         {"test", tester::to_string(r.test)},
-                         {"orientation_deg", r.conditions.orientation_deg},
-                         {"batch", r.batch},
-                         {"modulus_pa", optional_json(r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa)},
-                         {"toughness_pa", optional_json(r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa)},
-                         {"points", r.curve.size()},
-                         {"valid", r.valid},
-                         {"note", r.note}});
+    specimens.push_back(
+        {{"specimen", r.specimen},
+         {"design", r.design.name()},
+         {"test", tester::to_string(r.test)},
+         {"orientation_deg", r.conditions.orientation_deg},
+         {"batch", r.batch},
+         {"modulus_pa", optional_json(r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa)},
+         {"toughness_pa",
+          optional_json(r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa)},
+         {"points", r.curve.size()},
+         {"valid", r.valid},
+         {"note", r.note}});
   }
   return specimens;
 }
@@ -98,7 +100,8 @@ Json newest_proposal_json(const std::optional<wire::Proposal>& proposal) {
 
 Json laboratory_json(const Laboratory& laboratory) {
   Json groups = Json::array();
-  for (const auto& group : measurement::review_replicates(laboratory.facts.book.specimens())) groups.push_back(group_json(group));
+  for (const auto& group : measurement::review_replicates(laboratory.facts.book.specimens()))
+    groups.push_back(group_json(group));
   return {{"proposal", newest_proposal_json(laboratory.newest_proposal)},
           {"designs", states_json(laboratory.facts)},
           {"orders", orders_json(laboratory.facts)},

@@ -31,9 +31,9 @@ struct Columns {
 
 Result<Columns> columns_of(const CsvRow& heading, const std::string& file) {
   Columns columns;
-  const std::pair<const char*, std::size_t*> wanted[] = {{"pattern", &columns.pattern}, {"source", &columns.source},
-                                                         {"x", &columns.x},             {"y", &columns.y},
-                                                         {"modulus_pa", &columns.modulus}, {"toughness_pa", &columns.toughness}};
+  const std::pair<const char*, std::size_t*> wanted[] = {
+      {"pattern", &columns.pattern},    {"source", &columns.source},         {"x", &columns.x}, {"y", &columns.y},
+      {"modulus_pa", &columns.modulus}, {"toughness_pa", &columns.toughness}};
   for (const auto& [name, place] : wanted) {
     std::size_t found = 0;
     while (found < heading.cells.size() && heading.cells[found].text != name) ++found;
@@ -53,11 +53,16 @@ Result<PatternMap> map_from_csv(std::string_view text, const std::string& file) 
   std::vector<std::pair<double, double>> places;
   while (reader.next(row)) {
     if (row.blank()) continue;
-    const auto cell = [&](std::size_t i) { return i < row.cells.size() ? std::string(row.cells[i].text) : std::string(); };
-    const auto number = [&](std::size_t i) { return number_from_text(cell(i)).value_or(std::numeric_limits<double>::quiet_NaN()); };
+    const auto cell = [&](std::size_t i) {
+      return i < row.cells.size() ? std::string(row.cells[i].text) : std::string();
+    };
+    const auto number = [&](std::size_t i) {
+      return number_from_text(cell(i)).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
     const auto pattern = pattern_of(cell(columns->pattern));
     const double x = number(columns->x), y = number(columns->y);
-    if (!row.fault.empty() || !pattern || !std::isfinite(x) || !std::isfinite(y)) return fail("{}:{}: expected pattern, x and y", file, row.line);
+    if (!row.fault.empty() || !pattern || !std::isfinite(x) || !std::isfinite(y))
+      return fail("{}:{}: expected pattern, x and y", file, row.line);
     map.patterns.push_back(*pattern);
     map.source.push_back(cell(columns->source));
     map.modulus_pa.push_back(number(columns->modulus));
@@ -65,7 +70,8 @@ Result<PatternMap> map_from_csv(std::string_view text, const std::string& file) 
     places.emplace_back(x, y);
   }
   map.points.resize(static_cast<Eigen::Index>(places.size()), 2);
-  for (std::size_t i = 0; i < places.size(); ++i) map.points.row(static_cast<Eigen::Index>(i)) << places[i].first, places[i].second;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    map.points.row(static_cast<Eigen::Index>(i)) << places[i].first, places[i].second;
   return map;
 }
 
@@ -87,7 +93,8 @@ bool is_plain_name(std::string_view name) {
 }
 
 Json to_json(const PatternMap& map) {
-  Json patterns = Json::array(), x = Json::array(), y = Json::array(), modulus = Json::array(), toughness = Json::array(), triangles = Json::array();
+  Json patterns = Json::array(), x = Json::array(), y = Json::array(), modulus = Json::array(),
+       toughness = Json::array(), triangles = Json::array();
   for (std::size_t i = 0; i < map.patterns.size(); ++i) {
     const auto row = map.points.row(static_cast<Eigen::Index>(i));
     patterns.push_back(map.patterns[i].key());
@@ -96,7 +103,8 @@ Json to_json(const PatternMap& map) {
     modulus.push_back(map.modulus_pa[i]);
     toughness.push_back(map.toughness_pa[i]);
   }
-  for (const families::Triangle& triangle : families::delaunay(map.points)) triangles.push_back({triangle[0], triangle[1], triangle[2]});
+  for (const families::Triangle& triangle : families::delaunay(map.points))
+    triangles.push_back({triangle[0], triangle[1], triangle[2]});
   return {{"id", map.id},
           {"pattern", patterns},
           {"source", map.source},
@@ -108,7 +116,8 @@ Json to_json(const PatternMap& map) {
           {"residual_variance", map.residual_variance < 0.0 ? Json(nullptr) : Json(map.residual_variance)}};
 }
 
-Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round, const std::function<void(double)>& progress) {
+Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round,
+                                const std::function<void(double)>& progress) {
   PatternMap map;
   map.id = fmt::format("gamut/{}", round);
   for (const std::size_t i : best_of(gamut, kMostMapped)) {
@@ -117,8 +126,10 @@ Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round, co
     map.modulus_pa.push_back(gamut.performances[i].modulus_pa);
     map.toughness_pa.push_back(gamut.performances[i].toughness_pa);
   }
-  if (map.patterns.size() < kFewestMapped) return fail("a map needs {} patterns, round {} has {}", kFewestMapped, round, map.patterns.size());
-  const families::Embedding embedding = families::isomap(families::earth_movers_distances(map.patterns, progress), kNeighbours);
+  if (map.patterns.size() < kFewestMapped)
+    return fail("a map needs {} patterns, round {} has {}", kFewestMapped, round, map.patterns.size());
+  const families::Embedding embedding =
+      families::isomap(families::earth_movers_distances(map.patterns, progress), kNeighbours);
   map.points = embedding.points;
   map.residual_variance = embedding.residual_variance;
   return map;
@@ -170,7 +181,8 @@ Result<material::ParameterSet> FamilyFolder::model(const std::string& family) co
 Result<Json> between(std::string_view patterns, std::string_view weights) {
   constexpr std::size_t kMost = 3;
   const auto keys = parts(patterns), shares = parts(weights);
-  if (keys.size() > kMost || keys.size() != shares.size()) return fail("expected up to {} patterns and a weight for each", kMost);
+  if (keys.size() > kMost || keys.size() != shares.size())
+    return fail("expected up to {} patterns and a weight for each", kMost);
   std::vector<pattern::Pattern> sources;
   std::vector<double> amounts;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -184,9 +196,12 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
   }
   if (sources.empty()) return fail("weights: expected one above 0");
   const auto pattern = families::barycentre(sources, amounts);
-  if (!pattern) return Json{{"pattern", nullptr}, {"violation", "there is no soft material to move between these patterns"}};
+  if (!pattern)
+    return Json{{"pattern", nullptr}, {"violation", "there is no soft material to move between these patterns"}};
   const auto violation = pattern::violation(*pattern);
-  return Json{{"pattern", pattern->key()}, {"rigid_fraction", pattern->rigid_fraction()}, {"violation", violation ? Json(*violation) : Json(nullptr)}};
+  return Json{{"pattern", pattern->key()},
+              {"rigid_fraction", pattern->rigid_fraction()},
+              {"violation", violation ? Json(*violation) : Json(nullptr)}};
 }
 
 }  // namespace nacre::dashboard

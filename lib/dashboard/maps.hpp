@@ -1,5 +1,6 @@
 #pragma once
-// Maps of patterns in the plane, for the explorer: those that `nacre families` wrote, and one of a gamut's best patterns, made here.
+// Maps of patterns in the plane, for the explorer: those that `nacre families` wrote, and one of a gamut's best
+// patterns, made here.
 
 #include <filesystem>
 #include <functional>
@@ -32,7 +33,8 @@ struct PatternMap {
 Json to_json(const PatternMap& map);
 
 /// The map of a gamut's best patterns by earth mover's distance and Isomap. The error says why there is none.
-Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round, const std::function<void(double)>& progress);
+Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round,
+                                const std::function<void(double)>& progress);
 
 /// What `nacre families` wrote into a folder.
 class FamilyFolder {
@@ -52,8 +54,8 @@ class FamilyFolder {
 /// A name that is safe as a part of a path: letters, digits, - and _, at most 64.
 bool is_plain_name(std::string_view name);
 
-/// The pattern between up to three others, as the page asks for it: keys and weights separated by commas. Its key, and what of the
-/// constraints it violates.
+/// The pattern between up to three others, as the page asks for it: keys and weights separated by commas. Its key, and
+/// what of the constraints it violates.
 Result<Json> between(std::string_view patterns, std::string_view weights);
 
 }  // namespace nacre::dashboard

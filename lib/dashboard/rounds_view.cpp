@@ -77,8 +77,12 @@ Json curve_json(const tester::Curve& curve) {
 
 Json errors_json(const sysid::PredictionErrors& e) {
   if (e.modulus_count == 0 && e.toughness_count == 0) return nullptr;
-  return {{"modulus_count", e.modulus_count},     {"modulus_mean", e.modulus_mean},     {"modulus_max", e.modulus_max},
-          {"toughness_count", e.toughness_count}, {"toughness_mean", e.toughness_mean}, {"toughness_max", e.toughness_max},
+  return {{"modulus_count", e.modulus_count},
+          {"modulus_mean", e.modulus_mean},
+          {"modulus_max", e.modulus_max},
+          {"toughness_count", e.toughness_count},
+          {"toughness_mean", e.toughness_mean},
+          {"toughness_max", e.toughness_max},
           {"toughness_spearman", e.toughness_spearman}};
 }
 
@@ -95,17 +99,19 @@ Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_si
     Json proposals = Json::array(), parameters = Json::object();
     for (const auto& proposal : round.proposals) proposals.push_back(proposal_json(proposal));
     for (const auto& [name, value] : round.parameters) parameters[name] = value;
-    rounds.push_back({{"round", number},
-                      {"summary", round.summary ? summary_json(*round.summary) : Json(nullptr)},
-                      {"gamut_count", gamut_size(number)},
-                      {"measured_front", points_json(optimize::pareto_front(means(store::measured_patterns(run, number))))},
-                      {"benchmark", points_json(round.benchmark)},
-                      {"proposals", proposals},
-                      {"parameters", parameters},
-                      {"verdict", round.diagnosis ? Json(round.diagnosis->verdict) : Json(nullptr)}});
+    rounds.push_back(
+        {{"round", number},
+         {"summary", round.summary ? summary_json(*round.summary) : Json(nullptr)},
+         {"gamut_count", gamut_size(number)},
+         {"measured_front", points_json(optimize::pareto_front(means(store::measured_patterns(run, number))))},
+         {"benchmark", points_json(round.benchmark)},
+         {"proposals", proposals},
+         {"parameters", parameters},
+         {"verdict", round.diagnosis ? Json(round.diagnosis->verdict) : Json(nullptr)}});
   }
   Json measured = Json::array();
-  for (const auto& pattern : store::measured_patterns(run, store::newest_round(run).value_or(0))) measured.push_back(measured_json(pattern));
+  for (const auto& pattern : store::measured_patterns(run, store::newest_round(run).value_or(0)))
+    measured.push_back(measured_json(pattern));
   return {{"rounds", rounds}, {"measured", measured}};
 }
 

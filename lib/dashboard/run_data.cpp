@@ -16,7 +16,8 @@ namespace {
 bool is_young(const std::filesystem::path& file) {
   constexpr std::int64_t kYoung_us = 10'000'000;
   struct stat status {};
-  return ::stat(file.c_str(), &status) == 0 && runtime::now_utime() - 1'000'000 * static_cast<std::int64_t>(status.st_mtim.tv_sec) < kYoung_us;
+  return ::stat(file.c_str(), &status) == 0 &&
+         runtime::now_utime() - 1'000'000 * static_cast<std::int64_t>(status.st_mtim.tv_sec) < kYoung_us;
 }
 
 }  // namespace
@@ -44,7 +45,9 @@ void RunData::refresh() {
     if (read_version_.empty() && is_young(database_)) return;  // the analyser is still making the file
     throw;
   }
-  std::erase_if(gamuts_, [&](const auto& kept) { return !before.contains(kept.first) || before.at(kept.first) != gamut_sizes_[kept.first]; });
+  std::erase_if(gamuts_, [&](const auto& kept) {
+    return !before.contains(kept.first) || before.at(kept.first) != gamut_sizes_[kept.first];
+  });
   read_version_ = now;
 }
 
@@ -68,7 +71,8 @@ std::shared_ptr<const store::RecordedGamut> RunData::gamut(int round) {
   auto& kept = gamuts_[round];
   if (!kept) kept = std::make_shared<const store::RecordedGamut>(store::read_gamut(database_, round));
   const auto gamut = kept;
-  while (gamuts_.size() > kMostKept) gamuts_.erase(gamuts_.begin()->first == round ? std::prev(gamuts_.end()) : gamuts_.begin());
+  while (gamuts_.size() > kMostKept)
+    gamuts_.erase(gamuts_.begin()->first == round ? std::prev(gamuts_.end()) : gamuts_.begin());
   return gamut;
 }
 

@@ -24,7 +24,8 @@ class RunData {
   std::map<int, int> gamut_sizes();
 
  private:
-  /// Forgets what another version of the file says otherwise: a gamut only grows, so that one of the same size is the same.
+  /// Forgets what another version of the file says otherwise: a gamut only grows, so that one of the same size is the
+  /// same.
   void refresh();
   std::filesystem::path database_;
   std::mutex mutex_;

@@ -42,14 +42,16 @@ void answer(const Response& from, httplib::Response& to) {
   }
   if (!has_policy)
     to.set_header("Content-Security-Policy",
-                  "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self'; font-src "
+                  "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: "
+                  "blob:; connect-src 'self'; font-src "
                   "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   to.set_content(from.body, from.type);
 }
 
 }  // namespace
 
-void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready, const std::function<bool()>& stop) {
+void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
+           const std::function<bool()>& stop) {
   httplib::Server server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_payload_max_length(kMostBodyBytes);
@@ -63,9 +65,14 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
-  const int port = settings.port == 0 ? server.bind_to_any_port(settings.host) : server.bind_to_port(settings.host, settings.port) ? settings.port : -1;
-  if (port <= 0) throw InputError::format("{}:{}: cannot be listened to: is another dashboard there? (--port 0 takes any free port)", settings.host, settings.port);
-  const AccessRules rules{.hosts = host_names(settings.host, port), .token = settings.token, .cookie_name = fmt::format("nacre_{}", port)};
+  const int port = settings.port == 0                                  ? server.bind_to_any_port(settings.host)
+                   : server.bind_to_port(settings.host, settings.port) ? settings.port
+                                                                       : -1;
+  if (port <= 0)
+    throw InputError::format("{}:{}: cannot be listened to: is another dashboard there? (--port 0 takes any free port)",
+                             settings.host, settings.port);
+  const AccessRules rules{
+      .hosts = host_names(settings.host, port), .token = settings.token, .cookie_name = fmt::format("nacre_{}", port)};
 
   // Before the body is read.
   server.set_pre_routing_handler([&](const httplib::Request& from, httplib::Response& to) {
@@ -74,7 +81,9 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
     answer(*refusal, to);
     return httplib::Server::HandlerResponse::Handled;
   });
-  const auto handle = [&](const httplib::Request& from, httplib::Response& to) { answer(dashboard.handle(request_of(from)), to); };
+  const auto handle = [&](const httplib::Request& from, httplib::Response& to) {
+    answer(dashboard.handle(request_of(from)), to);
+  };
   server.Get(".*", handle);
   server.Post(".*", handle);
 

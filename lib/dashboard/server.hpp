@@ -15,8 +15,9 @@ struct ServerSettings {
   std::string token;  ///< see AccessRules
 };
 
-/// Serves until `stop` returns true (asked ten times a second). `ready` is told the port. Bodies are at most 4 MiB, requests slower than
-/// five seconds are cut off. Throws InputError when the port cannot be had.
-void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready, const std::function<bool()>& stop);
+/// Serves until `stop` returns true (asked ten times a second). `ready` is told the port. Bodies are at most 4 MiB,
+/// requests slower than five seconds are cut off. Throws InputError when the port cannot be had.
+void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
+           const std::function<bool()>& stop);
 
 }  // namespace nacre::dashboard

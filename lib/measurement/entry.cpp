@@ -25,12 +25,14 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
   for (const auto& [name, text] : fields) {
     const auto known = std::find(kColumns.begin(), kColumns.end(), name);
     if (known == kColumns.end() || name == kColumns[kCurve]) return tl::unexpected(rejected(name, "no such column"));
-    if (text.size() > kLongestField) return tl::unexpected(rejected(name, fmt::format("is longer than {} bytes", kLongestField)));
+    if (text.size() > kLongestField)
+      return tl::unexpected(rejected(name, fmt::format("is longer than {} bytes", kLongestField)));
     heading.position[static_cast<std::size_t>(known - kColumns.begin())] = row.cells.size();
     row.cells.push_back({text, 1, 1});
   }
   // The row parser would look for a file of that name.
-  if (const auto pattern = fields.find(std::string(kColumns[kPattern])); pattern != fields.end() && !pattern->second.empty()) {
+  if (const auto pattern = fields.find(std::string(kColumns[kPattern]));
+      pattern != fields.end() && !pattern->second.empty()) {
     const auto design = pattern::design_from_name(trimmed(pattern->second));
     if (!design) return tl::unexpected(rejected(pattern->first, design.error().message));
   }

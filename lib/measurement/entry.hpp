@@ -9,9 +9,9 @@
 
 namespace nacre::measurement {
 
-/// The specimen of one row of a measurement set: `fields` by the names of its columns (docs/FORMATS.md), missing ones empty;
-/// `curve_csv`: its curve as the text of a curve file, empty for none. Patterns are keys or homogeneous materials, never files.
-/// The same rules as for a set; the error names column and what was expected.
+/// The specimen of one row of a measurement set: `fields` by the names of its columns (docs/FORMATS.md), missing ones
+/// empty; `curve_csv`: its curve as the text of a curve file, empty for none. Patterns are keys or homogeneous
+/// materials, never files. The same rules as for a set; the error names column and what was expected.
 tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<std::string, std::string>& fields,
                                                                std::string_view curve_csv);
 

@@ -64,17 +64,28 @@ int show_dashboard(const Options& options) {
 
 void add_dashboard(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "dashboard", "Show a run, playing or finished, as a live page in the browser", options, show_dashboard);
+  CLI::App& command =
+      add_command(app, action, "dashboard", "Show a run, playing or finished, as a live page in the browser", options,
+                  show_dashboard);
   command.add_option("RUN", options->run, "Folder of the run")->capture_default_str();
-  command.add_option("--port", options->port, "Port of the page; 0: any free one")->check(CLI::Range(0, 65535))->capture_default_str();
-  command.add_option("--host", options->host, "Address to listen to; another than this machine's own asks for a token")->capture_default_str();
-  command.add_option("--token", options->token, "Ask for this token; default for other hosts: a random one, printed")->check([](const std::string& token) {
-    const bool plain = token.size() >= 16 && token.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") == std::string::npos;
-    return plain ? std::string() : std::string("expected at least 16 letters, digits, - and _");
-  });
-  command.add_option("--families", options->families, "Folder of `nacre families` for the explorer; default: RUN/families");
+  command.add_option("--port", options->port, "Port of the page; 0: any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command.add_option("--host", options->host, "Address to listen to; another than this machine's own asks for a token")
+      ->capture_default_str();
+  command.add_option("--token", options->token, "Ask for this token; default for other hosts: a random one, printed")
+      ->check([](const std::string& token) {
+        const bool plain = token.size() >= 16 &&
+                           token.find_first_not_of(
+                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") == std::string::npos;
+        return plain ? std::string() : std::string("expected at least 16 letters, digits, - and _");
+      });
+  command.add_option("--families", options->families,
+                     "Folder of `nacre families` for the explorer; default: RUN/families");
   command.add_option("--page", options->page, "Folder of the built page; default: build/web");
-  command.footer("Example: nacre dashboard logs/latest\n  prints http://127.0.0.1:8765/ - open it. Elsewhere on the network: --host 0.0.0.0 prints a link with a token.");
+  command.footer(
+      "Example: nacre dashboard logs/latest\n  prints http://127.0.0.1:8765/ - open it. Elsewhere on the network: "
+      "--host 0.0.0.0 prints a link with a token.");
 }
 
 }  // namespace nacre::cli

@@ -17,7 +17,8 @@ constexpr double kPatience_s = 8.0;
 
 RunDesk::RunDesk(RunAccess run)
     : run_(std::move(run)),
-      feed_({.open = [this] { return listen(now(), {"STATUS"}); }, .identity = [this] { return std::to_string(now().manifest.port); }}) {}
+      feed_({.open = [this] { return listen(now(), {"STATUS"}); },
+             .identity = [this] { return std::to_string(now().manifest.port); }}) {}
 
 RunAccess RunDesk::now() const {
   RunAccess run = run_;
@@ -57,7 +58,8 @@ Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
   const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
   const auto known = hashes_by_specimen(run_);
   if (const auto same_name = known.find(specimen.specimen); same_name != known.end())
-    return same_name->second == wire::message_hash(message.channel, message.payload) ? Answer::repeated : Answer::conflicting;
+    return same_name->second == wire::message_hash(message.channel, message.payload) ? Answer::repeated
+                                                                                     : Answer::conflicting;
   return hand_in(message);
 }
 

@@ -1,5 +1,5 @@
-// Requests of the dashboard: the first line is `METHOD PATH`, further lines up to an empty one `name: value` (a header) or `?name=value`
-// (a parameter), then the body.
+// Requests of the dashboard: the first line is `METHOD PATH`, further lines up to an empty one `name: value` (a header)
+// or `?name=value` (a parameter), then the body.
 
 #include "../unit/dashboard/fake_desk.hpp"
 #include "dashboard/dashboard.hpp"
@@ -50,15 +50,20 @@ dashboard::Dashboard& page() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nacre;
-  static const dashboard::AccessRules open{.hosts = dashboard::host_names("127.0.0.1", 8765), .token = "", .cookie_name = "nacre_8765"};
-  static const dashboard::AccessRules closed{.hosts = open.hosts, .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
+  static const dashboard::AccessRules open{
+      .hosts = dashboard::host_names("127.0.0.1", 8765), .token = "", .cookie_name = "nacre_8765"};
+  static const dashboard::AccessRules closed{
+      .hosts = open.hosts, .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
   const dashboard::Request request = fuzz::request_from(fuzz::text_of(data, size));
   const auto refusal = dashboard::refused(closed, request);
   // Whoever gets past the closed door knows the token.
-  if (!refusal) fuzz::expect(request.header("authorization").ends_with(closed.token) || request.header("cookie").find(closed.token) != std::string::npos);
+  if (!refusal)
+    fuzz::expect(request.header("authorization").ends_with(closed.token) ||
+                 request.header("cookie").find(closed.token) != std::string::npos);
   (void)dashboard::refused(open, request);
   if (const auto specimen = dashboard::specimen_from_json(request.body)) fuzz::expect(!specimen->specimen.empty());
-  if (const auto judgement = dashboard::judgement_from_json(request.body)) fuzz::expect(!judgement->why.empty() && judgement->why.size() <= 500);
+  if (const auto judgement = dashboard::judgement_from_json(request.body))
+    fuzz::expect(!judgement->why.empty() && judgement->why.size() <= 500);
   if (const auto decision = dashboard::decision_from_json(request.body)) fuzz::expect(decision->round >= -1);
   (void)dashboard::wish_from_json(request.body);
   if (request.path == "/api/simulate") return 0;  // would break specimens for minutes

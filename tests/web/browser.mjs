@@ -11,22 +11,37 @@ mkdirSync(SCREENSHOTS, { recursive: true });
 
 const program = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
 // No sandbox: the test already runs in namespaces of its own, as their root.
-export const browser = await chromium.launch({ executablePath: program, args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"] });
+export const browser = await chromium.launch({
+  executablePath: program,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+});
 
 /** A page on `url`, with what went wrong on it in `page.troubles`. */
 export async function visit(url, { width = 1360, height = 900, dark = false, touch = false, calm = false } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", hasTouch: touch, isMobile: touch, reducedMotion: calm ? "reduce" : "no-preference", acceptDownloads: true });
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme: dark ? "dark" : "light",
+    hasTouch: touch,
+    isMobile: touch,
+    reducedMotion: calm ? "reduce" : "no-preference",
+    acceptDownloads: true,
+  });
   const page = await context.newPage();
   page.troubles = [];
   page.setDefaultTimeout(20_000);
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.troubles.push(`console: ${message.text()}`));
+  page.on(
+    "console",
+    (message) => ["error", "warning"].includes(message.type()) && page.troubles.push(`console: ${message.text()}`),
+  );
   page.on("pageerror", (error) => page.troubles.push(`error: ${error.message}`));
   page.on("request", (request) => {
     const to = request.url();
-    if (!to.startsWith(new URL(url).origin) && !/^(blob|data):/.test(to)) page.troubles.push(`request to elsewhere: ${to}`);
+    if (!to.startsWith(new URL(url).origin) && !/^(blob|data):/.test(to))
+      page.troubles.push(`request to elsewhere: ${to}`);
   });
   await page.goto(url);
   return page;
 }
 
-export const photograph = (page, name, fullPage = false) => page.screenshot({ path: join(SCREENSHOTS, `${name}.png`), fullPage });
+export const photograph = (page, name, fullPage = false) =>
+  page.screenshot({ path: join(SCREENSHOTS, `${name}.png`), fullPage });

@@ -26,10 +26,11 @@ const ringAt = async (on) => {
 };
 const frameOf = (on) => on.locator(".film canvas").getAttribute("data-frame").then(Number);
 /** How much of a canvas is painted, and in how many colours. */
-const painted = (on, selector) => on.locator(selector).evaluate((canvas) => {
-  const points = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
-  return { share: points.filter((p) => p !== 0).length / points.length, colours: new Set(points).size };
-});
+const painted = (on, selector) =>
+  on.locator(selector).evaluate((canvas) => {
+    const points = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+    return { share: points.filter((p) => p !== 0).length / points.length, colours: new Set(points).size };
+  });
 
 test("a live game is shown and followed", async () => {
   await page.locator(".nodes li").nth(4).waitFor();
@@ -74,7 +75,9 @@ test("a measurement is entered and reviewed", async () => {
   await view(page, "laboratory");
   await page.locator('input[name="specimen"]').fill("by-hand-1");
   await page.locator('input[name="pattern"]').fill(PUBLISHED);
-  await page.locator('input[type="file"]').setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });
+  await page
+    .locator('input[type="file"]')
+    .setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });
   await page.locator("text=curve.csv, 6 rows").waitFor();
   await photograph(page, "laboratory", true);
   await page.getByRole("button", { name: "Hand in" }).click();
@@ -95,7 +98,10 @@ test("what cannot be a measurement is refused with its column", async () => {
   await other.locator('input[name="value"]').fill("1");
   await other.getByRole("button", { name: "Hand in" }).click();
   assert.match(await other.locator(".notice.bad").innerText(), /pattern: /);
-  assert.deepEqual(other.troubles.filter((t) => !/status of 400/.test(t)), []);
+  assert.deepEqual(
+    other.troubles.filter((t) => !/status of 400/.test(t)),
+    [],
+  );
   await other.context().close();
 });
 
@@ -109,7 +115,11 @@ test("proposals are approved and the game goes on to its end", async () => {
   assert.equal(await game.ended, 0, game.said);
   await view(page, "game");
   await page.locator("text=Measured patterns").waitFor();
-  await until(async () => (await page.locator("table", { hasText: "specimens" }).locator("tbody tr").count()) > 3, 20, "measured patterns are listed");
+  await until(
+    async () => (await page.locator("table", { hasText: "specimens" }).locator("tbody tr").count()) > 3,
+    20,
+    "measured patterns are listed",
+  );
   await view(page, "diagnosis");
   await page.locator(".verdict h2").waitFor();
   await photograph(page, "diagnosis", true);
@@ -167,7 +177,10 @@ test("pictures and tables can be saved", async () => {
   const finished = await openDashboard(game.folder);
   const saving = await visit(finished.url);
   const saved = async (label) => {
-    const [download] = await Promise.all([saving.waitForEvent("download"), saving.getByLabel(label, { exact: true }).click()]);
+    const [download] = await Promise.all([
+      saving.waitForEvent("download"),
+      saving.getByLabel(label, { exact: true }).click(),
+    ]);
     return readFileSync(await download.path());
   };
   await saving.locator(".trends .chart").first().waitFor();
@@ -186,8 +199,14 @@ test("everything is reached with the keyboard alone", async () => {
   const finished = await openDashboard(game.folder);
   const keys = await visit(finished.url, { calm: true });
   await keys.locator(".catcher").waitFor();
-  const focused = () => keys.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.innerText);
-  const tabTo = (what) => until(async () => (await keys.keyboard.press("Tab"), what.test((await focused()) ?? "")), 10, `Tab reaches ${what}`);
+  const focused = () =>
+    keys.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.innerText);
+  const tabTo = (what) =>
+    until(
+      async () => (await keys.keyboard.press("Tab"), what.test((await focused()) ?? "")),
+      10,
+      `Tab reaches ${what}`,
+    );
   await tabTo(/to the content/);
   await tabTo(/Laboratory/);
   await tabTo(/points of the gamut/);
@@ -201,8 +220,20 @@ test("everything is reached with the keyboard alone", async () => {
   await tabTo(/moment of the film/);
   await keys.keyboard.press("ArrowRight");
   assert.equal(await frameOf(keys), 1);
-  const unnamed = await keys.evaluate(() => [...document.querySelectorAll("button, a, input, select, [tabindex='0'], [role='img']")]
-    .filter((e) => !e.closest("[aria-hidden='true']") && !(e.getAttribute("aria-label") || e.innerText?.trim() || e.labels?.length || e.getAttribute("aria-labelledby"))).map((e) => e.outerHTML.slice(0, 120)));
+  const unnamed = await keys.evaluate(() =>
+    [...document.querySelectorAll("button, a, input, select, [tabindex='0'], [role='img']")]
+      .filter(
+        (e) =>
+          !e.closest("[aria-hidden='true']") &&
+          !(
+            e.getAttribute("aria-label") ||
+            e.innerText?.trim() ||
+            e.labels?.length ||
+            e.getAttribute("aria-labelledby")
+          ),
+      )
+      .map((e) => e.outerHTML.slice(0, 120)),
+  );
   assert.deepEqual(unnamed, []);
   assert.deepEqual(keys.troubles, []);
   await keys.context().close();
@@ -216,7 +247,10 @@ test("a phone shows every view without scrolling sideways", async () => {
     await phone.goto(`${finished.url}#${name}`);
     await phone.locator(".panel").first().waitFor({ timeout: 40_000 });
     await phone.waitForTimeout(500);
-    assert.ok((await phone.evaluate(() => document.documentElement.scrollWidth)) <= 375, `${name} is wider than the phone`);
+    assert.ok(
+      (await phone.evaluate(() => document.documentElement.scrollWidth)) <= 375,
+      `${name} is wider than the phone`,
+    );
     await photograph(phone, `phone-${name}`, true);
   }
   assert.deepEqual(phone.troubles, []);
@@ -229,7 +263,16 @@ test("100,000 points are shown and pointed at", async () => {
   const begun = Date.now();
   const many = await visit(large.url);
   await many.locator(".catcher").waitFor();
-  await until(() => many.evaluate(() => performance.getEntriesByType("resource").some((r) => r.name.includes("/api/gamut") && r.responseEnd > 0 && r.encodedBodySize > 1_600_000)), 30, "the gamut has come");
+  await until(
+    () =>
+      many.evaluate(() =>
+        performance
+          .getEntriesByType("resource")
+          .some((r) => r.name.includes("/api/gamut") && r.responseEnd > 0 && r.encodedBodySize > 1_600_000),
+      ),
+    30,
+    "the gamut has come",
+  );
   await many.waitForTimeout(300);
   const box = await many.locator(".catcher").boundingBox();
   const shown = Date.now() - begun;
@@ -237,11 +280,17 @@ test("100,000 points are shown and pointed at", async () => {
   for (let i = 0; i < 10; ++i) {
     const before = Date.now();
     await many.mouse.move(box.x + box.width * (0.2 + 0.05 * i), box.y + box.height * 0.8);
-    await until(async () => (await many.locator(".catcher").getAttribute("data-pointed")) !== "", 5, "a point is found");
+    await until(
+      async () => (await many.locator(".catcher").getAttribute("data-pointed")) !== "",
+      5,
+      "a point is found",
+    );
     times.push(Date.now() - before);
   }
   times.sort((a, b) => a - b);
-  console.log(`100,000 points: shown after ${shown} ms, pointed at in ${times[5]} ms (median, with the test's own 100 ms turns)`);
+  console.log(
+    `100,000 points: shown after ${shown} ms, pointed at in ${times[5]} ms (median, with the test's own 100 ms turns)`,
+  );
   assert.ok(shown < 15_000 && times[5] < 1000, `${shown} ms, ${times}`);
   await photograph(many, "many-points");
   assert.deepEqual(many.troubles, []);
@@ -252,24 +301,40 @@ test("100,000 points are shown and pointed at", async () => {
 test("other pages, names and files get nothing", async () => {
   const guarded = await openDashboard(game.folder, "--token", "0123456789abcdef-test");
   const { port, hostname } = new URL(guarded.url);
-  const ask = (path, headers = {}, method = "GET", body = "") => new Promise((done, fail) => {
-    const asked = request({ host: hostname, port, path, method, headers: { ...headers, ...(method === "POST" ? { "content-length": Buffer.byteLength(body) } : {}) } }, (answer) => {
-      answer.resume();
-      answer.on("end", () => done(answer));
+  const ask = (path, headers = {}, method = "GET", body = "") =>
+    new Promise((done, fail) => {
+      const asked = request(
+        {
+          host: hostname,
+          port,
+          path,
+          method,
+          headers: { ...headers, ...(method === "POST" ? { "content-length": Buffer.byteLength(body) } : {}) },
+        },
+        (answer) => {
+          answer.resume();
+          answer.on("end", () => done(answer));
+        },
+      );
+      asked.on("error", fail);
+      asked.end(body);
     });
-    asked.on("error", fail);
-    asked.end(body);
-  });
   const known = { authorization: "Bearer 0123456789abcdef-test" };
   const entry = { ...known, "x-nacre": "1", "content-type": "application/json" };
   assert.equal((await ask("/api/run")).statusCode, 401);
   assert.equal((await ask("/api/run", known)).statusCode, 200);
   assert.equal((await ask("/api/run", { ...known, host: "evil.example" })).statusCode, 421);
   assert.equal((await ask("/..%2f..%2fmanifest.json", known)).statusCode, 404);
-  assert.equal((await ask("/api/review", { ...known, "content-type": "application/json" }, "POST", "{}")).statusCode, 403);
+  assert.equal(
+    (await ask("/api/review", { ...known, "content-type": "application/json" }, "POST", "{}")).statusCode,
+    403,
+  );
   assert.equal((await ask("/api/review", { ...entry, origin: "http://evil.example" }, "POST", "{}")).statusCode, 403);
   assert.equal((await ask("/api/review", entry, "POST", "{}")).statusCode, 400);
-  assert.equal((await ask("/api/review", entry, "POST", " ".repeat(5 << 20)).catch(() => ({ statusCode: 413 }))).statusCode, 413);
+  assert.equal(
+    (await ask("/api/review", entry, "POST", " ".repeat(5 << 20)).catch(() => ({ statusCode: 413 }))).statusCode,
+    413,
+  );
   const visited = await visit(guarded.url);
   await visited.locator(".standing").waitFor();
   assert.ok(!visited.url().includes("token"));

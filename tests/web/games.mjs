@@ -25,7 +25,11 @@ process.on("exit", () => {
 function start(program, args) {
   const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, USER: "web test" } });
   children.add(child);
-  const running = { child, said: "", ended: new Promise((done) => child.once("exit", (code) => (children.delete(child), done(code)))) };
+  const running = {
+    child,
+    said: "",
+    ended: new Promise((done) => child.once("exit", (code) => (children.delete(child), done(code)))),
+  };
   for (const stream of [child.stdout, child.stderr]) stream.on("data", (text) => (running.said += text));
   return running;
 }
@@ -45,14 +49,22 @@ export async function until(condition, seconds, what) {
 export async function playGame(scenario, name) {
   const game = start(NACRE, ["launch", scenario, "--logs", folder, "--run", name]);
   game.folder = join(folder, name);
-  await until(() => existsSync(join(game.folder, "manifest.json")), 20, `the run's folder; the launcher said ${game.said}`);
+  await until(
+    () => existsSync(join(game.folder, "manifest.json")),
+    20,
+    `the run's folder; the launcher said ${game.said}`,
+  );
   return game;
 }
 
 /** `nacre dashboard` of a run, with the address of its page. */
 export async function openDashboard(run, ...options) {
   const dashboard = start(NACRE, ["dashboard", run, "--port", "0", "--page", join(BUILD, "web"), ...options]);
-  dashboard.url = await until(() => dashboard.said.match(/http:\S+/)?.[0], 20, `the dashboard's address; it said ${dashboard.said}`);
+  dashboard.url = await until(
+    () => dashboard.said.match(/http:\S+/)?.[0],
+    20,
+    `the dashboard's address; it said ${dashboard.said}`,
+  );
   dashboard.close = async () => {
     dashboard.child.kill("SIGINT");
     return dashboard.ended;

@@ -129,7 +129,13 @@ export interface Design {
   rigid_fraction: number;
   violation?: string | null;
   proposals: (Proposed & { round: number })[];
-  simulated: { round: number; failure?: string; modulus_pa?: number | null; toughness_pa?: number; curve?: Curve | null }[];
+  simulated: {
+    round: number;
+    failure?: string;
+    modulus_pa?: number | null;
+    toughness_pa?: number;
+    curve?: Curve | null;
+  }[];
   cracks: { round: number; film: boolean; path_ratio?: number; branches: number; bridged_share?: number }[];
   specimens: Specimen[];
 }
@@ -260,7 +266,13 @@ export interface PatternMap {
 }
 
 export interface Maps {
-  families: { name: string; seeds: number; samples?: number; map_ids: string[]; mechanisms?: Record<string, number | string>[] }[];
+  families: {
+    name: string;
+    seeds: number;
+    samples?: number;
+    map_ids: string[];
+    mechanisms?: Record<string, number | string>[];
+  }[];
   gamuts: string[];
 }
 

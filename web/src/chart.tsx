@@ -9,7 +9,16 @@ import { useContext, useEffect, useRef } from "preact/hooks";
 import { themeColour } from "./colour";
 import { save, saveCsv, saveSvg } from "./save";
 
-echarts.use([LineChart, ScatterChart, GridComponent, DataZoomInsideComponent, MarkLineComponent, MarkAreaComponent, CanvasRenderer, SVGRenderer]);
+echarts.use([
+  LineChart,
+  ScatterChart,
+  GridComponent,
+  DataZoomInsideComponent,
+  MarkLineComponent,
+  MarkAreaComponent,
+  CanvasRenderer,
+  SVGRenderer,
+]);
 
 export type Chart = echarts.ECharts;
 export type Option = Record<string, unknown>;
@@ -60,15 +69,23 @@ interface Props {
 /** The same picture drawn again as SVG, or as PNG at twice the size, on the page's ground. */
 function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string): void {
   const [width, height] = [chart.getWidth(), chart.getHeight()];
-  const renderer = kind === "svg" ? { renderer: "svg" as const, ssr: true, width, height } : { renderer: "canvas" as const, devicePixelRatio: 2, width, height };
+  const renderer =
+    kind === "svg"
+      ? { renderer: "svg" as const, ssr: true, width, height }
+      : { renderer: "canvas" as const, devicePixelRatio: 2, width, height };
   const host = kind === "svg" ? null : document.createElement("div");
   const copy = echarts.init(host, null, renderer);
   copy.setOption({ ...option, backgroundColor: themeColour("panel") });
   const zoom = (chart.getOption() as { dataZoom?: { startValue: number; endValue: number }[] }).dataZoom;
-  zoom?.forEach((each, dataZoomIndex) => copy.dispatchAction({ type: "dataZoom", dataZoomIndex, startValue: each.startValue, endValue: each.endValue }));
+  zoom?.forEach((each, dataZoomIndex) =>
+    copy.dispatchAction({ type: "dataZoom", dataZoomIndex, startValue: each.startValue, endValue: each.endValue }),
+  );
   if (kind === "svg") saveSvg(name, copy.renderToSVGString());
   else {
-    const canvas = copy.renderToCanvas({ backgroundColor: themeColour("panel"), pixelRatio: 2 } as never) as HTMLCanvasElement;
+    const canvas = copy.renderToCanvas({
+      backgroundColor: themeColour("panel"),
+      pixelRatio: 2,
+    } as never) as HTMLCanvasElement;
     canvas.toBlob((blob) => blob && save(`${name}.png`, blob), "image/png");
   }
   copy.dispose();
@@ -101,10 +118,34 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, c
       <figcaption class="tools">
         {tools}
         <span class="spring" />
-        <button type="button" class="quiet" onClick={() => picture(chart.current!, option, "svg", name)} aria-label={`${name} as SVG`}>SVG</button>
-        <button type="button" class="quiet" onClick={() => picture(chart.current!, option, "png", name)} aria-label={`${name} as PNG`}>PNG</button>
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => picture(chart.current!, option, "svg", name)}
+          aria-label={`${name} as SVG`}
+        >
+          SVG
+        </button>
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => picture(chart.current!, option, "png", name)}
+          aria-label={`${name} as PNG`}
+        >
+          PNG
+        </button>
         {table && (
-          <button type="button" class="quiet" aria-label={`${name} as CSV`} onClick={() => { const { heading, rows } = table(); saveCsv(name, heading, rows); }}>CSV</button>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={`${name} as CSV`}
+            onClick={() => {
+              const { heading, rows } = table();
+              saveCsv(name, heading, rows);
+            }}
+          >
+            CSV
+          </button>
         )}
       </figcaption>
     </figure>

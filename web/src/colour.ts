@@ -32,11 +32,19 @@ function rgbOfLch(lightness: number, chroma: number, hueDegrees: number): Three 
   const hue = (hueDegrees * Math.PI) / 180;
   for (let c = chroma; ; c -= 0.002) {
     const linear = linearOf([lightness, Math.max(c, 0) * Math.cos(hue), Math.max(c, 0) * Math.sin(hue)]);
-    if (c <= 0 || linear.every((v) => v >= -1e-4 && v <= 1 + 1e-4)) return linear.map((v) => encoded(clamp(v))) as Three;
+    if (c <= 0 || linear.every((v) => v >= -1e-4 && v <= 1 + 1e-4))
+      return linear.map((v) => encoded(clamp(v))) as Three;
   }
 }
 
-const hexOf = (rgb: Three) => `#${rgb.map((v) => Math.round(255 * v).toString(16).padStart(2, "0")).join("")}`;
+const hexOf = (rgb: Three) =>
+  `#${rgb
+    .map((v) =>
+      Math.round(255 * v)
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 const linear = (rgb: Three) => rgb.map(decoded) as Three;
 
 function blend(a: Three, b: Three, share: number): Three {
@@ -62,7 +70,9 @@ export function elementColours(levels: number): Uint32Array[] {
     Uint32Array.from({ length: levels }, (_, level) => {
       const share = level / (levels - 1);
       const rise = clamp((share - begin) / (full - begin));
-      const [r, g, b] = blend(material, glow((share - begin) / (top - begin)), rise * rise * (3 - 2 * rise)).map((v) => Math.round(255 * v));
+      const [r, g, b] = blend(material, glow((share - begin) / (top - begin)), rise * rise * (3 - 2 * rise)).map((v) =>
+        Math.round(255 * v),
+      );
       return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
     }),
   );

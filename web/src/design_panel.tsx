@@ -61,43 +61,138 @@ export function useFilm(design: string | null, model: number | string): FilmStat
 function CurveChart({ design, film, frame }: { design: Design | null; film?: Film; frame: number }) {
   const measured = design?.specimens.filter((s) => s.curve && s.test === "toughness") ?? [];
   const simulated = design?.simulated.filter((s) => s.curve) ?? [];
-  const points = (c: { strain: number[]; stress_pa: number[] }) => c.strain.map((s, i) => [100 * s, c.stress_pa[i] * MPA]);
+  const points = (c: { strain: number[]; stress_pa: number[] }) =>
+    c.strain.map((s, i) => [100 * s, c.stress_pa[i] * MPA]);
   const option = useMemo<Option>(() => {
     const [sim, meas] = [themeColour("sim"), themeColour("meas")];
-    const series: Option[] = measured.map((s) => ({ type: "line", name: s.specimen, data: points(s.curve!), symbol: "none", silent: true, lineStyle: { color: meas, width: 1.2, opacity: s.valid ? 0.75 : 0.25, type: s.valid ? "solid" : "dotted" } }));
-    if (simulated.length > 0) series.push({ type: "line", name: "simulated", data: points(simulated[simulated.length - 1].curve!), symbol: "none", silent: true, lineStyle: { color: sim, width: 1.6, type: "dashed" } });
-    if (film) series.push({ type: "line", name: "film", data: points(film.curve), symbol: "none", silent: true, lineStyle: { color: sim, width: 2 } });
-    return { ...basis({ grid: { left: 48, right: 12, top: 10, bottom: 40 } }), xAxis: axis("strain / %", { min: 0, nameGap: 24 }), yAxis: axis("stress / MPa", { min: 0, nameGap: 34 }), series };
+    const series: Option[] = measured.map((s) => ({
+      type: "line",
+      name: s.specimen,
+      data: points(s.curve!),
+      symbol: "none",
+      silent: true,
+      lineStyle: { color: meas, width: 1.2, opacity: s.valid ? 0.75 : 0.25, type: s.valid ? "solid" : "dotted" },
+    }));
+    if (simulated.length > 0)
+      series.push({
+        type: "line",
+        name: "simulated",
+        data: points(simulated[simulated.length - 1].curve!),
+        symbol: "none",
+        silent: true,
+        lineStyle: { color: sim, width: 1.6, type: "dashed" },
+      });
+    if (film)
+      series.push({
+        type: "line",
+        name: "film",
+        data: points(film.curve),
+        symbol: "none",
+        silent: true,
+        lineStyle: { color: sim, width: 2 },
+      });
+    return {
+      ...basis({ grid: { left: 48, right: 12, top: 10, bottom: 40 } }),
+      xAxis: axis("strain / %", { min: 0, nameGap: 24 }),
+      yAxis: axis("stress / MPa", { min: 0, nameGap: 34 }),
+      series,
+    };
   }, [design, film, document.documentElement.dataset.theme]);
   const withMarker = useMemo<Option>(() => {
     const moment = film?.frames[Math.min(frame, film.frames.length - 1)];
-    const marker = moment ? [{ type: "scatter", name: "moment", data: [[100 * moment.strain, moment.stress_pa * MPA]], symbolSize: 10, silent: true, z: 9, itemStyle: { color: themeColour("panel"), borderColor: themeColour("sim"), borderWidth: 2.5 } }] : [{ type: "scatter", name: "moment", data: [] }];
+    const marker = moment
+      ? [
+          {
+            type: "scatter",
+            name: "moment",
+            data: [[100 * moment.strain, moment.stress_pa * MPA]],
+            symbolSize: 10,
+            silent: true,
+            z: 9,
+            itemStyle: { color: themeColour("panel"), borderColor: themeColour("sim"), borderWidth: 2.5 },
+          },
+        ]
+      : [{ type: "scatter", name: "moment", data: [] }];
     return { ...option, series: [...(option.series as Option[]), ...marker] };
   }, [option, film, frame]);
   if (measured.length === 0 && simulated.length === 0 && !film) return null;
   return (
-    <ChartBox name={`curves-${design?.design ?? "design"}`} label="stress-strain curves of the design" option={withMarker} height={190}
+    <ChartBox
+      name={`curves-${design?.design ?? "design"}`}
+      label="stress-strain curves of the design"
+      option={withMarker}
+      height={190}
       table={() => ({
         heading: ["curve", "strain", "stress_pa"],
-        rows: [...measured.map((s) => [s.specimen, s.curve!] as const), ...simulated.map((s) => [`simulated ${s.round}`, s.curve!] as const), ...(film ? [["film", film.curve] as const] : [])].flatMap(([name, c]) => c.strain.map((s, i) => [name, s, c.stress_pa[i]])),
+        rows: [
+          ...measured.map((s) => [s.specimen, s.curve!] as const),
+          ...simulated.map((s) => [`simulated ${s.round}`, s.curve!] as const),
+          ...(film ? [["film", film.curve] as const] : []),
+        ].flatMap(([name, c]) => c.strain.map((s, i) => [name, s, c.stress_pa[i]])),
       })}
-      tools={<ul class="keys">{(film || simulated.length > 0) && <li><span class="line" style={{ color: "var(--sim)" }} />simulated</li>}{measured.length > 0 && <li><span class="line" style={{ color: "var(--meas)" }} />measured ({measured.length})</li>}</ul>} />
+      tools={
+        <ul class="keys">
+          {(film || simulated.length > 0) && (
+            <li>
+              <span class="line" style={{ color: "var(--sim)" }} />
+              simulated
+            </li>
+          )}
+          {measured.length > 0 && (
+            <li>
+              <span class="line" style={{ color: "var(--meas)" }} />
+              measured ({measured.length})
+            </li>
+          )}
+        </ul>
+      }
+    />
   );
 }
 
 function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | null; state: FilmState }) {
-  const measuredE = mean(design?.specimens.filter((s) => s.valid && s.test === "modulus" && s.orientation_deg === 0).map((s) => s.modulus_pa));
-  const measuredT = mean(design?.specimens.filter((s) => s.valid && s.test === "toughness" && s.orientation_deg === 0).map((s) => s.toughness_pa));
+  const measuredE = mean(
+    design?.specimens
+      .filter((s) => s.valid && s.test === "modulus" && s.orientation_deg === 0)
+      .map((s) => s.modulus_pa),
+  );
+  const measuredT = mean(
+    design?.specimens
+      .filter((s) => s.valid && s.test === "toughness" && s.orientation_deg === 0)
+      .map((s) => s.toughness_pa),
+  );
   const last = design?.simulated[design.simulated.length - 1];
-  const simE = state.simulation?.modulus_pa ?? last?.modulus_pa ?? design?.proposals.at(-1)?.modulus_pa ?? (chosen.of.startsWith("measured") ? null : chosen.modulus);
-  const simT = state.film?.toughness ?? last?.toughness_pa ?? (chosen.of.startsWith("measured") ? null : chosen.toughness);
+  const simE =
+    state.simulation?.modulus_pa ??
+    last?.modulus_pa ??
+    design?.proposals.at(-1)?.modulus_pa ??
+    (chosen.of.startsWith("measured") ? null : chosen.modulus);
+  const simT =
+    state.film?.toughness ?? last?.toughness_pa ?? (chosen.of.startsWith("measured") ? null : chosen.toughness);
   return (
     <table class="facts">
-      <thead><tr><td /><th scope="col">E / GPa</th><th scope="col">T / MPa</th></tr></thead>
+      <thead>
+        <tr>
+          <td />
+          <th scope="col">E / GPa</th>
+          <th scope="col">T / MPa</th>
+        </tr>
+      </thead>
       <tbody>
-        <tr><th scope="row">simulated</th><td>{gpa(simE)}</td><td>{mpa(simT)}</td></tr>
-        <tr><th scope="row">measured</th><td>{gpa(measuredE)}</td><td>{mpa(measuredT)}</td></tr>
-        <tr><th scope="row">rigid</th><td colSpan={2}>{percent(design?.rigid_fraction)}</td></tr>
+        <tr>
+          <th scope="row">simulated</th>
+          <td>{gpa(simE)}</td>
+          <td>{mpa(simT)}</td>
+        </tr>
+        <tr>
+          <th scope="row">measured</th>
+          <td>{gpa(measuredE)}</td>
+          <td>{mpa(measuredT)}</td>
+        </tr>
+        <tr>
+          <th scope="row">rigid</th>
+          <td colSpan={2}>{percent(design?.rigid_fraction)}</td>
+        </tr>
       </tbody>
     </table>
   );
@@ -110,10 +205,24 @@ function mean(values: (number | null)[] | undefined): number | null {
 
 /** What stands where the film will be. */
 export function FilmWait({ state }: { state: FilmState }) {
-  if (state.problem) return <p class="notice bad" role="status">No film: {state.problem}</p>;
+  if (state.problem)
+    return (
+      <p class="notice bad" role="status">
+        No film: {state.problem}
+      </p>
+    );
   const s = state.simulation;
-  const text = !s ? "looking for its film" : s.state === "queued" ? "waiting for another simulation to end" : `being simulated: no film of it was kept (${duration(s.working_s ?? 0)})`;
-  return <div class="waiting" role="status"><span class="spinner" aria-hidden="true" />{text}</div>;
+  const text = !s
+    ? "looking for its film"
+    : s.state === "queued"
+      ? "waiting for another simulation to end"
+      : `being simulated: no film of it was kept (${duration(s.working_s ?? 0)})`;
+  return (
+    <div class="waiting" role="status">
+      <span class="spinner" aria-hidden="true" />
+      {text}
+    </div>
+  );
 }
 
 export function DesignBody({ chosen }: { chosen: Chosen }) {
@@ -123,7 +232,9 @@ export function DesignBody({ chosen }: { chosen: Chosen }) {
   useEffect(() => {
     let dropped = false;
     setDesign(null);
-    get<Design>("/api/design", { design: chosen.design }).then((d) => !dropped && setDesign(d)).catch(() => undefined);
+    get<Design>("/api/design", { design: chosen.design })
+      .then((d) => !dropped && setDesign(d))
+      .catch(() => undefined);
     return () => {
       dropped = true;
     };
@@ -134,32 +245,78 @@ export function DesignBody({ chosen }: { chosen: Chosen }) {
         <Unit design={chosen.design} size={124} />
         <div>
           <p class="eyebrow">{chosen.of}</p>
-          <p class="keyline"><Name design={chosen.design} /> <button type="button" class="quiet" aria-label="pattern as SVG" onClick={() => saveUnit(chosen.design)}>SVG</button></p>
+          <p class="keyline">
+            <Name design={chosen.design} />{" "}
+            <button type="button" class="quiet" aria-label="pattern as SVG" onClick={() => saveUnit(chosen.design)}>
+              SVG
+            </button>
+          </p>
           <Facts chosen={chosen} design={design} state={state} />
         </div>
       </div>
-      {design?.proposals.map((p) => <p key={p.round} class="reason">Proposed in round {p.round}: {p.reason} (E {figure(p.modulus_pa * GPA)} GPa, T {figure(p.toughness_pa * MPA)} MPa foretold)</p>)}
+      {design?.proposals.map((p) => (
+        <p key={p.round} class="reason">
+          Proposed in round {p.round}: {p.reason} (E {figure(p.modulus_pa * GPA)} GPa, T {figure(p.toughness_pa * MPA)}{" "}
+          MPa foretold)
+        </p>
+      ))}
       {design?.violation && <p class="reason">Outside the design space: {design.violation}</p>}
       <CurveChart design={design} film={state.film} frame={frame} />
       {state.film ? <FilmPlayer film={state.film} onFrame={setFrame} /> : <FilmWait state={state} />}
-      {state.film && state.simulation?.source === "here" && <p class="quiet">Simulated just now with the model of {typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model}; films of the proposals come from the game.</p>}
+      {state.film && state.simulation?.source === "here" && (
+        <p class="quiet">
+          Simulated just now with the model of{" "}
+          {typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model}; films of the proposals come from
+          the game.
+        </p>
+      )}
     </>
   );
 }
 
-export function DesignPanel({ chosen, newestModel, choose, proposals }: { chosen: Chosen | null; newestModel: number; choose: (c: Chosen) => void; proposals: Proposed[]; rounds: Rounds }) {
+export function DesignPanel({
+  chosen,
+  newestModel,
+  choose,
+  proposals,
+}: {
+  chosen: Chosen | null;
+  newestModel: number;
+  choose: (c: Chosen) => void;
+  proposals: Proposed[];
+  rounds: Rounds;
+}) {
   return (
     <section class="panel design" aria-label="design">
-      <div class="panel-head"><h2>Design</h2></div>
-      {chosen ? <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} /> : (
+      <div class="panel-head">
+        <h2>Design</h2>
+      </div>
+      {chosen ? (
+        <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} />
+      ) : (
         <>
           <p class="quiet">Point at the gamut to see a pattern; click, or press Enter, to see it break.</p>
           {proposals.length > 0 && <h3>Newest proposals</h3>}
           <ul class="units">
             {proposals.map((p) => (
               <li key={p.design}>
-                <button type="button" class="unit-button" onClick={() => choose({ design: p.design, model: newestModel, modulus: p.modulus_pa, toughness: p.toughness_pa, of: `proposed in round ${newestModel}` })}>
-                  <Unit design={p.design} size={76} /><span>E {gpa(p.modulus_pa)} · T {mpa(p.toughness_pa)}</span>
+                <button
+                  type="button"
+                  class="unit-button"
+                  onClick={() =>
+                    choose({
+                      design: p.design,
+                      model: newestModel,
+                      modulus: p.modulus_pa,
+                      toughness: p.toughness_pa,
+                      of: `proposed in round ${newestModel}`,
+                    })
+                  }
+                >
+                  <Unit design={p.design} size={76} />
+                  <span>
+                    E {gpa(p.modulus_pa)} · T {mpa(p.toughness_pa)}
+                  </span>
                 </button>
               </li>
             ))}

@@ -12,7 +12,12 @@ const VERDICTS: Record<string, string> = {
   unexplained: "Something is wrong that no known effect explains",
 };
 
-const STATUS: Record<string, string> = { in_set: "possible", excluded: "excluded", invisible: "invisible on these data", not_applicable: "not applicable" };
+const STATUS: Record<string, string> = {
+  in_set: "possible",
+  excluded: "excluded",
+  invisible: "invisible on these data",
+  not_applicable: "not applicable",
+};
 
 /** A parameter with its 90 % interval on a scale from 0. */
 function Interval({ effect }: { effect: Effect }) {
@@ -21,7 +26,13 @@ function Interval({ effect }: { effect: Effect }) {
   const least = Math.min(0, low, effect.parameter);
   const x = (v: number) => 4 + (192 * (v - least)) / (span - least || 1);
   return (
-    <svg viewBox="0 0 200 24" width="200" height="24" role="img" aria-label={`${figure(effect.parameter)}, between ${figure(low)} and ${figure(high)}`}>
+    <svg
+      viewBox="0 0 200 24"
+      width="200"
+      height="24"
+      role="img"
+      aria-label={`${figure(effect.parameter)}, between ${figure(low)} and ${figure(high)}`}
+    >
       <line x1={x(0)} x2={x(0)} y1="3" y2="21" class="axis" />
       <line x1={x(low)} x2={x(high)} y1="12" y2="12" class="range" />
       <circle cx={x(effect.parameter)} cy="12" r="4.5" class="value" />
@@ -32,14 +43,25 @@ function Interval({ effect }: { effect: Effect }) {
 function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
   const largest = Math.max(gain.held_out_error_before, gain.held_out_error_after);
   const row = (name: string, value: number, cls: string) => (
-    <div class="gain"><span>{name}</span><span class="track"><span class={cls} style={{ width: `${(100 * value) / largest}%` }} /></span><span>{percent(value)}</span></div>
+    <div class="gain">
+      <span>{name}</span>
+      <span class="track">
+        <span class={cls} style={{ width: `${(100 * value) / largest}%` }} />
+      </span>
+      <span>{percent(value)}</span>
+    </div>
   );
   return (
     <>
       <h3>Gain on designs that were left out</h3>
       {row("base model", gain.held_out_error_before, "before")}
       {row("extended", gain.held_out_error_after, "after")}
-      {gain.relative_reduction !== undefined && <p class="quiet">{percent(gain.relative_reduction)} less error{gain.interval90 && `, 90 % interval ${percent(gain.interval90[0])} to ${percent(gain.interval90[1])}`}</p>}
+      {gain.relative_reduction !== undefined && (
+        <p class="quiet">
+          {percent(gain.relative_reduction)} less error
+          {gain.interval90 && `, 90 % interval ${percent(gain.interval90[0])} to ${percent(gain.interval90[1])}`}
+        </p>
+      )}
     </>
   );
 }
@@ -51,48 +73,111 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
   const [word, setWord] = useState<Word | null>(null);
   useEffect(() => {
     let dropped = false;
-    if (round !== null) get<Word>("/api/diagnosis", { round }).then((w) => !dropped && setWord(w)).catch(() => undefined);
+    if (round !== null)
+      get<Word>("/api/diagnosis", { round })
+        .then((w) => !dropped && setWord(w))
+        .catch(() => undefined);
     return () => {
       dropped = true;
     };
   }, [round, rounds]);
-  if (round === null) return <p class="awaited wait">No diagnosis yet: the first one follows the first measurements of proposals.</p>;
+  if (round === null)
+    return <p class="awaited wait">No diagnosis yet: the first one follows the first measurements of proposals.</p>;
   if (!word) return <p class="awaited wait">reading …</p>;
   return (
     <>
       <section class={`panel verdict ${word.verdict}`}>
         <div class="panel-head">
           <p class="eyebrow">diagnosis</p>
-          <div class="tabs small" role="group" aria-label="round">{diagnosed.map((r) => <button type="button" key={r} aria-pressed={r === round} onClick={() => setPicked(r)}>round {r}</button>)}</div>
+          <div class="tabs small" role="group" aria-label="round">
+            {diagnosed.map((r) => (
+              <button type="button" key={r} aria-pressed={r === round} onClick={() => setPicked(r)}>
+                round {r}
+              </button>
+            ))}
+          </div>
         </div>
         <h2>{VERDICTS[word.verdict] ?? words(word.verdict)}</h2>
         <p>{word.summary}</p>
         {word.effects.map((e) => (
           <div key={e.name} class="effect">
-            <div><strong>{words(e.name)}</strong>{e.family && <span class="quiet"> · {e.family}</span>}<p class="quiet">{e.explanation}</p></div>
-            <div><Interval effect={e} /><p>{figure(e.parameter)} ({figure(e.interval90[0])} to {figure(e.interval90[1])}) {e.unit}</p></div>
+            <div>
+              <strong>{words(e.name)}</strong>
+              {e.family && <span class="quiet"> · {e.family}</span>}
+              <p class="quiet">{e.explanation}</p>
+            </div>
+            <div>
+              <Interval effect={e} />
+              <p>
+                {figure(e.parameter)} ({figure(e.interval90[0])} to {figure(e.interval90[1])}) {e.unit}
+              </p>
+            </div>
           </div>
         ))}
         {word.gain && <Gain gain={word.gain} />}
       </section>
       <section class="panel">
-        <Table name={`next-tests-${round}`} caption="Tests that would settle what is open" rows={word.next_experiments} rowKey={(e: Experiment) => JSON.stringify(e)} empty="None is asked for."
+        <Table
+          name={`next-tests-${round}`}
+          caption="Tests that would settle what is open"
+          rows={word.next_experiments}
+          rowKey={(e: Experiment) => JSON.stringify(e)}
+          empty="None is asked for."
           columns={[
-            { heading: "design", words: true, show: (e) => <span class="with-unit"><Unit design={e.design} size={34} label={false} /><Name design={e.design} /></span>, value: (e) => e.design },
-            { heading: "test", words: true, show: (e) => `${e.test}${e.orientation_deg ? ", turned" : ""}`, value: (e) => e.test },
+            {
+              heading: "design",
+              words: true,
+              show: (e) => (
+                <span class="with-unit">
+                  <Unit design={e.design} size={34} label={false} />
+                  <Name design={e.design} />
+                </span>
+              ),
+              value: (e) => e.design,
+            },
+            {
+              heading: "test",
+              words: true,
+              show: (e) => `${e.test}${e.orientation_deg ? ", turned" : ""}`,
+              value: (e) => e.test,
+            },
             { heading: "replicates", show: (e) => e.replicates, value: (e) => e.replicates },
             { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
-          ]} />
+          ]}
+        />
       </section>
       <section class="panel">
-        <Table name={`candidates-${round}`} caption="Every effect that was weighed" rows={[...word.candidates].sort((a, b) => b.statistic - a.statistic)} rowKey={(c: Candidate) => c.name} empty="No effect was weighed."
+        <Table
+          name={`candidates-${round}`}
+          caption="Every effect that was weighed"
+          rows={[...word.candidates].sort((a, b) => b.statistic - a.statistic)}
+          rowKey={(c: Candidate) => c.name}
+          empty="No effect was weighed."
           columns={[
-            { heading: "effect", words: true, show: (c) => <span title={c.explanation}>{words(c.name)}<span class="quiet"> {c.family}</span></span>, value: (c) => c.name },
-            { heading: "status", words: true, show: (c) => <span class={`chip ${c.status === "in_set" ? "pending" : ""}`}>{STATUS[c.status] ?? c.status}</span>, value: (c) => c.status },
+            {
+              heading: "effect",
+              words: true,
+              show: (c) => (
+                <span title={c.explanation}>
+                  {words(c.name)}
+                  <span class="quiet"> {c.family}</span>
+                </span>
+              ),
+              value: (c) => c.name,
+            },
+            {
+              heading: "status",
+              words: true,
+              show: (c) => (
+                <span class={`chip ${c.status === "in_set" ? "pending" : ""}`}>{STATUS[c.status] ?? c.status}</span>
+              ),
+              value: (c) => c.status,
+            },
             { heading: "drop of χ²", show: (c) => figure(c.statistic), value: (c) => c.statistic },
             { heading: "p, family-wise", show: (c) => figure(c.p_family_wise, 2), value: (c) => c.p_family_wise },
             { heading: "absorbed by the base", show: (c) => percent(c.absorption, 0), value: (c) => c.absorption },
-          ]} />
+          ]}
+        />
       </section>
     </>
   );

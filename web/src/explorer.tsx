@@ -31,7 +31,8 @@ function blendAt(map: PatternMap, x: number, y: number): Omit<Blend, "between"> 
     if (area === 0) continue;
     const u = ((map.x[b] - x) * (map.y[c] - y) - (map.x[c] - x) * (map.y[b] - y)) / area;
     const v = ((map.x[c] - x) * (map.y[a] - y) - (map.x[a] - x) * (map.y[c] - y)) / area;
-    if (u >= -1e-9 && v >= -1e-9 && u + v <= 1 + 1e-9) return { x, y, corners, weights: [u, v, 1 - u - v].map((w) => Math.min(1, Math.max(0, w))) };
+    if (u >= -1e-9 && v >= -1e-9 && u + v <= 1 + 1e-9)
+      return { x, y, corners, weights: [u, v, 1 - u - v].map((w) => Math.min(1, Math.max(0, w))) };
   }
   let nearest = 0;
   map.x.forEach((each, i) => {
@@ -42,7 +43,11 @@ function blendAt(map: PatternMap, x: number, y: number): Omit<Blend, "between"> 
 
 /** A map, asked for until it is there. */
 function useMap(id: string | null): { map: PatternMap | null; progress: number | null; problem: string } {
-  const [state, setState] = useState<{ map: PatternMap | null; progress: number | null; problem: string }>({ map: null, progress: null, problem: "" });
+  const [state, setState] = useState<{ map: PatternMap | null; progress: number | null; problem: string }>({
+    map: null,
+    progress: null,
+    problem: "",
+  });
   useEffect(() => {
     setState({ map: null, progress: null, problem: "" });
     if (!id) return;
@@ -55,7 +60,12 @@ function useMap(id: string | null): { map: PatternMap | null; progress: number |
         setState({ map: answer.map ?? null, progress: answer.progress ?? null, problem: "" });
         if (!answer.map) timer = window.setTimeout(look, 400);
       } catch (error) {
-        if (!dropped) setState({ map: null, progress: null, problem: error instanceof Refusal ? error.message : "the server does not answer" });
+        if (!dropped)
+          setState({
+            map: null,
+            progress: null,
+            problem: error instanceof Refusal ? error.message : "the server does not answer",
+          });
       }
     };
     void look();
@@ -76,7 +86,10 @@ function useBetween(map: PatternMap | null, place: { x: number; y: number } | nu
     setBlend((before) => ({ ...found, between: before?.between ?? null }));
     let dropped = false;
     const timer = setTimeout(() => {
-      get<Between>("/api/between", { patterns: found.corners.map((i) => map.pattern[i]).join(), weights: found.weights.map((w) => w.toFixed(4)).join() })
+      get<Between>("/api/between", {
+        patterns: found.corners.map((i) => map.pattern[i]).join(),
+        weights: found.weights.map((w) => w.toFixed(4)).join(),
+      })
         .then((between) => !dropped && setBlend({ ...found, between }))
         .catch(() => undefined);
     }, SETTLED_MS);
@@ -88,7 +101,23 @@ function useBetween(map: PatternMap | null, place: { x: number; y: number } | nu
   return blend;
 }
 
-function MapChart({ map, coloured, place, setPlace, blend, open, theme }: { map: PatternMap; coloured: Coloured; place: { x: number; y: number } | null; setPlace: (p: { x: number; y: number }) => void; blend: Blend | null; open: (design: string, index: number | null) => void; theme: string }) {
+function MapChart({
+  map,
+  coloured,
+  place,
+  setPlace,
+  blend,
+  open,
+  theme,
+}: {
+  map: PatternMap;
+  coloured: Coloured;
+  place: { x: number; y: number } | null;
+  setPlace: (p: { x: number; y: number }) => void;
+  blend: Blend | null;
+  open: (design: string, index: number | null) => void;
+  theme: string;
+}) {
   const chart = useRef<Chart | undefined>(undefined);
   const overlay = useRef<HTMLDivElement>(null);
   const [pointed, setPointed] = useState<number | null>(null);
@@ -104,10 +133,28 @@ function MapChart({ map, coloured, place, setPlace, blend, open, theme }: { map:
       ...basis({ grid: { left: 26, right: 10, top: 10, bottom: 26 } }),
       xAxis: axis("Isomap 1", { ...hidden, ...bounds(map.x) }),
       yAxis: axis("Isomap 2", { ...hidden, ...bounds(map.y) }),
-      series: [{
-        type: "scatter", silent: true, symbolSize: map.x.length > 1000 ? 6 : 9,
-        data: map.x.map((x, i) => ({ value: [x, map.y[i]], symbol: map.source[i] === "seed" ? "diamond" : "circle", symbolSize: map.source[i] === "seed" ? 18 : undefined, itemStyle: { color: values[i] === null ? "transparent" : scaleColour((values[i]! - low) / (high - low || 1)), borderColor: values[i] === null ? themeColour("quiet") : map.source[i] === "interpolated" ? themeColour("ink") : themeColour("panel"), borderWidth: values[i] === null || map.source[i] === "interpolated" ? 1 : 0.5 } })),
-      }],
+      series: [
+        {
+          type: "scatter",
+          silent: true,
+          symbolSize: map.x.length > 1000 ? 6 : 9,
+          data: map.x.map((x, i) => ({
+            value: [x, map.y[i]],
+            symbol: map.source[i] === "seed" ? "diamond" : "circle",
+            symbolSize: map.source[i] === "seed" ? 18 : undefined,
+            itemStyle: {
+              color: values[i] === null ? "transparent" : scaleColour((values[i]! - low) / (high - low || 1)),
+              borderColor:
+                values[i] === null
+                  ? themeColour("quiet")
+                  : map.source[i] === "interpolated"
+                    ? themeColour("ink")
+                    : themeColour("panel"),
+              borderWidth: values[i] === null || map.source[i] === "interpolated" ? 1 : 0.5,
+            },
+          })),
+        },
+      ],
     };
   }, [map, coloured, theme]);
 
@@ -128,28 +175,49 @@ function MapChart({ map, coloured, place, setPlace, blend, open, theme }: { map:
     return best;
   };
   const onKey = (event: KeyboardEvent) => {
-    const arrows: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const arrows: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+    };
     const width = Math.max(...map.x) - Math.min(...map.x);
     if (arrows[event.key]) {
       const from = place ?? { x: map.x[0], y: map.y[0] };
       const [dx, dy] = arrows[event.key];
       setPlace({ x: from.x + dx * STEP * width, y: from.y + dy * STEP * width });
-    } else if ((event.key === "Enter" || event.key === " ") && blend?.between?.pattern) open(blend.between.pattern, null);
+    } else if ((event.key === "Enter" || event.key === " ") && blend?.between?.pattern)
+      open(blend.between.pattern, null);
     else return;
     event.preventDefault();
   };
   const handle = blend && chart.current ? pixel(blend.x, blend.y) : null;
   const corners = blend && chart.current ? blend.corners.map((i) => pixel(map.x[i], map.y[i])) : [];
   return (
-    <ChartBox name={`map-${map.id.replace("/", "-")}`} label={`map of ${map.pattern.length} patterns coloured by ${coloured}`} option={option} height="var(--gamut-height)"
+    <ChartBox
+      name={`map-${map.id.replace("/", "-")}`}
+      label={`map of ${map.pattern.length} patterns coloured by ${coloured}`}
+      option={option}
+      height="var(--gamut-height)"
       onReady={(made) => {
         chart.current = made;
         made.off("finished");
         made.on("finished", () => redraw((n) => n + 1));
       }}
-      table={() => ({ heading: ["pattern", "source", "x", "y", "modulus_pa", "toughness_pa"], rows: map.pattern.map((p, i) => [p, map.source[i], map.x[i], map.y[i], map.modulus_pa[i], map.toughness_pa[i]]) })}
-      tools={<Scale coloured={coloured} low={low} high={high} />}>
-      <div ref={overlay} class="catcher map" tabIndex={0} role="application" aria-label="map: arrow keys move between patterns, Enter breaks the one that is there" onKeyDown={onKey} data-blend={blend?.between?.pattern ?? ""}
+      table={() => ({
+        heading: ["pattern", "source", "x", "y", "modulus_pa", "toughness_pa"],
+        rows: map.pattern.map((p, i) => [p, map.source[i], map.x[i], map.y[i], map.modulus_pa[i], map.toughness_pa[i]]),
+      })}
+      tools={<Scale coloured={coloured} low={low} high={high} />}
+    >
+      <div
+        ref={overlay}
+        class="catcher map"
+        tabIndex={0}
+        role="application"
+        aria-label="map: arrow keys move between patterns, Enter breaks the one that is there"
+        onKeyDown={onKey}
+        data-blend={blend?.between?.pattern ?? ""}
         onPointerDown={(event) => {
           dragging.current = { from: place2(event), moved: false };
           overlay.current!.setPointerCapture(event.pointerId);
@@ -175,19 +243,46 @@ function MapChart({ map, coloured, place, setPlace, blend, open, theme }: { map:
             }
           }
         }}
-        onPointerLeave={() => setPointed(null)}>
+        onPointerLeave={() => setPointed(null)}
+      >
         <svg class="overlay" aria-hidden="true">
           {corners.length > 1 && <polygon points={corners.map((c) => c.join()).join(" ")} class="triangle" />}
-          {corners.length > 1 && handle && corners.map((c, i) => <line key={i} x1={handle[0]} y1={handle[1]} x2={c[0]} y2={c[1]} class="spoke" stroke-width={0.5 + 3 * blend!.weights[i]} />)}
+          {corners.length > 1 &&
+            handle &&
+            corners.map((c, i) => (
+              <line
+                key={i}
+                x1={handle[0]}
+                y1={handle[1]}
+                x2={c[0]}
+                y2={c[1]}
+                class="spoke"
+                stroke-width={0.5 + 3 * blend!.weights[i]}
+              />
+            ))}
           {handle && <circle cx={handle[0]} cy={handle[1]} r="8" class="handle" />}
         </svg>
         {pointed !== null && chart.current && (
-          <div class="card-tip" style={{ left: `${Math.min(pixel(map.x[pointed], map.y[pointed])[0] + 14, overlay.current!.clientWidth - 236)}px`, top: `${Math.max(pixel(map.x[pointed], map.y[pointed])[1] - 60, 4)}px` }}>
+          <div
+            class="card-tip"
+            style={{
+              left: `${Math.min(pixel(map.x[pointed], map.y[pointed])[0] + 14, overlay.current!.clientWidth - 236)}px`,
+              top: `${Math.max(pixel(map.x[pointed], map.y[pointed])[1] - 60, 4)}px`,
+            }}
+          >
             <Unit design={map.pattern[pointed]} size={72} label={false} />
-            <div><code class="key">{map.pattern[pointed]}</code><br />E {figure((map.modulus_pa[pointed] ?? NaN) * GPA)} GPa<br />T {figure((map.toughness_pa[pointed] ?? NaN) * MPA)} MPa<br /><span class="quiet">{map.source[pointed]}</span></div>
+            <div>
+              <code class="key">{map.pattern[pointed]}</code>
+              <br />E {figure((map.modulus_pa[pointed] ?? NaN) * GPA)} GPa
+              <br />T {figure((map.toughness_pa[pointed] ?? NaN) * MPA)} MPa
+              <br />
+              <span class="quiet">{map.source[pointed]}</span>
+            </div>
           </div>
         )}
-        <span class="for-reader" aria-live="polite">{blend?.between?.pattern ? `between ${blend.corners.length} patterns: ${blend.between.pattern}` : ""}</span>
+        <span class="for-reader" aria-live="polite">
+          {blend?.between?.pattern ? `between ${blend.corners.length} patterns: ${blend.between.pattern}` : ""}
+        </span>
       </div>
     </ChartBox>
   );
@@ -201,7 +296,15 @@ function range(values: (number | null)[]): [number, number] {
 function Scale({ coloured, low, high }: { coloured: Coloured; low: number; high: number }) {
   const [factor, unit] = coloured === "modulus" ? [GPA, "GPa"] : [MPA, "MPa"];
   const stops = Array.from({ length: 9 }, (_, i) => scaleColour(i / 8)).join(", ");
-  return <span class="scale"><span>{figure(low * factor)}</span><span class="ramp" style={{ background: `linear-gradient(to right, ${stops})` }} /><span>{figure(high * factor)} {unit}</span></span>;
+  return (
+    <span class="scale">
+      <span>{figure(low * factor)}</span>
+      <span class="ramp" style={{ background: `linear-gradient(to right, ${stops})` }} />
+      <span>
+        {figure(high * factor)} {unit}
+      </span>
+    </span>
+  );
 }
 
 export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
@@ -212,7 +315,9 @@ export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
   const [chosen, setChosen] = useState<Chosen | null>(null);
   const known = rounds.rounds.map((r) => `${r.round}:${r.gamut_count}`).join();
   useEffect(() => {
-    get<Maps>("/api/maps").then(setMaps).catch(() => undefined);
+    get<Maps>("/api/maps")
+      .then(setMaps)
+      .catch(() => undefined);
   }, [known]);
   const id = picked ?? maps?.families[0]?.map_ids[0] ?? maps?.gamuts.at(-1) ?? null;
   const { map, progress, problem } = useMap(id);
@@ -226,7 +331,18 @@ export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
   if (!maps) return <p class="awaited wait">reading …</p>;
   if (!id) return <p class="awaited wait">No gamut yet: the map of its best patterns appears here.</p>;
   const open = (design: string, index: number | null) =>
-    setChosen({ design, model, modulus: index === null ? NaN : (map!.modulus_pa[index] ?? NaN), toughness: index === null ? NaN : (map!.toughness_pa[index] ?? NaN), of: index === null ? "between patterns of the map" : map!.source[index] === "gamut" ? `gamut of round ${model}` : map!.source[index] });
+    setChosen({
+      design,
+      model,
+      modulus: index === null ? NaN : (map!.modulus_pa[index] ?? NaN),
+      toughness: index === null ? NaN : (map!.toughness_pa[index] ?? NaN),
+      of:
+        index === null
+          ? "between patterns of the map"
+          : map!.source[index] === "gamut"
+            ? `gamut of round ${model}`
+            : map!.source[index],
+    });
   const mechanisms = maps.families.find((f) => f.name === family)?.mechanisms ?? [];
   return (
     <>
@@ -235,46 +351,134 @@ export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
           <div class="panel-head">
             <h2>Explorer</h2>
             <div class="toggles">
-              <label>map <select value={id} onChange={(e) => setPicked(e.currentTarget.value)}>
-                {maps.families.flatMap((f) => f.map_ids).map((each) => <option key={each} value={each}>{each.replace("/", ", around ")}</option>)}
-                {maps.gamuts.map((each) => <option key={each} value={each}>best patterns of gamut {each.split("/")[1]}</option>)}
-              </select></label>
-              <fieldset><legend>colour</legend>
-                {(["toughness", "modulus"] as const).map((c) => <label key={c} class="toggle"><input type="radio" name="colour" checked={coloured === c} onChange={() => setColoured(c)} /><span>{c === "modulus" ? "E" : "T"}</span></label>)}
+              <label>
+                map{" "}
+                <select value={id} onChange={(e) => setPicked(e.currentTarget.value)}>
+                  {maps.families
+                    .flatMap((f) => f.map_ids)
+                    .map((each) => (
+                      <option key={each} value={each}>
+                        {each.replace("/", ", around ")}
+                      </option>
+                    ))}
+                  {maps.gamuts.map((each) => (
+                    <option key={each} value={each}>
+                      best patterns of gamut {each.split("/")[1]}
+                    </option>
+                  ))}
+                </select>
+              </label>
+              <fieldset>
+                <legend>colour</legend>
+                {(["toughness", "modulus"] as const).map((c) => (
+                  <label key={c} class="toggle">
+                    <input type="radio" name="colour" checked={coloured === c} onChange={() => setColoured(c)} />
+                    <span>{c === "modulus" ? "E" : "T"}</span>
+                  </label>
+                ))}
               </fieldset>
             </div>
           </div>
-          <p class="quiet">Patterns that resemble each other lie near each other (earth mover's distance, Isomap). Click one to break it; drag across the map to go between patterns, and break what you find.</p>
-          {problem ? <p class="notice bad">{problem}</p> : !map ? <div class="waiting tall" role="status"><span class="spinner" aria-hidden="true" />measuring the distances between patterns {progress !== null && percent(progress, 0)}</div>
-            : <MapChart map={map} coloured={coloured} place={place} setPlace={setPlace} blend={blend} open={open} theme={theme} />}
-          {map && <p class="quiet">{map.pattern.length} patterns{map.residual_variance !== null && `; the map keeps ${percent(1 - map.residual_variance, 0)} of the variance of their distances`}</p>}
+          <p class="quiet">
+            Patterns that resemble each other lie near each other (earth mover's distance, Isomap). Click one to break
+            it; drag across the map to go between patterns, and break what you find.
+          </p>
+          {problem ? (
+            <p class="notice bad">{problem}</p>
+          ) : !map ? (
+            <div class="waiting tall" role="status">
+              <span class="spinner" aria-hidden="true" />
+              measuring the distances between patterns {progress !== null && percent(progress, 0)}
+            </div>
+          ) : (
+            <MapChart
+              map={map}
+              coloured={coloured}
+              place={place}
+              setPlace={setPlace}
+              blend={blend}
+              open={open}
+              theme={theme}
+            />
+          )}
+          {map && (
+            <p class="quiet">
+              {map.pattern.length} patterns
+              {map.residual_variance !== null &&
+                `; the map keeps ${percent(1 - map.residual_variance, 0)} of the variance of their distances`}
+            </p>
+          )}
         </section>
         <section class="panel design" aria-label="design">
-          <div class="panel-head"><h2>{blend && blend.corners.length > 1 ? "Between" : "Design"}</h2></div>
+          <div class="panel-head">
+            <h2>{blend && blend.corners.length > 1 ? "Between" : "Design"}</h2>
+          </div>
           {blend && blend.corners.length > 1 && (
             <div class="blend">
-              <div class="sources">{blend.corners.map((i, k) => <figure key={i}><Unit design={map!.pattern[i]} size={54} /><figcaption>{percent(blend.weights[k], 0)}</figcaption></figure>)}</div>
-              <span aria-hidden="true" class="arrow">→</span>
-              {blend.between?.pattern ? <Unit design={blend.between.pattern} size={96} /> : <span class="quiet">{blend.between?.violation ?? "…"}</span>}
+              <div class="sources">
+                {blend.corners.map((i, k) => (
+                  <figure key={i}>
+                    <Unit design={map!.pattern[i]} size={54} />
+                    <figcaption>{percent(blend.weights[k], 0)}</figcaption>
+                  </figure>
+                ))}
+              </div>
+              <span aria-hidden="true" class="arrow">
+                →
+              </span>
+              {blend.between?.pattern ? (
+                <Unit design={blend.between.pattern} size={96} />
+              ) : (
+                <span class="quiet">{blend.between?.violation ?? "…"}</span>
+              )}
               <div>
-                {blend.between?.pattern && <button type="button" onClick={() => open(blend.between!.pattern!, null)}>Break it</button>}
-                {blend.between?.pattern && blend.between.violation && <p class="quiet">outside the design space: {blend.between.violation}</p>}
+                {blend.between?.pattern && (
+                  <button type="button" onClick={() => open(blend.between!.pattern!, null)}>
+                    Break it
+                  </button>
+                )}
+                {blend.between?.pattern && blend.between.violation && (
+                  <p class="quiet">outside the design space: {blend.between.violation}</p>
+                )}
               </div>
             </div>
           )}
-          {chosen ? <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} /> : !blend && <p class="quiet">Nothing chosen yet.</p>}
+          {chosen ? (
+            <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} />
+          ) : (
+            !blend && <p class="quiet">Nothing chosen yet.</p>
+          )}
         </section>
       </div>
       {mechanisms.length > 0 && (
         <section class="panel">
-          <Table name={`mechanisms-${family}`} caption={`What goes with toughness in ${family}, at equal rigid fraction and modulus (evidence, not cause)`} rows={mechanisms} rowKey={(m) => String(m.mechanism)} empty=""
+          <Table
+            name={`mechanisms-${family}`}
+            caption={`What goes with toughness in ${family}, at equal rigid fraction and modulus (evidence, not cause)`}
+            rows={mechanisms}
+            rowKey={(m) => String(m.mechanism)}
+            empty=""
             columns={[
-              { heading: "mechanism", words: true, show: (m) => String(m.mechanism).replace("_", " "), value: (m) => m.mechanism },
+              {
+                heading: "mechanism",
+                words: true,
+                show: (m) => String(m.mechanism).replace("_", " "),
+                value: (m) => m.mechanism,
+              },
               { heading: "patterns", show: (m) => m.patterns, value: (m) => m.patterns },
-              { heading: "rank correlation", show: (m) => figure(Number(m.spearman_with_toughness), 2), value: (m) => m.spearman_with_toughness },
+              {
+                heading: "rank correlation",
+                show: (m) => figure(Number(m.spearman_with_toughness), 2),
+                value: (m) => m.spearman_with_toughness,
+              },
               { heading: "partial", show: (m) => figure(Number(m.partial), 2), value: (m) => m.partial },
-              { heading: "p, family-wise", show: (m) => figure(Number(m.p_family_wise), 2), value: (m) => m.p_family_wise },
-            ]} />
+              {
+                heading: "p, family-wise",
+                show: (m) => figure(Number(m.p_family_wise), 2),
+                value: (m) => m.p_family_wise,
+              },
+            ]}
+          />
         </section>
       )}
     </>

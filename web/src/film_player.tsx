@@ -66,10 +66,19 @@ class FilmPainter {
     const width = columns * elementSize;
     const height = rows * elementSize * (1 + failureStrain);
     const scale = Math.min((canvas.width - 2 * margin) / width, (canvas.height - 2 * margin) / height);
-    return { scale, left: (canvas.width - scale * width) / 2, bottom: (canvas.height + scale * height) / 2, width: scale * width };
+    return {
+      scale,
+      left: (canvas.width - scale * width) / 2,
+      bottom: (canvas.height + scale * height) / 2,
+      width: scale * width,
+    };
   }
 
-  private drawGrips(context: CanvasRenderingContext2D, place: { scale: number; left: number; bottom: number; width: number }, stretch: number): void {
+  private drawGrips(
+    context: CanvasRenderingContext2D,
+    place: { scale: number; left: number; bottom: number; width: number },
+    stretch: number,
+  ): void {
     const thickness = 0.015 * context.canvas.width;
     const top = place.bottom - place.scale * this.film.rows * this.film.elementSize * stretch;
     context.fillStyle = "#7d8794";
@@ -77,7 +86,13 @@ class FilmPainter {
     context.fillRect(place.left - thickness, top - thickness, place.width + 2 * thickness, thickness);
   }
 
-  private drawPath(context: CanvasRenderingContext2D, xs: Float32Array, ys: Float32Array, path: number[], colour: string): void {
+  private drawPath(
+    context: CanvasRenderingContext2D,
+    xs: Float32Array,
+    ys: Float32Array,
+    path: number[],
+    colour: string,
+  ): void {
     const { columns } = this.film;
     context.beginPath();
     path.forEach((e, i) => {
@@ -119,16 +134,56 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
   const width = 900;
   return (
     <div class="film">
-      <canvas ref={canvas} width={width} height={Math.round(width * aspect)} role="img" aria-label={`fracture of ${film.design} at strain ${percentOf(shown.strain)}`} data-frame={frame} />
+      <canvas
+        ref={canvas}
+        width={width}
+        height={Math.round(width * aspect)}
+        role="img"
+        aria-label={`fracture of ${film.design} at strain ${percentOf(shown.strain)}`}
+        data-frame={frame}
+      />
       <div class="controls">
-        <button type="button" onClick={() => { if (!playing && frame >= last) setFrame(0); setPlaying(!playing); }} aria-label={playing ? "pause the film" : "play the film"}>{playing ? "❚❚" : "▶"}</button>
-        <input type="range" min={0} max={last} value={frame} aria-label="moment of the film" onInput={(event) => { setPlaying(false); setFrame(Number(event.currentTarget.value)); }} />
-        <output>{percentOf(shown.strain)} · {mpa(shown.stress_pa)} MPa</output>
+        <button
+          type="button"
+          onClick={() => {
+            if (!playing && frame >= last) setFrame(0);
+            setPlaying(!playing);
+          }}
+          aria-label={playing ? "pause the film" : "play the film"}
+        >
+          {playing ? "❚❚" : "▶"}
+        </button>
+        <input
+          type="range"
+          min={0}
+          max={last}
+          value={frame}
+          aria-label="moment of the film"
+          onInput={(event) => {
+            setPlaying(false);
+            setFrame(Number(event.currentTarget.value));
+          }}
+        />
+        <output>
+          {percentOf(shown.strain)} · {mpa(shown.stress_pa)} MPa
+        </output>
       </div>
       <div class="tools">
-        {film.path && <label class="check"><input type="checkbox" checked={withPath} onChange={(event) => setWithPath(event.currentTarget.checked)} /> crack path</label>}
+        {film.path && (
+          <label class="check">
+            <input type="checkbox" checked={withPath} onChange={(event) => setWithPath(event.currentTarget.checked)} />{" "}
+            crack path
+          </label>
+        )}
         <span class="spring" />
-        <button type="button" class="quiet" aria-label="picture of the film as PNG" onClick={() => saveCanvas(`${film.design}-${frame}`, canvas.current!)}>PNG</button>
+        <button
+          type="button"
+          class="quiet"
+          aria-label="picture of the film as PNG"
+          onClick={() => saveCanvas(`${film.design}-${frame}`, canvas.current!)}
+        >
+          PNG
+        </button>
       </div>
     </div>
   );

@@ -13,7 +13,9 @@ import { Table } from "./parts";
 /** Gamuts of the rounds asked for, loaded again when they have grown. */
 function useGamuts(rounds: Rounds, wanted: Set<number>): Map<number, Gamut> {
   const [gamuts, setGamuts] = useState(new Map<number, Gamut>());
-  const needed = rounds.rounds.filter((r) => wanted.has(r.round) && r.gamut_count > 0 && gamuts.get(r.round)?.patterns.length !== r.gamut_count).map((r) => r.round);
+  const needed = rounds.rounds
+    .filter((r) => wanted.has(r.round) && r.gamut_count > 0 && gamuts.get(r.round)?.patterns.length !== r.gamut_count)
+    .map((r) => r.round);
   useEffect(() => {
     let dropped = false;
     for (const round of needed) {
@@ -37,36 +39,103 @@ interface Trend {
   error?: (round: Rounds["rounds"][number]) => number;
 }
 
-function TrendChart({ title, name, unit, rounds, trends, logarithmic }: { title: string; name: string; unit: string; rounds: Rounds; trends: Trend[]; logarithmic?: boolean }) {
+function TrendChart({
+  title,
+  name,
+  unit,
+  rounds,
+  trends,
+  logarithmic,
+}: {
+  title: string;
+  name: string;
+  unit: string;
+  rounds: Rounds;
+  trends: Trend[];
+  logarithmic?: boolean;
+}) {
   const closed = rounds.rounds.filter((r) => r.summary);
-  const option = useMemo<Option>(() => ({
-    ...basis({ grid: { left: 52, right: 14, top: 12, bottom: 40 } }),
-    xAxis: axis("round", { min: 0, max: Math.max(1, closed.length - 1), minInterval: 1, nameGap: 24 }),
-    // Errors of the first rounds are many times those of the last.
-    yAxis: axis(unit, { ...(logarithmic ? { type: "log", logBase: 10 } : { min: 0 }), nameGap: 38, axisLabel: { color: themeColour("quiet"), fontSize: 11, formatter: (v: number) => figure(logarithmic ? 100 * v : v) } }),
-    series: trends.flatMap((trend) => {
-      const points = closed.map((r) => [r.round, trend.value(r)]).filter(([, v]) => v !== null && v !== undefined && (!logarithmic || v > 0));
-      const bars = trend.error ? closed.filter((r) => trend.value(r)).map((r) => [[r.round, trend.value(r)! - trend.error!(r)], [r.round, trend.value(r)! + trend.error!(r)]]) : [];
-      return [
-        { type: "line", name: trend.name, data: points, symbol: "circle", symbolSize: 7, itemStyle: { color: trend.colour }, lineStyle: { color: trend.colour, width: 2, type: trend.dashed ? "dashed" : "solid" } },
-        ...bars.map((ends) => ({ type: "line", data: ends, symbol: "none", silent: true, lineStyle: { color: trend.colour, width: 1.2, opacity: 0.7 } })),
-      ];
+  const option = useMemo<Option>(
+    () => ({
+      ...basis({ grid: { left: 52, right: 14, top: 12, bottom: 40 } }),
+      xAxis: axis("round", { min: 0, max: Math.max(1, closed.length - 1), minInterval: 1, nameGap: 24 }),
+      // Errors of the first rounds are many times those of the last.
+      yAxis: axis(unit, {
+        ...(logarithmic ? { type: "log", logBase: 10 } : { min: 0 }),
+        nameGap: 38,
+        axisLabel: {
+          color: themeColour("quiet"),
+          fontSize: 11,
+          formatter: (v: number) => figure(logarithmic ? 100 * v : v),
+        },
+      }),
+      series: trends.flatMap((trend) => {
+        const points = closed
+          .map((r) => [r.round, trend.value(r)])
+          .filter(([, v]) => v !== null && v !== undefined && (!logarithmic || v > 0));
+        const bars = trend.error
+          ? closed
+              .filter((r) => trend.value(r))
+              .map((r) => [
+                [r.round, trend.value(r)! - trend.error!(r)],
+                [r.round, trend.value(r)! + trend.error!(r)],
+              ])
+          : [];
+        return [
+          {
+            type: "line",
+            name: trend.name,
+            data: points,
+            symbol: "circle",
+            symbolSize: 7,
+            itemStyle: { color: trend.colour },
+            lineStyle: { color: trend.colour, width: 2, type: trend.dashed ? "dashed" : "solid" },
+          },
+          ...bars.map((ends) => ({
+            type: "line",
+            data: ends,
+            symbol: "none",
+            silent: true,
+            lineStyle: { color: trend.colour, width: 1.2, opacity: 0.7 },
+          })),
+        ];
+      }),
     }),
-  }), [rounds, trends]);
+    [rounds, trends],
+  );
   return (
     <section class="panel trend">
       <h3>{title}</h3>
-      <ul class="keys">{trends.map((t) => <li key={t.name}><span class={t.dashed ? "line dashed" : "line"} style={{ color: t.colour }} />{t.name}</li>)}</ul>
-      {closed.length === 0 ? <p class="awaited">after the first round</p> : (
-        <ChartBox name={name} label={`${title} by round`} option={option} height={190}
-          table={() => ({ heading: ["round", ...trends.map((t) => t.name)], rows: closed.map((r) => [r.round, ...trends.map((t) => t.value(r) ?? "")]) })} />
+      <ul class="keys">
+        {trends.map((t) => (
+          <li key={t.name}>
+            <span class={t.dashed ? "line dashed" : "line"} style={{ color: t.colour }} />
+            {t.name}
+          </li>
+        ))}
+      </ul>
+      {closed.length === 0 ? (
+        <p class="awaited">after the first round</p>
+      ) : (
+        <ChartBox
+          name={name}
+          label={`${title} by round`}
+          option={option}
+          height={190}
+          table={() => ({
+            heading: ["round", ...trends.map((t) => t.name)],
+            rows: closed.map((r) => [r.round, ...trends.map((t) => t.value(r) ?? "")]),
+          })}
+        />
       )}
     </section>
   );
 }
 
-const someE = (e: { modulus_count: number; modulus_mean: number } | null) => (e && e.modulus_count > 0 ? e.modulus_mean : null);
-const someT = (e: { toughness_count: number; toughness_mean: number } | null) => (e && e.toughness_count > 0 ? e.toughness_mean : null);
+const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
+  e && e.modulus_count > 0 ? e.modulus_mean : null;
+const someT = (e: { toughness_count: number; toughness_mean: number } | null) =>
+  e && e.toughness_count > 0 ? e.toughness_mean : null;
 
 function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
   const trends = useMemo(() => {
@@ -74,13 +143,23 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
     return {
       hypervolume: [
         { name: "gamut", colour: sim, value: (r) => r.summary!.gamut_hypervolume },
-        { name: "measured", colour: meas, value: (r) => r.summary!.measured_hypervolume, error: (r) => r.summary!.hypervolume_error },
+        {
+          name: "measured",
+          colour: meas,
+          value: (r) => r.summary!.measured_hypervolume,
+          error: (r) => r.summary!.hypervolume_error,
+        },
       ] as Trend[],
       gap: [{ name: "gap", colour: homo, value: (r) => r.summary!.gap }] as Trend[],
       errors: [
         { name: "E, held out", colour: sim, value: (r) => someE(r.summary!.held_out) },
         { name: "T, held out", colour: meas, value: (r) => someT(r.summary!.held_out) },
-        { name: "T, after calibration", colour: meas, dashed: true, value: (r) => (r.round > 0 ? someT(r.summary!.after) : null) },
+        {
+          name: "T, after calibration",
+          colour: meas,
+          dashed: true,
+          value: (r) => (r.round > 0 ? someT(r.summary!.after) : null),
+        },
       ] as Trend[],
     };
   }, [theme]);
@@ -88,13 +167,32 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
     <div class="trends">
       <TrendChart title="Hypervolume" name="hypervolume" unit="GPa·MPa" rounds={rounds} trends={trends.hypervolume} />
       <TrendChart title="Gap to the laboratory" name="gap" unit="GPa·MPa" rounds={rounds} trends={trends.gap} />
-      <TrendChart title="Mean relative errors" name="errors" unit="%" rounds={rounds} trends={trends.errors} logarithmic />
+      <TrendChart
+        title="Mean relative errors"
+        name="errors"
+        unit="%"
+        rounds={rounds}
+        trends={trends.errors}
+        logarithmic
+      />
     </div>
   );
 }
 
 /** Rounds and layers that are shown, as toggles; the rounds carry their colour. */
-function Toggles({ rounds, shown, setShown, layers, setLayers }: { rounds: Rounds; shown: Set<number>; setShown: (s: Set<number>) => void; layers: Layers; setLayers: (l: Layers) => void }) {
+function Toggles({
+  rounds,
+  shown,
+  setShown,
+  layers,
+  setLayers,
+}: {
+  rounds: Rounds;
+  shown: Set<number>;
+  setShown: (s: Set<number>) => void;
+  layers: Layers;
+  setLayers: (l: Layers) => void;
+}) {
   const newest = Math.max(0, ...rounds.rounds.map((r) => r.round));
   const flip = (round: number) => {
     const next = new Set(shown);
@@ -115,8 +213,18 @@ function Toggles({ rounds, shown, setShown, layers, setLayers }: { rounds: Round
       <fieldset>
         <legend>show</legend>
         {(Object.keys(layers) as (keyof Layers)[]).map((layer) => (
-          <label key={layer} class="toggle" style={{ "--c": `var(--${layer === "measured" ? "meas" : layer === "mixtures" ? "homo" : "sim"})` } as never}>
-            <input type="checkbox" checked={layers[layer]} onChange={() => setLayers({ ...layers, [layer]: !layers[layer] })} />
+          <label
+            key={layer}
+            class="toggle"
+            style={
+              { "--c": `var(--${layer === "measured" ? "meas" : layer === "mixtures" ? "homo" : "sim"})` } as never
+            }
+          >
+            <input
+              type="checkbox"
+              checked={layers[layer]}
+              onChange={() => setLayers({ ...layers, [layer]: !layers[layer] })}
+            />
             <span>{layer}</span>
           </label>
         ))}
@@ -129,29 +237,78 @@ export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark
   const newest = rounds.rounds.length > 0 ? rounds.rounds[rounds.rounds.length - 1].round : 0;
   const [picked, setPicked] = useState<Set<number> | null>(null);
   // Until somebody picks, the newest gamut: the rounds before it would hide it.
-  const shown = useMemo(() => picked ?? new Set(rounds.rounds.filter((r) => r.gamut_count > 0).slice(-1).map((r) => r.round)), [picked, rounds]);
-  const [layers, setLayers] = useState<Layers>({ cloud: true, fronts: true, proposals: true, measured: true, mixtures: true });
+  const shown = useMemo(
+    () =>
+      picked ??
+      new Set(
+        rounds.rounds
+          .filter((r) => r.gamut_count > 0)
+          .slice(-1)
+          .map((r) => r.round),
+      ),
+    [picked, rounds],
+  );
+  const [layers, setLayers] = useState<Layers>({
+    cloud: true,
+    fronts: true,
+    proposals: true,
+    measured: true,
+    mixtures: true,
+  });
   const [chosen, setChosen] = useState<Chosen | null>(null);
   const gamuts = useGamuts(rounds, shown);
   const visible = [...shown].map((round) => gamuts.get(round)).filter((g): g is Gamut => g !== undefined);
-  if (rounds.rounds.length === 0) return <p class="awaited wait">Nothing has been said in this run yet. The first model, gamut and proposals appear here by themselves.</p>;
+  if (rounds.rounds.length === 0)
+    return (
+      <p class="awaited wait">
+        Nothing has been said in this run yet. The first model, gamut and proposals appear here by themselves.
+      </p>
+    );
   return (
     <>
       <div class="split">
         <div class="stack">
-        <section class="panel gamut">
-          <div class="panel-head">
-            <h2>Gamut</h2>
-            <Toggles rounds={rounds} shown={shown} setShown={setPicked} layers={layers} setLayers={setLayers} />
-          </div>
-          <GamutChart rounds={rounds} gamuts={visible} layers={layers} chosen={chosen} choose={setChosen} theme={theme} />
-        </section>
-        <Trends rounds={rounds} theme={theme} />
+          <section class="panel gamut">
+            <div class="panel-head">
+              <h2>Gamut</h2>
+              <Toggles rounds={rounds} shown={shown} setShown={setPicked} layers={layers} setLayers={setLayers} />
+            </div>
+            <GamutChart
+              rounds={rounds}
+              gamuts={visible}
+              layers={layers}
+              chosen={chosen}
+              choose={setChosen}
+              theme={theme}
+            />
+          </section>
+          <Trends rounds={rounds} theme={theme} />
         </div>
-        <DesignPanel chosen={chosen} newestModel={newestModel(rounds)} choose={setChosen} proposals={rounds.rounds.find((r) => r.round === newest)?.proposals ?? []} rounds={rounds} />
+        <DesignPanel
+          chosen={chosen}
+          newestModel={newestModel(rounds)}
+          choose={setChosen}
+          proposals={rounds.rounds.find((r) => r.round === newest)?.proposals ?? []}
+          rounds={rounds}
+        />
       </div>
-      <section class="panel"><RoundTable rounds={rounds} /></section>
-      <section class="panel"><MeasuredTable measured={rounds.measured} choose={(m) => setChosen({ design: m.design, model: newestModel(rounds), modulus: m.modulus_pa, toughness: m.toughness_pa, of: `measured in round ${m.round}` })} /></section>
+      <section class="panel">
+        <RoundTable rounds={rounds} />
+      </section>
+      <section class="panel">
+        <MeasuredTable
+          measured={rounds.measured}
+          choose={(m) =>
+            setChosen({
+              design: m.design,
+              model: newestModel(rounds),
+              modulus: m.modulus_pa,
+              toughness: m.toughness_pa,
+              of: `measured in round ${m.round}`,
+            })
+          }
+        />
+      </section>
     </>
   );
 }
@@ -164,33 +321,93 @@ export function newestModel(rounds: Rounds): number {
 function RoundTable({ rounds }: { rounds: Rounds }) {
   const closed = rounds.rounds.filter((r) => r.summary);
   return (
-    <Table name="rounds" caption="Rounds" rows={closed} rowKey={(r) => String(r.round)} empty="No round is closed yet."
+    <Table
+      name="rounds"
+      caption="Rounds"
+      rows={closed}
+      rowKey={(r) => String(r.round)}
+      empty="No round is closed yet."
       columns={[
         { heading: "round", show: (r) => r.round, value: (r) => r.round },
-        { heading: "gamut hv", show: (r) => figure(r.summary!.gamut_hypervolume), value: (r) => r.summary!.gamut_hypervolume },
-        { heading: "measured hv", show: (r) => `${figure(r.summary!.measured_hypervolume)} ± ${figure(r.summary!.hypervolume_error, 2)}`, value: (r) => r.summary!.measured_hypervolume },
+        {
+          heading: "gamut hv",
+          show: (r) => figure(r.summary!.gamut_hypervolume),
+          value: (r) => r.summary!.gamut_hypervolume,
+        },
+        {
+          heading: "measured hv",
+          show: (r) => `${figure(r.summary!.measured_hypervolume)} ± ${figure(r.summary!.hypervolume_error, 2)}`,
+          value: (r) => r.summary!.measured_hypervolume,
+        },
         { heading: "gap", show: (r) => figure(r.summary!.gap), value: (r) => r.summary!.gap },
-        { heading: "E held out", show: (r) => percent(someE(r.summary!.held_out)), value: (r) => someE(r.summary!.held_out) },
-        { heading: "T held out", show: (r) => percent(someT(r.summary!.held_out)), value: (r) => someT(r.summary!.held_out) },
-        { heading: "T rank", show: (r) => (someT(r.summary!.held_out) === null ? "–" : figure(r.summary!.held_out!.toughness_spearman, 2)), value: (r) => r.summary!.held_out?.toughness_spearman ?? "" },
+        {
+          heading: "E held out",
+          show: (r) => percent(someE(r.summary!.held_out)),
+          value: (r) => someE(r.summary!.held_out),
+        },
+        {
+          heading: "T held out",
+          show: (r) => percent(someT(r.summary!.held_out)),
+          value: (r) => someT(r.summary!.held_out),
+        },
+        {
+          heading: "T rank",
+          show: (r) => (someT(r.summary!.held_out) === null ? "–" : figure(r.summary!.held_out!.toughness_spearman, 2)),
+          value: (r) => r.summary!.held_out?.toughness_spearman ?? "",
+        },
         { heading: "E after", show: (r) => percent(someE(r.summary!.after)), value: (r) => someE(r.summary!.after) },
         { heading: "T after", show: (r) => percent(someT(r.summary!.after)), value: (r) => someT(r.summary!.after) },
         { heading: "decided by", words: true, show: (r) => r.summary!.decided_by, value: (r) => r.summary!.decided_by },
-      ]} />
+      ]}
+    />
   );
 }
 
 function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m: Measured) => void }) {
   const sorted = [...measured].sort((a, b) => b.toughness_pa - a.toughness_pa);
   return (
-    <Table name="measured" caption="Measured patterns" rows={sorted} rowKey={(m) => m.design} empty="No pattern has been measured in both tests yet."
+    <Table
+      name="measured"
+      caption="Measured patterns"
+      rows={sorted}
+      rowKey={(m) => m.design}
+      empty="No pattern has been measured in both tests yet."
       columns={[
-        { heading: "design", words: true, show: (m) => <button type="button" class="link" onClick={() => { choose(m); window.scrollTo({ top: 0, behavior: "smooth" }); }}><code class="key">{m.design}</code></button>, value: (m) => m.design },
+        {
+          heading: "design",
+          words: true,
+          show: (m) => (
+            <button
+              type="button"
+              class="link"
+              onClick={() => {
+                choose(m);
+                window.scrollTo({ top: 0, behavior: "smooth" });
+              }}
+            >
+              <code class="key">{m.design}</code>
+            </button>
+          ),
+          value: (m) => m.design,
+        },
         { heading: "round", show: (m) => m.round, value: (m) => m.round },
         { heading: "rigid", show: (m) => percent(m.rigid_fraction, 0), value: (m) => m.rigid_fraction },
-        { heading: "E / GPa", show: (m) => `${figure(m.modulus_pa * 1e-9)} ± ${figure(m.modulus_sd_pa * 1e-9, 2)}`, value: (m) => m.modulus_pa },
-        { heading: "T / MPa", show: (m) => `${figure(m.toughness_pa * 1e-6)} ± ${figure(m.toughness_sd_pa * 1e-6, 2)}`, value: (m) => m.toughness_pa },
-        { heading: "specimens", show: (m) => `${m.modulus_count} + ${m.toughness_count}`, value: (m) => m.modulus_count + m.toughness_count },
-      ]} />
+        {
+          heading: "E / GPa",
+          show: (m) => `${figure(m.modulus_pa * 1e-9)} ± ${figure(m.modulus_sd_pa * 1e-9, 2)}`,
+          value: (m) => m.modulus_pa,
+        },
+        {
+          heading: "T / MPa",
+          show: (m) => `${figure(m.toughness_pa * 1e-6)} ± ${figure(m.toughness_sd_pa * 1e-6, 2)}`,
+          value: (m) => m.toughness_pa,
+        },
+        {
+          heading: "specimens",
+          show: (m) => `${m.modulus_count} + ${m.toughness_count}`,
+          value: (m) => m.modulus_count + m.toughness_count,
+        },
+      ]}
+    />
   );
 }

@@ -16,9 +16,13 @@ export interface Gamut {
 export async function loadGamut(round: number): Promise<Gamut> {
   const buffer = await getBytes("/api/gamut", { round });
   const view = new DataView(buffer);
-  if (new TextDecoder().decode(buffer.slice(0, 8)) !== "NACREGMT" || view.getUint32(8, true) !== 1) throw new Error("the gamut has another format");
+  if (new TextDecoder().decode(buffer.slice(0, 8)) !== "NACREGMT" || view.getUint32(8, true) !== 1)
+    throw new Error("the gamut has another format");
   const length = view.getUint32(12, true);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 16, length))) as { count: number; front: number[] };
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 16, length))) as {
+    count: number;
+    front: number[];
+  };
   const begin = 16 + length;
   const modulus = new Float32Array(buffer, begin + 8 * header.count, header.count);
   const toughness = new Float32Array(buffer, begin + 12 * header.count, header.count);

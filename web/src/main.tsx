@@ -12,7 +12,13 @@ import { Nodes, NodeStrip } from "./nodes";
 import { useRepeated, useStored } from "./parts";
 import "./page.css";
 
-const VIEWS = { game: "Game", laboratory: "Laboratory", diagnosis: "Diagnosis", explorer: "Explorer", nodes: "Nodes" } as const;
+const VIEWS = {
+  game: "Game",
+  laboratory: "Laboratory",
+  diagnosis: "Diagnosis",
+  explorer: "Explorer",
+  nodes: "Nodes",
+} as const;
 type View = keyof typeof VIEWS;
 const LIVE_MS = 1000;
 
@@ -50,8 +56,13 @@ function standing(info: RunInfo, rounds: Rounds, live: Live | null, lost: string
   const closed = rounds.rounds.filter((r) => r.summary);
   const last = closed.at(-1);
   if (lost) return { text: lost, kind: "bad" };
-  if (last?.summary!.last) return { text: `finished after round ${last.round}${last.summary!.equilibrium ? ", in equilibrium" : ""}`, kind: "done" };
-  if (live?.playing) return { text: last ? `playing, round ${last.round} of ${info.rounds} is closed` : "playing", kind: "playing" };
+  if (last?.summary!.last)
+    return {
+      text: `finished after round ${last.round}${last.summary!.equilibrium ? ", in equilibrium" : ""}`,
+      kind: "done",
+    };
+  if (live?.playing)
+    return { text: last ? `playing, round ${last.round} of ${info.rounds} is closed` : "playing", kind: "playing" };
   return { text: last ? `at rest after round ${last.round}` : "at rest", kind: "rest" };
 }
 
@@ -86,19 +97,46 @@ function Page() {
   const playing = live?.playing ?? false;
   return (
     <ThemeContext.Provider value={theme}>
-      <a class="skip" href="#main" onClick={(e) => { e.preventDefault(); document.getElementById("main")!.focus(); }}>to the content</a>
+      <a
+        class="skip"
+        href="#main"
+        onClick={(e) => {
+          e.preventDefault();
+          document.getElementById("main")!.focus();
+        }}
+      >
+        to the content
+      </a>
       <header>
         <div class="title">
           <p class="eyebrow">nacre</p>
           <h1>{info.run}</h1>
-          <p class={`standing ${kind}`} role="status"><span class="dot" aria-hidden="true" />{text}</p>
+          <p class={`standing ${kind}`} role="status">
+            <span class="dot" aria-hidden="true" />
+            {text}
+          </p>
         </div>
         <nav aria-label="views">
-          {(Object.keys(VIEWS) as View[]).map((each) => <a key={each} href={`#${each}`} aria-current={each === view ? "page" : undefined}>{VIEWS[each]}</a>)}
+          {(Object.keys(VIEWS) as View[]).map((each) => (
+            <a key={each} href={`#${each}`} aria-current={each === view ? "page" : undefined}>
+              {VIEWS[each]}
+            </a>
+          ))}
         </nav>
         <div class="aside">
-          {info.report && <a href="/report" target="_blank" rel="noopener">report</a>}
-          <button type="button" class="quiet" onClick={flipTheme} aria-label={theme === "dark" ? "light colours" : "dark colours"}>{theme === "dark" ? "light" : "dark"}</button>
+          {info.report && (
+            <a href="/report" target="_blank" rel="noopener">
+              report
+            </a>
+          )}
+          <button
+            type="button"
+            class="quiet"
+            onClick={flipTheme}
+            aria-label={theme === "dark" ? "light colours" : "dark colours"}
+          >
+            {theme === "dark" ? "light" : "dark"}
+          </button>
         </div>
       </header>
       {live && live.nodes.length > 0 && view !== "nodes" && <NodeStrip live={live} />}
@@ -109,7 +147,10 @@ function Page() {
         {view === "explorer" && <Explorer rounds={rounds} theme={theme} />}
         {view === "nodes" && live && <Nodes live={live} />}
       </main>
-      <footer class="quiet">{info.scenario}, {info.fidelity} specimens · begun {info.started.replace("T", " ").replace("Z", " UTC")} · nacre {info.nacre_version}</footer>
+      <footer class="quiet">
+        {info.scenario}, {info.fidelity} specimens · begun {info.started.replace("T", " ").replace("Z", " UTC")} · nacre{" "}
+        {info.nacre_version}
+      </footer>
     </ThemeContext.Provider>
   );
 }

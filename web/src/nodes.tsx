@@ -4,14 +4,26 @@ import type { Live, NodeState } from "./api";
 import { bytes, duration, words } from "./numbers";
 import { Bar, Table } from "./parts";
 
-const SHORT: Record<string, string> = { virtual_lab: "laboratory", simulator_farm: "farm", proposal_agent: "proposal", validation_agent: "validation", analyser: "analyser" };
+const SHORT: Record<string, string> = {
+  virtual_lab: "laboratory",
+  simulator_farm: "farm",
+  proposal_agent: "proposal",
+  validation_agent: "validation",
+  analyser: "analyser",
+};
 
 export function NodeStrip({ live }: { live: Live }) {
   return (
     <ul class="nodes" aria-label="nodes">
       {live.nodes.map((n) => (
         <li key={n.node} class={n.state} title={n.last_problem || n.work || undefined}>
-          <div><span class={`dot ${n.last_problem ? "problem" : n.state}`} aria-hidden="true" /><strong>{SHORT[n.node] ?? words(n.node)}</strong><span class="quiet">{n.state === "running" ? (n.eta_s !== null && n.eta_s > 0 ? `${duration(n.eta_s)} left` : "") : n.state}</span></div>
+          <div>
+            <span class={`dot ${n.last_problem ? "problem" : n.state}`} aria-hidden="true" />
+            <strong>{SHORT[n.node] ?? words(n.node)}</strong>
+            <span class="quiet">
+              {n.state === "running" ? (n.eta_s !== null && n.eta_s > 0 ? `${duration(n.eta_s)} left` : "") : n.state}
+            </span>
+          </div>
           <p class="phase">{n.phase || " "}</p>
           <Bar share={n.state === "finished" ? 1 : n.progress} label={`progress of ${words(n.node)}`} />
         </li>
@@ -21,22 +33,63 @@ export function NodeStrip({ live }: { live: Live }) {
 }
 
 export function Nodes({ live }: { live: Live }) {
-  const count = (heading: string, name: keyof NodeState) => ({ heading, show: (n: NodeState) => Number(n[name]).toLocaleString("en"), value: (n: NodeState) => n[name] });
+  const count = (heading: string, name: keyof NodeState) => ({
+    heading,
+    show: (n: NodeState) => Number(n[name]).toLocaleString("en"),
+    value: (n: NodeState) => n[name],
+  });
   return (
     <section class="panel">
-      <Table name="nodes" caption="Nodes" rows={live.nodes} rowKey={(n) => n.node} empty="No node speaks: this run does not play."
+      <Table
+        name="nodes"
+        caption="Nodes"
+        rows={live.nodes}
+        rowKey={(n) => n.node}
+        empty="No node speaks: this run does not play."
         columns={[
           { heading: "node", words: true, show: (n) => words(n.node), value: (n) => n.node },
-          { heading: "state", words: true, show: (n) => <span class={`chip ${n.state === "silent" ? "rejected" : n.state === "finished" ? "approved" : ""}`}>{n.state}</span>, value: (n) => n.state },
+          {
+            heading: "state",
+            words: true,
+            show: (n) => (
+              <span class={`chip ${n.state === "silent" ? "rejected" : n.state === "finished" ? "approved" : ""}`}>
+                {n.state}
+              </span>
+            ),
+            value: (n) => n.state,
+          },
           { heading: "round", show: (n) => n.round, value: (n) => n.round },
           { heading: "phase", words: true, show: (n) => n.phase, value: (n) => n.phase },
-          { heading: "progress", show: (n) => (n.progress === null ? "–" : `${Math.round(100 * n.progress)} %`), value: (n) => n.progress },
+          {
+            heading: "progress",
+            show: (n) => (n.progress === null ? "–" : `${Math.round(100 * n.progress)} %`),
+            value: (n) => n.progress,
+          },
           { heading: "time left", show: (n) => (n.eta_s === null ? "–" : duration(n.eta_s)), value: (n) => n.eta_s },
-          count("received", "received"), count("published", "published"), count("sent again", "retries"), count("repeated", "duplicates"), count("rejected", "rejected"),
-          count("lost", "lost"), count("dropped by the system", "dropped"), count("waiting for ACK", "unacknowledged"), count("to read", "queued"), count("to acknowledge", "owed"), count("computing", "computing"),
+          count("received", "received"),
+          count("published", "published"),
+          count("sent again", "retries"),
+          count("repeated", "duplicates"),
+          count("rejected", "rejected"),
+          count("lost", "lost"),
+          count("dropped by the system", "dropped"),
+          count("waiting for ACK", "unacknowledged"),
+          count("to read", "queued"),
+          count("to acknowledge", "owed"),
+          count("computing", "computing"),
           { heading: "journal", show: (n) => bytes(n.journal_bytes), value: (n) => n.journal_bytes },
-          { heading: "work, last problem", words: true, show: (n) => <>{n.work} {n.last_problem && <strong class="bad">{n.last_problem}</strong>}</>, value: (n) => n.last_problem },
-        ]} />
+          {
+            heading: "work, last problem",
+            words: true,
+            show: (n) => (
+              <>
+                {n.work} {n.last_problem && <strong class="bad">{n.last_problem}</strong>}
+              </>
+            ),
+            value: (n) => n.last_problem,
+          },
+        ]}
+      />
     </section>
   );
 }

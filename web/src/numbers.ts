@@ -8,14 +8,18 @@ export function figure(value: number | null | undefined, digits = 3): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  return size >= 1e5 || size < 1e-4 ? value.toExponential(digits - 1).replace("e+", "e") : Number(value.toPrecision(digits)).toLocaleString("en", { maximumSignificantDigits: digits });
+  return size >= 1e5 || size < 1e-4
+    ? value.toExponential(digits - 1).replace("e+", "e")
+    : Number(value.toPrecision(digits)).toLocaleString("en", { maximumSignificantDigits: digits });
 }
 
 export const gpa = (pa: number | null | undefined) => figure(pa === null || pa === undefined ? pa : pa * GPA);
 export const mpa = (pa: number | null | undefined) => figure(pa === null || pa === undefined ? pa : pa * MPA);
 
 export function percent(share: number | null | undefined, digits = 1): string {
-  return share === null || share === undefined || !Number.isFinite(share) ? "–" : `${(100 * share).toFixed(Math.abs(share) >= 1 ? 0 : digits)} %`;
+  return share === null || share === undefined || !Number.isFinite(share)
+    ? "–"
+    : `${(100 * share).toFixed(Math.abs(share) >= 1 ? 0 : digits)} %`;
 }
 
 export function duration(seconds: number | null): string {

@@ -9,9 +9,22 @@ import { saveCsv, saveSvg } from "./save";
 export function Unit({ design, size, label = true }: { design: string; size: number; label?: boolean }) {
   const pixels = pixelsOf(design);
   return (
-    <svg class="unit" viewBox={`0 0 ${SIDE} ${SIDE}`} width={size} height={size} role={label ? "img" : undefined} aria-label={label ? `pattern ${design}` : undefined} aria-hidden={label ? undefined : "true"} shape-rendering="crispEdges">
+    <svg
+      class="unit"
+      viewBox={`0 0 ${SIDE} ${SIDE}`}
+      width={size}
+      height={size}
+      role={label ? "img" : undefined}
+      aria-label={label ? `pattern ${design}` : undefined}
+      aria-hidden={label ? undefined : "true"}
+      shape-rendering="crispEdges"
+    >
       <rect width={SIDE} height={SIDE} class="soft" />
-      {pixels ? <path d={rigidPath(pixels)} class="rigid" /> : <rect width={SIDE} height={SIDE} class="rigid" opacity={mixtureShare(design)} />}
+      {pixels ? (
+        <path d={rigidPath(pixels)} class="rigid" />
+      ) : (
+        <rect width={SIDE} height={SIDE} class="rigid" opacity={mixtureShare(design)} />
+      )}
     </svg>
   );
 }
@@ -23,7 +36,10 @@ function mixtureShare(design: string): number {
 export function saveUnit(design: string): void {
   const pixels = pixelsOf(design);
   if (!pixels) return;
-  saveSvg(design, `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="#e6dfd0"/><path d="${rigidPath(pixels)}" fill="#343a42"/></svg>\n`);
+  saveSvg(
+    design,
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="#e6dfd0"/><path d="${rigidPath(pixels)}" fill="#343a42"/></svg>\n`,
+  );
 }
 
 /** A design's name as people read it: keys in fixed width. */
@@ -40,7 +56,15 @@ export interface Column<Row> {
 }
 
 /** A table with its CSV. */
-export function Table<Row>({ name, caption, columns, rows, rowKey, empty, rowClass }: {
+export function Table<Row>({
+  name,
+  caption,
+  columns,
+  rows,
+  rowKey,
+  empty,
+  rowClass,
+}: {
   name: string;
   caption: string;
   columns: Column<Row>[];
@@ -55,14 +79,47 @@ export function Table<Row>({ name, caption, columns, rows, rowKey, empty, rowCla
       <div class="table-head">
         <h3>{caption}</h3>
         {rows.length > 0 && stored.length > 0 && (
-          <button type="button" class="quiet" aria-label={`${caption} as CSV`} onClick={() => saveCsv(name, stored.map((c) => c.heading), rows.map((row) => stored.map((c) => c.value!(row))))}>CSV</button>
+          <button
+            type="button"
+            class="quiet"
+            aria-label={`${caption} as CSV`}
+            onClick={() =>
+              saveCsv(
+                name,
+                stored.map((c) => c.heading),
+                rows.map((row) => stored.map((c) => c.value!(row))),
+              )
+            }
+          >
+            CSV
+          </button>
         )}
       </div>
-      {rows.length === 0 ? <p class="awaited">{empty}</p> : (
+      {rows.length === 0 ? (
+        <p class="awaited">{empty}</p>
+      ) : (
         <div class="wide" tabIndex={0} role="region" aria-label={caption}>
           <table>
-            <thead><tr>{columns.map((c) => <th key={c.heading} class={c.words ? "words" : ""} scope="col">{c.heading}</th>)}</tr></thead>
-            <tbody>{rows.map((row) => <tr key={rowKey(row)} class={rowClass?.(row)}>{columns.map((c) => <td key={c.heading} class={c.words ? "words" : ""}>{c.show(row)}</td>)}</tr>)}</tbody>
+            <thead>
+              <tr>
+                {columns.map((c) => (
+                  <th key={c.heading} class={c.words ? "words" : ""} scope="col">
+                    {c.heading}
+                  </th>
+                ))}
+              </tr>
+            </thead>
+            <tbody>
+              {rows.map((row) => (
+                <tr key={rowKey(row)} class={rowClass?.(row)}>
+                  {columns.map((c) => (
+                    <td key={c.heading} class={c.words ? "words" : ""}>
+                      {c.show(row)}
+                    </td>
+                  ))}
+                </tr>
+              ))}
+            </tbody>
           </table>
         </div>
       )}
@@ -73,7 +130,14 @@ export function Table<Row>({ name, caption, columns, rows, rowKey, empty, rowCla
 /** A share from 0 to 1; nothing known shows as a quiet bar. */
 export function Bar({ share, label }: { share: number | null; label: string }) {
   return (
-    <div class={`bar${share === null ? " unknown" : ""}`} role="progressbar" aria-label={label} aria-valuemin={0} aria-valuemax={100} aria-valuenow={share === null ? undefined : Math.round(100 * share)}>
+    <div
+      class={`bar${share === null ? " unknown" : ""}`}
+      role="progressbar"
+      aria-label={label}
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuenow={share === null ? undefined : Math.round(100 * share)}
+    >
       <span style={{ width: `${100 * (share ?? 0)}%` }} />
     </div>
   );
@@ -86,16 +150,23 @@ export interface Said {
 
 /** What came of something handed in; read out by screen readers. */
 export function Notice({ said }: { said: Said | null }) {
-  return <p class={`notice ${said?.kind ?? ""}`} role="status" aria-live="polite">{said?.text ?? ""}</p>;
+  return (
+    <p class={`notice ${said?.kind ?? ""}`} role="status" aria-live="polite">
+      {said?.text ?? ""}
+    </p>
+  );
 }
 
 /** State that lives in the browser's storage, for the name of the person and the theme. */
 export function useStored(key: string, initial: string): [string, (value: string) => void] {
   const [value, setValue] = useState(() => localStorage.getItem(`nacre.${key}`) ?? initial);
-  return [value, (next) => {
-    localStorage.setItem(`nacre.${key}`, next);
-    setValue(next);
-  }];
+  return [
+    value,
+    (next) => {
+      localStorage.setItem(`nacre.${key}`, next);
+      setValue(next);
+    },
+  ];
 }
 
 /** Calls `task` now and then every `ms` while the page is visible and `active`; never twice at a time. */

@@ -17,7 +17,8 @@ export function pixelsOf(design: string): Uint8Array | null {
   if (/^[0-9a-f]{14}$/.test(design)) {
     const bits = BigInt(`0x${design}`);
     for (let row = 0; row < SIDE; ++row)
-      for (let column = 0; column < SIDE; ++column) pixels[row * SIDE + column] = Number((bits >> BigInt(freeIndex(row, column))) & 1n);
+      for (let column = 0; column < SIDE; ++column)
+        pixels[row * SIDE + column] = Number((bits >> BigInt(freeIndex(row, column))) & 1n);
     return pixels;
   }
   if (/^L[0-9a-f]{100}$/.test(design)) {
@@ -31,7 +32,7 @@ export function pixelsOf(design: string): Uint8Array | null {
 export function rigidPath(pixels: Uint8Array): string {
   let path = "";
   for (let row = 0; row < SIDE; ++row)
-    for (let column = 0; column < SIDE; ) {
+    for (let column = 0; column < SIDE;) {
       let length = 0;
       while (column + length < SIDE && pixels[row * SIDE + column + length]) ++length;
       if (length > 0) path += `M${column} ${row}h${length}v1h-${length}z`;

@@ -18,7 +18,8 @@ export function csvOf(heading: string[], rows: unknown[][]): string {
   return [heading, ...rows].map((row) => row.map(cell).join(",")).join("\n") + "\n";
 }
 
-export const saveCsv = (name: string, heading: string[], rows: unknown[][]) => save(`${name}.csv`, csvOf(heading, rows), "text/csv");
+export const saveCsv = (name: string, heading: string[], rows: unknown[][]) =>
+  save(`${name}.csv`, csvOf(heading, rows), "text/csv");
 export const saveSvg = (name: string, svg: string) => save(`${name}.svg`, svg, "image/svg+xml");
 
 export function saveCanvas(name: string, canvas: HTMLCanvasElement): void {

@@ -38,7 +38,8 @@ class DashboardOfARun : public testing::Test {
   static wire::GamutChunk gamut_chunk(int chunk) {
     wire::GamutChunk gamut{.round = 7, .fidelity = tester::Fidelity::tiny, .chunk = chunk, .chunks = 3, .samples = {}};
     for (std::uint64_t i = 0; i < 10; ++i)
-      gamut.samples.push_back({pattern::Pattern(0x577fffe9fffdef ^ (1ull << (10 * static_cast<unsigned>(chunk) + i))), {1e9 + 1e7 * double(i), 5e5 - 1e3 * double(i * i)}});
+      gamut.samples.push_back({pattern::Pattern(0x577fffe9fffdef ^ (1ull << (10 * static_cast<unsigned>(chunk) + i))),
+                               {1e9 + 1e7 * double(i), 5e5 - 1e3 * double(i * i)}});
     return gamut;
   }
 
@@ -48,7 +49,9 @@ class DashboardOfARun : public testing::Test {
   Response post(const std::string& path, const std::string& body) {
     return dashboard_->handle({.method = "POST", .path = path, .query = {}, .headers = {}, .body = body});
   }
-  Json json(const std::string& path, std::map<std::string, std::string> query = {}) { return Json::parse(get(path, std::move(query)).body); }
+  Json json(const std::string& path, std::map<std::string, std::string> query = {}) {
+    return Json::parse(get(path, std::move(query)).body);
+  }
 
   Settings settings() const {
     Settings settings;
@@ -98,33 +101,42 @@ TEST_F(DashboardOfARun, WhatTheAnalyserWritesIsSeen) {
 }
 
 TEST_F(DashboardOfARun, NoFileOutsideThePageIsServed) {
-  for (const char* path : {"/secret.toml", "/../secret.toml", "/page/../secret.toml", "//secret.toml", "/index.html/../../secret.toml", "/run.db", "/%2e%2e/secret.toml"})
+  for (const char* path : {"/secret.toml", "/../secret.toml", "/page/../secret.toml", "//secret.toml",
+                           "/index.html/../../secret.toml", "/run.db", "/%2e%2e/secret.toml"})
     EXPECT_EQ(get(path).status, 404) << path;
   EXPECT_EQ(get("/").body, "<p>page</p>");
-  for (const char* id : {"../films", "a/../../secret", "family-1", "/", "family-1/577fffe9fffdef", ""}) EXPECT_EQ(get("/api/map", {{"id", id}}).status, 404) << id;
+  for (const char* id : {"../films", "a/../../secret", "family-1", "/", "family-1/577fffe9fffdef", ""})
+    EXPECT_EQ(get("/api/map", {{"id", id}}).status, 404) << id;
 }
 
 TEST_F(DashboardOfARun, NumbersAndNamesOutOfRangeAreRefused) {
-  for (const char* round : {"", "-1", "1e3", "x", "99999999999", "1 ", "0x1"}) EXPECT_EQ(get("/api/gamut", {{"round", round}}).status, 400) << round;
+  for (const char* round : {"", "-1", "1e3", "x", "99999999999", "1 ", "0x1"})
+    EXPECT_EQ(get("/api/gamut", {{"round", round}}).status, 400) << round;
   EXPECT_EQ(get("/api/gamut").status, 400);
-  for (const char* design : {"", "577fffe9fffde", "../x", "mix:2", "mix:nan"}) EXPECT_EQ(get("/api/design", {{"design", design}}).status, 400) << design;
-  for (const char* model : {"", "..", "a/b", "a b"}) EXPECT_EQ(get("/api/film", {{"design", "soft"}, {"model", model}}).status, 400) << model;
+  for (const char* design : {"", "577fffe9fffde", "../x", "mix:2", "mix:nan"})
+    EXPECT_EQ(get("/api/design", {{"design", design}}).status, 400) << design;
+  for (const char* model : {"", "..", "a/b", "a b"})
+    EXPECT_EQ(get("/api/film", {{"design", "soft"}, {"model", model}}).status, 400) << model;
   EXPECT_EQ(get("/api/between", {{"patterns", "577fffe9fffdef,577fffe9fffdef"}, {"weights", "0.5"}}).status, 400);
   EXPECT_EQ(get("/api/between", {{"patterns", "577fffe9fffdef"}, {"weights", "0"}}).status, 400);
   EXPECT_EQ(get("/api/between", {{"patterns", "577fffe9fffdef"}, {"weights", "-inf"}}).status, 400);
 }
 
 TEST_F(DashboardOfARun, BetweenAPatternAndItselfLiesThePattern) {
-  const Json found = json("/api/between", {{"patterns", "577fffe9fffdef,577fffe9fffdef,3ffc9b4ad4d2d9"}, {"weights", "0.3,0.7,0"}});
+  const Json found =
+      json("/api/between", {{"patterns", "577fffe9fffdef,577fffe9fffdef,3ffc9b4ad4d2d9"}, {"weights", "0.3,0.7,0"}});
   EXPECT_EQ(found["pattern"], "577fffe9fffdef");
 }
 
 TEST_F(DashboardOfARun, WhatIsHandedInReachesTheDesk) {
   EXPECT_EQ(post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})").status, 200);
   EXPECT_EQ(desk_.judgements.at(0).why, "slipped");
-  EXPECT_EQ(post("/api/approval", R"({"design":"577fffe9fffdef","round":0,"approved":true,"by":"Ada","why":""})").status, 200);
+  EXPECT_EQ(
+      post("/api/approval", R"({"design":"577fffe9fffdef","round":0,"approved":true,"by":"Ada","why":""})").status,
+      200);
   EXPECT_EQ(desk_.decisions.at(0).design, "577fffe9fffdef");
-  EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status, 200);
+  EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
+            200);
   EXPECT_EQ(desk_.specimens.at(0).modulus_pa, 1e6);
 }
 
@@ -134,7 +146,8 @@ TEST_F(DashboardOfARun, WhatTheGameDoesNotTakeIsSaid) {
   EXPECT_EQ(late.status, 504);
   EXPECT_THAT(late.body, HasSubstr("does the game play"));
   desk_.answer = Answer::conflicting;
-  EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status, 409);
+  EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
+            409);
   EXPECT_EQ(post("/api/measurement", "{").status, 400);
   EXPECT_EQ(desk_.specimens.size(), 1u);
 }
@@ -152,7 +165,8 @@ TEST_F(DashboardOfARun, AFilmThatIsNotThereIsMadeOnDemand) {
   EXPECT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"3"})").status, 409);  // no such model
   ASSERT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"0"})").status, 202);
   Json state;
-  for (int turn = 0; turn < 1200 && (state = json("/api/simulation", query))["state"] != "ready"; ++turn) ::usleep(50'000);
+  for (int turn = 0; turn < 1200 && (state = json("/api/simulation", query))["state"] != "ready"; ++turn)
+    ::usleep(50'000);
   ASSERT_EQ(state["state"], "ready") << state.dump();
   EXPECT_GT(state["modulus_pa"].get<double>(), 0.0);
   EXPECT_EQ(get("/api/film", query).body.substr(0, 8), "NACREFLM");
@@ -160,7 +174,8 @@ TEST_F(DashboardOfARun, AFilmThatIsNotThereIsMadeOnDemand) {
 
 TEST_F(DashboardOfARun, TheMapOfAGamutIsMadeOnDemand) {
   Json state;
-  for (int turn = 0; turn < 400 && (state = json("/api/map", {{"id", "gamut/7"}}))["state"] != "ready"; ++turn) ::usleep(50'000);
+  for (int turn = 0; turn < 400 && (state = json("/api/map", {{"id", "gamut/7"}}))["state"] != "ready"; ++turn)
+    ::usleep(50'000);
   ASSERT_EQ(state["state"], "ready") << state.dump();
   EXPECT_EQ(state["map"]["pattern"].size(), 30u);
   EXPECT_FALSE(state["map"]["triangles"].empty());

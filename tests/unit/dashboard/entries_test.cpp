@@ -8,14 +8,17 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kSpecimen = R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","batch":"b1","valid":true})";
+constexpr const char* kSpecimen =
+    R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","batch":"b1","valid":true})";
 
 std::string fault(const std::string& json) {
   const auto specimen = specimen_from_json(json);
   return specimen ? "none" : specimen.error().message;
 }
 
-std::string with(const std::string& member) { return R"({"specimen":"a","pattern":"soft","test":"modulus",)" + member + "}"; }
+std::string with(const std::string& member) {
+  return R"({"specimen":"a","pattern":"soft","test":"modulus",)" + member + "}";
+}
 
 TEST(Entries, ASpecimenIsARowOfAMeasurementSet) {
   const auto specimen = specimen_from_json(kSpecimen);
@@ -41,11 +44,13 @@ TEST(Entries, WhatIsWrongIsNamedWithItsColumn) {
   EXPECT_THAT(fault(with(R"("colour":"red")")), HasSubstr("colour: no such column"));
   EXPECT_THAT(fault(with(R"("curve":"/etc/passwd")")), HasSubstr("curve: no such column"));
   EXPECT_THAT(fault(with(R"("curve_csv":"strain,stress_pa\n0,0\n")")), HasSubstr("curve: "));
-  EXPECT_THAT(fault(R"({"specimen":"a","pattern":"../../etc/passwd","test":"modulus","modulus_pa":1})"), HasSubstr("pattern: "));
+  EXPECT_THAT(fault(R"({"specimen":"a","pattern":"../../etc/passwd","test":"modulus","modulus_pa":1})"),
+              HasSubstr("pattern: "));
 }
 
 TEST(Entries, WhatIsNoShallowObjectIsRefused) {
-  for (const char* json : {"", "[]", "1", "\"x\"", "{", "\xff\xfe", "nul"}) EXPECT_THAT(fault(json), HasSubstr("expected a JSON object")) << json;
+  for (const char* json : {"", "[]", "1", "\"x\"", "{", "\xff\xfe", "nul"})
+    EXPECT_THAT(fault(json), HasSubstr("expected a JSON object")) << json;
   EXPECT_NE(fault("{\"a\":" + std::string(100'000, '[') + std::string(100'000, ']') + "}"), "none");
 }
 
@@ -58,13 +63,15 @@ TEST(Entries, AJudgementNeedsAPersonAndAReason) {
 }
 
 TEST(Entries, ADecisionNamesADesignAndARound) {
-  const auto decision = decision_from_json(R"({"design":"577fffe9fffdef","round":2,"approved":false,"by":"Ada","why":""})");
+  const auto decision =
+      decision_from_json(R"({"design":"577fffe9fffdef","round":2,"approved":false,"by":"Ada","why":""})");
   ASSERT_TRUE(decision) << decision.error().message;
   EXPECT_EQ(decision->round, 2);
   EXPECT_EQ(decision_from_json(R"({"design":"mix:0.65","approved":true,"by":"Ada"})")->round, -1);
   EXPECT_FALSE(decision_from_json(R"({"design":"577fffe9fffdef","approved":false,"by":"Ada"})"));
   for (const char* round : {"-2", "1e3", "\"1\"", "18446744073709551615", "99999999999999999999999", "2000000"})
-    EXPECT_FALSE(decision_from_json(fmt::format(R"({{"design":"soft","round":{},"approved":true,"by":"Ada"}})", round))) << round;
+    EXPECT_FALSE(decision_from_json(fmt::format(R"({{"design":"soft","round":{},"approved":true,"by":"Ada"}})", round)))
+        << round;
   EXPECT_FALSE(decision_from_json(R"({"design":"nothing","approved":true,"by":"Ada"})"));
 }
 

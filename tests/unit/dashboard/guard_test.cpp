@@ -6,15 +6,23 @@ namespace nacre::dashboard {
 namespace {
 
 const AccessRules kOpen{.hosts = host_names("127.0.0.1", 8765), .token = "", .cookie_name = "nacre_8765"};
-const AccessRules kClosed{.hosts = host_names("0.0.0.0", 8765), .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
+const AccessRules kClosed{
+    .hosts = host_names("0.0.0.0", 8765), .token = "0123456789abcdef", .cookie_name = "nacre_8765"};
 
-Request reading(const std::string& host = "127.0.0.1:8765") { return {.method = "GET", .path = "/api/run", .query = {}, .headers = {{"host", host}}, .body = ""}; }
+Request reading(const std::string& host = "127.0.0.1:8765") {
+  return {.method = "GET", .path = "/api/run", .query = {}, .headers = {{"host", host}}, .body = ""};
+}
 
 Request writing() {
   return {.method = "POST",
           .path = "/api/review",
           .query = {},
-          .headers = {{"host", "localhost:8765"}, {"x-nacre", "1"}, {"content-type", "application/json"}, {"content-length", "2"}, {"origin", "http://localhost:8765"}, {"sec-fetch-site", "same-origin"}},
+          .headers = {{"host", "localhost:8765"},
+                      {"x-nacre", "1"},
+                      {"content-type", "application/json"},
+                      {"content-length", "2"},
+                      {"origin", "http://localhost:8765"},
+                      {"sec-fetch-site", "same-origin"}},
           .body = "{}"};
 }
 
@@ -29,12 +37,14 @@ Request with(Request request, const std::string& header, const std::string& valu
 }
 
 TEST(Guard, LetsThisMachineIn) {
-  for (const char* host : {"127.0.0.1:8765", "localhost:8765", "[::1]:8765"}) EXPECT_EQ(status(kOpen, reading(host)), 200) << host;
+  for (const char* host : {"127.0.0.1:8765", "localhost:8765", "[::1]:8765"})
+    EXPECT_EQ(status(kOpen, reading(host)), 200) << host;
   EXPECT_EQ(status(kOpen, writing()), 200);
 }
 
 TEST(Guard, RefusesNamesThatAreNotItsOwn) {
-  for (const char* host : {"evil.example:8765", "127.0.0.1:80", "localhost", "", "127.0.0.1.evil.example:8765", "10.0.0.7:8765"})
+  for (const char* host :
+       {"evil.example:8765", "127.0.0.1:80", "localhost", "", "127.0.0.1.evil.example:8765", "10.0.0.7:8765"})
     EXPECT_EQ(status(kOpen, reading(host)), 421) << host;
   EXPECT_EQ(status(kClosed, with(reading("evil.example:8765"), "authorization", "Bearer 0123456789abcdef")), 421);
 }

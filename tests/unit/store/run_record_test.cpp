@@ -35,7 +35,8 @@ TEST_F(RunRecordOfAFile, OnlyAnswersAboutMeasuredDesignsAreWhatTheModelSaysOfThe
 }
 
 TEST_F(RunRecordOfAFile, AGamutIsReadWithItsPatternsOrLeftOut) {
-  wire::GamutChunk chunk{.round = 3, .samples = {{pattern::Pattern(0x577fffe9fffdef), {1e9, 1e5}}, {pattern::Pattern(1), {2e9, 5e4}}}};
+  wire::GamutChunk chunk{
+      .round = 3, .samples = {{pattern::Pattern(0x577fffe9fffdef), {1e9, 1e5}}, {pattern::Pattern(1), {2e9, 5e4}}}};
   database_.project("GAMUT", wire::write(chunk));
   EXPECT_EQ(read_run_record(file_).rounds[3].gamut.size(), 2u);
   EXPECT_TRUE(read_run_record(file_, false).rounds[3].gamut.empty());

@@ -1,0 +1,31 @@
+// Handing something in: what people decide and measure goes to the game and counts once it has been taken.
+
+import { useState } from "preact/hooks";
+import { post, Refusal } from "./api";
+import type { Said } from "./parts";
+
+type Answer = { answer: string };
+
+/** Hands something in and says what came of it. */
+export function useHandIn(
+  refresh: () => Promise<void>,
+): [Said | null, boolean, (path: string, body: unknown, done: string) => Promise<boolean>] {
+  const [said, setSaid] = useState<Said | null>(null);
+  const [busy, setBusy] = useState(false);
+  const handIn = async (path: string, body: unknown, done: string) => {
+    setBusy(true);
+    setSaid({ kind: "busy", text: "waiting for the validation agent …" });
+    try {
+      const { answer } = await post<Answer>(path, body);
+      setSaid({ kind: "good", text: answer === "repeated" ? "The run has this already." : done });
+      await refresh();
+      return true;
+    } catch (error) {
+      setSaid({ kind: "bad", text: error instanceof Refusal ? error.message : "the server does not answer" });
+      return false;
+    } finally {
+      setBusy(false);
+    }
+  };
+  return [said, busy, handIn];
+}

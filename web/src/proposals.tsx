@@ -1,0 +1,126 @@
+// The newest proposal, to be decided on, and designs of one's own.
+
+import { useState } from "preact/hooks";
+import type { Laboratory as Work } from "./api";
+import { useHandIn } from "./hand_in";
+import { gpa, mpa } from "./numbers";
+import { Name, Notice, Unit } from "./parts";
+
+export function Proposals({
+  work,
+  by,
+  refresh,
+  playing,
+  approval,
+}: {
+  work: Work;
+  by: string;
+  refresh: () => Promise<void>;
+  playing: boolean;
+  approval: boolean;
+}) {
+  const [why, setWhy] = useState("");
+  const [own, setOwn] = useState("");
+  const [said, busy, handIn] = useHandIn(refresh);
+  const stateOf = (design: string) => work.designs.find((d) => d.design === design);
+  const decide = (design: string, approved: boolean) =>
+    handIn(
+      "/api/approval",
+      { design, round: work.proposal!.round, approved, by, why },
+      `${design} ${approved ? "approved" : "rejected"}.`,
+    );
+  if (!work.proposal)
+    return (
+      <section class="panel">
+        <h2>Proposals</h2>
+        <p class="awaited">There is no proposal yet.</p>
+      </section>
+    );
+  return (
+    <section class="panel">
+      <h2>Proposal of round {work.proposal.round}</h2>
+      <p class="quiet">
+        {approval
+          ? "The game waits for a yes or no to each design."
+          : "This game does not wait for a person's yes; a no still keeps a design from being measured when it comes in time."}
+      </p>
+      <ul class="cards">
+        {work.proposal.designs.map((p) => {
+          const state = stateOf(p.design);
+          const open = state === undefined || state.state === "pending";
+          return (
+            <li key={p.design} class="card">
+              <Unit design={p.design} size={92} />
+              <div>
+                <Name design={p.design} />
+                <p>
+                  E {gpa(p.modulus_pa)} GPa · T {mpa(p.toughness_pa)} MPa
+                </p>
+                <p class="quiet">{p.reason}</p>
+                <p>
+                  <span class={`chip ${state?.state ?? "pending"}`}>{state?.state ?? "pending"}</span>{" "}
+                  {state?.by && (
+                    <span class="quiet">
+                      {state.by}
+                      {state.why && `: ${state.why}`}
+                    </span>
+                  )}
+                </p>
+                {open && playing && (
+                  <div class="buttons">
+                    <button type="button" disabled={busy || !by} onClick={() => decide(p.design, true)}>
+                      Approve
+                    </button>
+                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => decide(p.design, false)}>
+                      Reject
+                    </button>
+                  </div>
+                )}
+              </div>
+            </li>
+          );
+        })}
+      </ul>
+      {playing && (
+        <div class="row">
+          <label>
+            Why{" "}
+            <input
+              value={why}
+              maxLength={200}
+              onInput={(e) => setWhy(e.currentTarget.value)}
+              placeholder="kept with the decision"
+            />
+          </label>
+          <label>
+            A design of your own{" "}
+            <input
+              value={own}
+              maxLength={101}
+              spellcheck={false}
+              onInput={(e) => setOwn(e.currentTarget.value.trim())}
+              placeholder="key of 14 hex digits"
+            />
+          </label>
+          <button
+            type="button"
+            disabled={busy || !own || !by}
+            onClick={async () => {
+              if (
+                await handIn(
+                  "/api/approval",
+                  { design: own, round: -1, approved: true, by, why },
+                  `${own} will be measured.`,
+                )
+              )
+                setOwn("");
+            }}
+          >
+            Have it measured
+          </button>
+        </div>
+      )}
+      <Notice said={said} />
+    </section>
+  );
+}

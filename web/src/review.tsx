@@ -1,0 +1,154 @@
+// Every specimen, with what speaks against it and a person's word.
+
+import { useState } from "preact/hooks";
+import type { Laboratory as Work, LaboratorySpecimen } from "./api";
+import { useHandIn } from "./hand_in";
+import { gpa, mpa } from "./numbers";
+import { Name, Notice, Table, Unit } from "./parts";
+
+export function Specimens({
+  work,
+  by,
+  refresh,
+  playing,
+}: {
+  work: Work;
+  by: string;
+  refresh: () => Promise<void>;
+  playing: boolean;
+}) {
+  const [judged, setJudged] = useState<string | null>(null);
+  const [why, setWhy] = useState("");
+  const [find, setFind] = useState("");
+  const [said, busy, handIn] = useHandIn(refresh);
+  const doubts = new Map(work.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)));
+  const rows = work.specimens
+    .filter((s) => !find || `${s.specimen} ${s.design} ${s.test} ${s.batch}`.includes(find))
+    .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
+  const judge = async (s: LaboratorySpecimen) => {
+    if (
+      await handIn(
+        "/api/review",
+        { specimen: s.specimen, valid: !s.valid, by, why },
+        `${s.specimen} is ${s.valid ? "not valid" : "valid"} now.`,
+      )
+    ) {
+      setJudged(null);
+      setWhy("");
+    }
+  };
+  return (
+    <section class="panel">
+      <h2>Review</h2>
+      <div class="row">
+        <label>
+          Find{" "}
+          <input
+            type="search"
+            value={find}
+            onInput={(e) => setFind(e.currentTarget.value)}
+            placeholder="specimen, design, test or batch"
+          />
+        </label>
+      </div>
+      <Notice said={said} />
+      <Table
+        name="specimens"
+        caption={`Specimens (${work.specimens.length})`}
+        rows={rows}
+        rowKey={(s) => s.specimen}
+        empty="Nothing has been measured yet."
+        rowClass={(s) => (s.valid ? "" : "invalid")}
+        columns={[
+          { heading: "specimen", words: true, show: (s) => s.specimen, value: (s) => s.specimen },
+          {
+            heading: "design",
+            words: true,
+            show: (s) => (
+              <span class="with-unit">
+                <Unit design={s.design} size={22} label={false} />
+                <Name design={s.design} />
+              </span>
+            ),
+            value: (s) => s.design,
+          },
+          {
+            heading: "test",
+            words: true,
+            show: (s) => `${s.test}${s.orientation_deg ? ", turned" : ""}`,
+            value: (s) => s.test,
+          },
+          { heading: "E / GPa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
+          { heading: "T / MPa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
+          {
+            heading: "valid",
+            words: true,
+            show: (s) => (
+              <span class={`chip ${s.valid ? "approved" : "rejected"}`}>{s.valid ? "valid" : "not valid"}</span>
+            ),
+            value: (s) => s.valid,
+          },
+          {
+            heading: "remarks",
+            words: true,
+            show: (s) => (
+              <>
+                {doubts.get(s.specimen)?.map((r) => (
+                  <span key={r} class="doubt">
+                    {r}
+                  </span>
+                ))}{" "}
+                <span class="quiet">{s.note}</span>
+              </>
+            ),
+            value: (s) => s.note,
+          },
+          {
+            heading: "judge",
+            words: true,
+            show: (s) =>
+              !playing ? (
+                ""
+              ) : judged === s.specimen ? (
+                <form
+                  class="judge"
+                  onSubmit={(e) => {
+                    e.preventDefault();
+                    void judge(s);
+                  }}
+                >
+                  <input
+                    required
+                    autofocus
+                    aria-label={`why ${s.specimen} is ${s.valid ? "not valid" : "valid"}`}
+                    placeholder="why"
+                    value={why}
+                    maxLength={200}
+                    onInput={(e) => setWhy(e.currentTarget.value)}
+                  />
+                  <button type="submit" disabled={busy || !by}>
+                    {s.valid ? "not valid" : "valid"}
+                  </button>
+                  <button type="button" class="quiet" onClick={() => setJudged(null)}>
+                    cancel
+                  </button>
+                </form>
+              ) : (
+                <button
+                  type="button"
+                  class="quiet"
+                  onClick={() => {
+                    setJudged(s.specimen);
+                    setWhy(doubts.get(s.specimen)?.[0]?.slice(0, 200) ?? "");
+                  }}
+                  aria-label={`judge ${s.specimen}`}
+                >
+                  judge
+                </button>
+              ),
+          },
+        ]}
+      />
+    </section>
+  );
+}
