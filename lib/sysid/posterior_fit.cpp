@@ -25,7 +25,7 @@ constexpr int kIdleBatches = 4;  // in a row within the smallest radius without 
 /// Parameters that decide how a load is shared between the materials. Level and shape of all curves follow from the
 /// common scales of moduli and failure energies; what these leave has valleys longer than a trust region's way.
 constexpr std::array<std::size_t, 5> kSplits = {kE0, kE0 + 2, kW0, kW0 + 2, kGamma};
-constexpr std::size_t kSpread = 9;  // points spread over the splits before the search narrows
+constexpr int kMostSpread = 9;  // points spread over the splits before the search narrows
 
 /// Coordinates that are searched: Poisson's ratios are not.
 constexpr std::array<std::size_t, 7> kSearched = {kE0, kE0 + 1, kE0 + 2, kW0, kW0 + 1, kW0 + 2, kGamma};
@@ -111,7 +111,12 @@ class PosteriorFit final : public RecordedFit {
     return points;
   }
 
-  bool is_spreading() const { return trials_.size() < 1 + others_.size() + kSpread; }
+  /// In whole batches, and at most half of what the first batch leaves: the rest is needed to narrow down.
+  bool is_spreading() const {
+    const int first = 1 + static_cast<int>(others_.size()), batch = std::max(1, settings_.batch);
+    const int spread = std::min(kMostSpread, (settings_.budget - first) / 2) / batch * batch;
+    return static_cast<int>(trials_.size()) < first + spread;
+  }
 
   /// The next point of Sobol's sequence over the splits, moduli and failure energies scaled together to where the
   /// emulator expects the measured curves.
