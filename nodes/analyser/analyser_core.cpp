@@ -54,9 +54,7 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
       ask_for_films();
     }
   } else if (message.channel == "MEASUREMENT") {
-    const auto measured = wire::read<wire::Measurement>(message.payload);
-    measurements_.emplace(measured->record.specimen, message.payload);
-    diagnose_when_complete();
+    accept_measurement(message.payload);
   } else if (message.channel == "DIAGNOSE") {
     accept_question(*wire::read<wire::DiagnoseRequest>(message.payload));
   } else if (message.channel == "SIMULATED") {
@@ -117,30 +115,36 @@ void AnalyserCore::close_round(const wire::RoundSummary& round) {
   report_when_ready();
 }
 
-std::vector<pattern::Design> AnalyserCore::measured_designs() const {
-  std::set<std::string> names;
-  std::vector<pattern::Design> designs;
-  for (const auto& [specimen, payload] : measurements_) {
-    const auto measured = wire::read<wire::Measurement>(payload);
-    const bool upright = measured->record.conditions.orientation_deg == 0.0;
-    if (!measured->record.design.layout() || !upright) continue;
-    if (names.insert(measured->record.design.name()).second) designs.push_back(measured->record.design);
+void AnalyserCore::accept_measurement(const std::string& payload) {
+  const auto measured = wire::read<wire::Measurement>(payload);
+  measurements_.emplace(measured->record.specimen, payload);
+  const bool upright = measured->record.conditions.orientation_deg == 0.0;
+  if (measured->record.design.layout() && upright) {
+    // What nobody ordered belongs to the round that is played.
+    const int round = measured->round >= 0 ? measured->round : closed_.empty() ? 0 : round_ + 1;
+    const auto known = measured_designs_.try_emplace(measured->record.design.name(), measured->record.design, round);
+    known.first->second.round = std::min(known.first->second.round, round);
+    ask_about_measured_designs();
   }
-  return designs;
+  diagnose_when_complete();
 }
 
+/// The model of a closed round is asked about what was measured up to that round, whichever of the three comes last:
+/// what is simulated must not depend on the order of arrival.
 void AnalyserCore::ask_about_measured_designs() {
-  for (auto round = unasked_.begin(); round != unasked_.end();) {
-    const auto model = models_.find(*round);
-    if (model == models_.end()) {  // still on its way
-      ++round;
-      continue;
-    }
-    const std::vector<pattern::Design> designs = measured_designs();
+  for (const int round : closed_) {
+    const auto model = models_.find(round);
+    if (model == models_.end()) continue;  // still on its way
+    unasked_.erase(round);
+    std::set<std::string>& asked = asked_designs_[round];
+    const std::size_t asked_before = asked.size();
+    std::vector<pattern::Design> designs;
+    for (const auto& [name, measured] : measured_designs_)
+      if (measured.round <= round && asked.insert(name).second) designs.push_back(measured.design);
     for (std::size_t first = 0; first < designs.size(); first += wire::kMaximumDesigns) {
       const std::size_t end = std::min(designs.size(), first + wire::kMaximumDesigns);
       wire::SimulateRequest request;
-      request.request_id = fmt::format("analyser/r{}/measured/{}", *round, first);
+      request.request_id = fmt::format("analyser/r{}/measured/{}", round, asked_before + first);
       request.modulus = request.toughness = true;
       request.fidelity = scenario_.fidelity;
       request.parameters = game::material_side(model->second.parameters);
@@ -149,12 +153,12 @@ void AnalyserCore::ask_about_measured_designs() {
                              designs.begin() + static_cast<std::ptrdiff_t>(end));
       ask(request);
     }
-    round = unasked_.erase(round);
   }
 }
 
 void AnalyserCore::ask(const wire::SimulateRequest& request) {
   open_answers_[request.request_id].with_fractures = request.crack || request.film;
+  finished_ = false;
   outputs_.messages.push_back({"SIMULATE", wire::write(request)});
 }
 
@@ -240,8 +244,8 @@ runtime::Status AnalyserCore::status() const {
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
-  return std::make_unique<AnalyserCore>(
-      scenario, diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity));
+  return std::make_unique<AnalyserCore>(scenario,
+                                        diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity));
 }
 
 }  // namespace nacre::analyser

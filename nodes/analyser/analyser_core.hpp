@@ -37,7 +37,7 @@ class AnalyserCore : public runtime::NodeCore {
   void store(const std::string& channel, const std::string& payload);
   void diagnose_when_complete();
   void close_round(const wire::RoundSummary& round);
-  std::vector<pattern::Design> measured_designs() const;
+  void accept_measurement(const std::string& payload);
   void ask_about_measured_designs();
   void ask_for_films();
   void ask(const wire::SimulateRequest& request);
@@ -55,9 +55,16 @@ class AnalyserCore : public runtime::NodeCore {
   std::set<std::string> kept_;     // ids of "store" work ever asked for
   std::set<std::string> storing_;  // ids of "store" work in progress
   std::set<int> closed_;           // rounds
-  std::set<int> unasked_;          // closed rounds whose model has not been asked about the measured designs
-  std::set<int> proposed_;         // rounds
-  std::map<int, std::vector<pattern::Design>> unfilmed_;  // proposals whose films have not been asked for, by round
+  std::set<int> unasked_;          // closed rounds whose model has not come yet
+  /// A pattern and the first round that measured it.
+  struct MeasuredDesign {
+    pattern::Design design;
+    int round = 0;
+  };
+  std::map<std::string, MeasuredDesign> measured_designs_;  // by name
+  std::map<int, std::set<std::string>> asked_designs_;      // of the model of a round
+  std::set<int> proposed_;                                  // rounds
+  std::map<int, std::vector<pattern::Design>> unfilmed_;    // proposals whose films have not been asked for, by round
   /// What has come of the answer to a request.
   struct OpenAnswer {
     bool with_fractures = false;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,9 +56,9 @@ struct Watched {
   }
 };
 
-std::string measurement_of(const std::string& specimen, std::uint64_t bits) {
+std::string measurement_of(const std::string& specimen, std::uint64_t bits, int round = 1) {
   wire::Measurement m;
-  m.round = 1;
+  m.round = round;
   m.record.specimen = specimen;
   m.record.design = pattern::Pattern(bits);
   m.record.test = tester::TestKind::modulus;
@@ -280,6 +282,33 @@ TEST(Analyser, RoundBeforeItsModelWaitsForTheModel) {
   EXPECT_THAT(analyser.ids("report"), IsEmpty());
   analyser.hear("PARAMETERS", model_of(1));
   EXPECT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
+}
+
+TEST(Analyser, WhatItAsksOfAModelDoesNotDependOnTheOrderOfArrival) {
+  std::vector<Message> messages = {{"MEASUREMENT", measurement_of("a", 5, 1)},
+                                   {"MEASUREMENT", measurement_of("b", 6, 2)},
+                                   {"PARAMETERS", model_of(1)},
+                                   {"PARAMETERS", model_of(2)},
+                                   {"ROUND", round_of(1, false)},
+                                   {"ROUND", round_of(2, true)}};
+  const std::set<std::pair<std::string, std::string>> expected = {{"analyser/r1", pattern::Pattern(5).key()},
+                                                                  {"analyser/r2", pattern::Pattern(5).key()},
+                                                                  {"analyser/r2", pattern::Pattern(6).key()}};
+  const auto before = [](const Message& a, const Message& b) {
+    return std::tie(a.channel, a.payload) < std::tie(b.channel, b.payload);
+  };
+  std::sort(messages.begin(), messages.end(), before);
+  do {
+    Watched analyser;
+    for (const Message& message : messages) analyser.hear(message.channel, message.payload);
+    std::multiset<std::pair<std::string, std::string>> asked;
+    for (const Message& request : analyser.sent_on("SIMULATE")) {
+      const auto of = wire::read<wire::SimulateRequest>(request.payload).value();
+      for (const pattern::Design& design : of.designs)
+        asked.emplace(of.request_id.substr(0, std::string("analyser/r1").size()), design.name());
+    }
+    ASSERT_THAT(asked, testing::ElementsAreArray(expected));
+  } while (std::next_permutation(messages.begin(), messages.end(), before));
 }
 
 TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
