@@ -105,7 +105,7 @@ int play_and_watch(const Options& options) {
   std::string last_lines;
   for (std::optional<runtime::ProcessEnd> end; !(end = launcher.poll_end());) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    for (const std::string& line : launcher.read_lines()) last_lines = (last_lines + line + '\n');
+    for (const std::string& line : launcher.read_lines()) last_lines += line + '\n';
     constexpr std::size_t kKept = 4000;
     if (last_lines.size() > 2 * kKept) last_lines.erase(0, last_lines.size() - kKept);
     if (!told_to_end && passed_s() >= next_s) {

@@ -43,11 +43,11 @@ void FeaturePosterior::set_base(const Trial& trial) {
 }
 
 /// Of residuals over their prior deviations.
-double FeaturePosterior::Feature::sum_of_squares(std::span<const double> changes, int& count) const {
+double FeaturePosterior::Feature::sum_of_squares(int& count) const {
   double sum = 0.0;
   count = 0;
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const double residual = base[i] + (changes.empty() ? 0.0 : changes[i]) - measured[i];
+    const double residual = base[i] - measured[i];
     if (std::isnan(residual)) continue;
     sum += square(residual) / variances[i];
     ++count;
@@ -56,21 +56,7 @@ double FeaturePosterior::Feature::sum_of_squares(std::span<const double> changes
 }
 
 double FeaturePosterior::operator()(const Point& point, std::span<const FeatureChange> changes) const {
-  std::vector<double> toughness, peak;
-  for (const FeatureChange& change : changes) {
-    toughness.push_back(change.log_toughness);
-    peak.push_back(change.log_peak);
-  }
-  double cost = 0.0;
-  const auto add = [&cost](const Feature& feature, std::span<const double> change) {
-    int count = 0;
-    const double sum = feature.sum_of_squares(change, count);
-    cost += 0.5 * (count + kPriorFreedom) * std::log(kPriorFreedom + sum);
-  };
-  add(toughness_, toughness);
-  add(peak_, peak);
-  for (std::size_t j = 0; j < point.size(); ++j) cost += 0.5 * square((point[j] - start_[j]) / kUnknownDeviation);
-  return cost;
+  return (*this)(point, changes, 0.0, Eigen::VectorXd());
 }
 
 double FeaturePosterior::operator()(const Point& point, std::span<const FeatureChange> changes, double deviation,
@@ -88,7 +74,7 @@ double FeaturePosterior::operator()(const Point& point, std::span<const FeatureC
       if (std::isnan(residual)) continue;
       const double variance = feature.variances[index] + square(deviation);
       sum += square(residual) / variance;
-      cost += 0.5 * std::log(variance / feature.variances[index]);
+      if (deviation > 0.0) cost += 0.5 * std::log(variance / feature.variances[index]);
       count += 1.0;
     }
     cost += 0.5 * (count + kPriorFreedom) * std::log(kPriorFreedom + sum);
@@ -104,7 +90,7 @@ Eigen::VectorXd FeaturePosterior::learnt_variances() const {
   Eigen::VectorXd variances = Eigen::VectorXd::Constant(2 * designs, std::numeric_limits<double>::infinity());
   const auto fill = [&](const Feature& feature, Eigen::Index first) {
     int count = 0;
-    const double sum = feature.sum_of_squares({}, count);
+    const double sum = feature.sum_of_squares(count);
     const double factor = (kPriorFreedom + sum) / (kPriorFreedom + count);
     for (Eigen::Index i = 0; i < designs; ++i) {
       const std::size_t index = static_cast<std::size_t>(i);

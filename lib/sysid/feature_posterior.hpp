@@ -33,7 +33,7 @@ class FeaturePosterior {
     std::vector<double> measured;   ///< log; not a number where there is none
     std::vector<double> variances;  ///< prior
     std::vector<double> base;       ///< log, of the base trial; not a number where it failed
-    double sum_of_squares(std::span<const double> changes, int& count) const;
+    double sum_of_squares(int& count) const;
   };
   /// Variances of all residuals, log T then log peak, with the factor that the residuals at the base suggest; infinite
   /// where there is none.

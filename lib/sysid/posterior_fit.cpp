@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -175,7 +176,7 @@ class PosteriorFit final : public RecordedFit {
                         [&](const Trial& trial) { return pull_to_start(trial.point, point, 1.0) < kSamePoint; });
   }
 
-  /// The start with the searched coordinates of a draw.
+  /// The best trial with the searched coordinates of a draw.
   Point point_at(const Eigen::VectorXd& draw) const {
     Point point = trials_[best_].point;
     for (std::size_t k = 0; k < kSearched.size(); ++k) point[kSearched[k]] = draw[static_cast<Eigen::Index>(k)];
@@ -236,9 +237,7 @@ class PosteriorFit final : public RecordedFit {
       Eigen::VectorXd shift = factor.matrixL() * normal;
       if (k % 2 == 1) shift = -shift;
       Point point = centre;
-      for (std::size_t j = 0; j < point.size(); ++j) {
-        const bool is_poisson = j >= kNu0 && j < kW0;
-        if (is_poisson) continue;
+      for (const std::size_t j : kSearched) {
         const double reach = kLargestRadius / spans_[j];
         point[j] = std::clamp(point[j] + std::clamp(shift[static_cast<Eigen::Index>(j)], -reach, reach), 0.0, 1.0);
       }
