@@ -1,6 +1,7 @@
 // The nodes of a run as they last spoke.
 
 #include "dashboard/views.hpp"
+#include "wire/status_json.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -19,27 +20,15 @@ Json nodes_json(const std::vector<NodeReport>& nodes) {
   Json array = Json::array();
   for (const NodeReport& report : nodes) {
     const node_status_t& s = report.status;
-    array.push_back({{"node", report.node},
-                     {"state", state_of(report)},
-                     {"age_s", report.age_s},
-                     {"phase", s.phase},
-                     {"round", s.round},
-                     {"progress", s.progress < 0.0 ? Json(nullptr) : Json(s.progress)},
-                     {"eta_s", s.eta_s < 0.0 ? Json(nullptr) : Json(s.eta_s)},
-                     {"received", s.received},
-                     {"published", s.published},
-                     {"retries", s.retries},
-                     {"duplicates", s.duplicates},
-                     {"rejected", s.rejected},
-                     {"lost", s.lost},
-                     {"dropped", s.dropped},
-                     {"unacknowledged", s.unacknowledged},
-                     {"queued", s.queued},
-                     {"owed", s.owed},
-                     {"computing", s.computing},
-                     {"journal_bytes", s.journal_bytes},
-                     {"work", s.work},
-                     {"last_problem", s.last_problem}});
+    Json node = {{"node", report.node},
+                 {"state", state_of(report)},
+                 {"age_s", report.age_s},
+                 {"phase", s.phase},
+                 {"round", s.round},
+                 {"progress", s.progress < 0.0 ? Json(nullptr) : Json(s.progress)},
+                 {"eta_s", s.eta_s < 0.0 ? Json(nullptr) : Json(s.eta_s)}};
+    wire::append_counters(node, s);
+    array.push_back(std::move(node));
   }
   return array;
 }

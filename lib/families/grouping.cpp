@@ -104,6 +104,11 @@ std::vector<Family> named(std::span<const Member> designs, Groups groups) {
 
 }  // namespace
 
+double calibration_weight(const Family& family, const pattern::Pattern& measured) {
+  constexpr double kSeedWeight = 1.0, kOthersWeight = 0.1;
+  return std::ranges::count(family.seeds, measured) > 0 ? kSeedWeight : kOthersWeight;
+}
+
 std::vector<Member> near_pareto(std::span<const Member> measured, int maximum_rank) {
   std::vector<optimize::Performance> performances;
   for (const Member& member : measured) performances.push_back(member.performance);

@@ -26,6 +26,9 @@ struct Family {
   bool operator==(const Family&) const = default;
 };
 
+/// How much a measured design counts in the family's own calibration (thesis 2.4.1): 1 for its seeds, 0.1 for others.
+double calibration_weight(const Family& family, const pattern::Pattern& measured);
+
 /// The designs of rank <= maximum_rank, in the order given.
 std::vector<Member> near_pareto(std::span<const Member> measured, int maximum_rank = 2);
 

@@ -35,7 +35,6 @@ using families::Family;
 using pattern::Pattern;
 
 constexpr double kEstablished = 0.05;  // family-wise
-constexpr double kOthersWeight = 0.1;  // of designs outside the family in its calibration (thesis 2.4.1)
 
 struct Options {
   std::string set;
@@ -144,7 +143,7 @@ sysid::Calibrated family_model(const Family& family, const Beginning& beginning,
   settings.seed = options.seed;
   settings.floor = sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), beginning.fidelity);
   for (const measurement::Replicates& group : beginning.measured)
-    settings.weights.push_back(std::ranges::count(family.seeds, *game::eightfold_pattern(group.design)) > 0 ? 1.0 : kOthersWeight);
+    settings.weights.push_back(families::calibration_weight(family, *game::eightfold_pattern(group.design)));
   Progress progress(family.name + ": calibrating");
   return sysid::run_calibration(beginning.measured, settings, simulator,
                                 [&](double share, std::string_view what) { progress.set_share(share, std::string(what)); });

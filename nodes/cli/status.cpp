@@ -14,6 +14,7 @@
 #include "runtime/live_display.hpp"
 #include "runtime/terminal.hpp"
 #include "wire/codec.hpp"
+#include "wire/status_json.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -41,27 +42,15 @@ Statuses collect(const RunAccess& run, double seconds) {
 }
 
 nlohmann::ordered_json to_json(const std::string& node, const node_status_t& s) {
-  return {{"node", node},
-          {"ready", bool(s.ready)},
-          {"finished", bool(s.finished)},
-          {"phase", s.phase},
-          {"round", s.round},
-          {"progress", s.progress},
-          {"eta_s", s.eta_s},
-          {"received", s.received},
-          {"published", s.published},
-          {"retries", s.retries},
-          {"duplicates", s.duplicates},
-          {"rejected", s.rejected},
-          {"lost", s.lost},
-          {"dropped", s.dropped},
-          {"unacknowledged", s.unacknowledged},
-          {"queued", s.queued},
-          {"owed", s.owed},
-          {"computing", s.computing},
-          {"journal_bytes", s.journal_bytes},
-          {"work", s.work},
-          {"last_problem", s.last_problem}};
+  nlohmann::ordered_json document = {{"node", node},
+                                     {"ready", bool(s.ready)},
+                                     {"finished", bool(s.finished)},
+                                     {"phase", s.phase},
+                                     {"round", s.round},
+                                     {"progress", s.progress},
+                                     {"eta_s", s.eta_s}};
+  wire::append_counters(document, s);
+  return document;
 }
 
 void print_table(const RunAccess& run, const Statuses& statuses) {

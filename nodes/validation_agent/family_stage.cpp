@@ -17,7 +17,6 @@ namespace {
 
 using runtime::LogLevel;
 
-constexpr double kOthersWeight = 0.1;  // of designs outside the family in its calibration (thesis 2.4.1)
 constexpr const char* kGroupingId = "families/group";
 
 pattern::Pattern pattern_of(const measurement::Replicates& measured) {
@@ -136,7 +135,7 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
   settings.floor = beginning_.floor;
   settings.seed = RandomStream(scenario_.seed, "calibration of " + group.name).bits();
   for (const measurement::Replicates& each : beginning_.measured)
-    settings.weights.push_back(std::ranges::count(group.seeds, pattern_of(each)) > 0 ? 1.0 : kOthersWeight);
+    settings.weights.push_back(families::calibration_weight(group, pattern_of(each)));
   fitting_.emplace(beginning_.measured, settings);
   step_ = Step::calibrating;
   calibrate_on(outputs);
