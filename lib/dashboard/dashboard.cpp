@@ -69,7 +69,7 @@ Dashboard::Dashboard(Settings settings, Desk& desk)
       desk_(desk),
       data_(settings_.run_folder),
       page_(settings_.page_folder),
-      families_(settings_.family_folder),
+      family_folder_(settings_.family_folder),
       films_(settings_.run_folder, settings_.scenario.fidelity) {}
 
 const std::map<std::string, Dashboard::Route>& Dashboard::readings() {
@@ -85,6 +85,7 @@ const std::map<std::string, Dashboard::Route>& Dashboard::readings() {
                                                       {"/api/maps", &Dashboard::maps},
                                                       {"/api/map", &Dashboard::map},
                                                       {"/api/between", &Dashboard::between},
+                                                      {"/api/families", &Dashboard::families},
                                                       {"/report", &Dashboard::report}};
   return routes;
 }
@@ -93,7 +94,8 @@ const std::map<std::string, Dashboard::Route>& Dashboard::entries() {
   static const std::map<std::string, Route> routes = {{"/api/measurement", &Dashboard::enter},
                                                       {"/api/review", &Dashboard::judge},
                                                       {"/api/approval", &Dashboard::decide},
-                                                      {"/api/simulate", &Dashboard::simulate}};
+                                                      {"/api/simulate", &Dashboard::simulate},
+                                                      {"/api/grouping", &Dashboard::group}};
   return routes;
 }
 
@@ -139,6 +141,15 @@ Response Dashboard::live(const Request&) {
 Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
 
 Response Dashboard::gamut(const Request& request) {
+  if (const auto family = request.query.find("family"); family != request.query.end()) {
+    const auto record = data_.record();
+    for (const store::RecordedFamily& each : record->families)
+      if (each.stated.name == family->second)
+        return {.type = "application/octet-stream",
+                .body = gamut_bytes(gamut_of_family(each), each.stated.round),
+                .headers = {}};
+    return error_response(404, "there is no such family");
+  }
   const int round = round_of(request);
   return {.type = "application/octet-stream", .body = gamut_bytes(*data_.gamut(round), round), .headers = {}};
 }
@@ -148,7 +159,7 @@ Response Dashboard::design(const Request& request) {
 }
 
 Json Dashboard::simulation_state(const std::string& design, const std::string& model) {
-  if (is_round(model) && films_.name_in_run(*data_.record(), design, number(model, "model")))
+  if (films_.name_in_run(*data_.record(), design, model))
     return {{"state", "ready"}, {"source", "run"}};
   const Background::State state = films_.made(design, model);
   Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
@@ -166,9 +177,7 @@ Response Dashboard::simulation(const Request& request) {
 
 Response Dashboard::film(const Request& request) {
   const std::string design = design_of(request).name(), model = model_of(request);
-  if (is_round(model)) {
-    if (const auto film = films_.of_run(*data_.record(), design, number(model, "model"))) return binary(film);
-  }
+  if (const auto film = films_.of_run(*data_.record(), design, model)) return binary(film);
   const Background::State state = films_.made(design, model);
   if (!state.result) return error_response(404, "there is no film of this design yet");
   return binary(std::make_shared<const std::string>(unpacked(*state.result).film));
@@ -181,7 +190,9 @@ Response Dashboard::simulate(const Request& request) {
     const std::lock_guard lock(desk_mutex_);
     parameters = desk_.model(number(wish.model, "model"));
   } else {
-    parameters = or_refuse(families_.model(wish.model));
+    const std::lock_guard lock(desk_mutex_);
+    parameters = desk_.family_model(wish.model);  // of a family grouped otherwise the folder alone knows
+    if (!parameters) parameters = or_refuse(family_folder_.model(wish.model));
   }
   if (!parameters) return error_response(409, fmt::format("round {} has no model yet", wish.model));
   if (!films_.make(wish.design, wish.model, *parameters))
@@ -211,13 +222,13 @@ Response Dashboard::diagnosis(const Request& request) {
 Response Dashboard::maps(const Request&) {
   Json gamuts = Json::array();
   for (const auto& [round, size] : data_.gamut_sizes()) gamuts.push_back(fmt::format("gamut/{}", round));
-  return json_response({{"families", families_.families()}, {"gamuts", gamuts}});
+  return json_response({{"families", family_folder_.families()}, {"gamuts", gamuts}});
 }
 
 Response Dashboard::map(const Request& request) {
   const std::string id = parameter(request, "id");
   if (!id.starts_with("gamut/")) {
-    const auto map = families_.map(id);
+    const auto map = family_folder_.map(id);
     return map ? json_response({{"state", "ready"}, {"map", to_json(*map)}}) : error_response(404, map.error().message);
   }
   const int round = number(id.substr(6), "id");
@@ -240,6 +251,14 @@ Response Dashboard::map(const Request& request) {
 
 Response Dashboard::between(const Request& request) {
   return json_response(or_refuse(dashboard::between(parameter(request, "patterns"), parameter(request, "weights"))));
+}
+
+Response Dashboard::families(const Request&) {
+  const auto record = data_.record();
+  Json json = families_json(
+      *record, family_folder_.grouping(measured_members(*record), settings_.scenario.families.rank));
+  json["enabled"] = settings_.scenario.families.enabled;
+  return json_response(json);
 }
 
 Response Dashboard::report(const Request&) {
@@ -280,6 +299,18 @@ Response Dashboard::decide(const Request& request) {
   const auto decision = or_refuse(decision_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
   return answered(desk_.decide(decision));
+}
+
+Response Dashboard::group(const Request& request) {
+  const auto grouping = or_refuse(grouping_from_json(request.body));
+  const auto measured = measured_members(*data_.record());
+  for (const families::Family& family : grouping)
+    for (const pattern::Pattern& seed : family.seeds)
+      if (std::ranges::count(measured, seed, &families::Member::pattern) == 0)
+        throw Unanswerable{400, fmt::format("{}: seed {} is not measured in both tests", family.name, seed.key())};
+  const std::lock_guard lock(desk_mutex_);
+  desk_.keep_grouping(family_folder_.path(), grouping);
+  return answered(Answer::accepted);
 }
 
 std::string_view to_string(Answer answer) {

@@ -50,11 +50,13 @@ class Dashboard {
   Response maps(const Request&);
   Response map(const Request&);
   Response between(const Request&);
+  Response families(const Request&);
   Response report(const Request&);
   Response enter(const Request&);
   Response judge(const Request&);
   Response decide(const Request&);
   Response simulate(const Request&);
+  Response group(const Request&);
 
   Json simulation_state(const std::string& design, const std::string& model);
   Response answered(Answer answer);
@@ -66,7 +68,7 @@ class Dashboard {
   std::int64_t laboratory_fresh_until_us_ = 0;
   RunData data_;
   PageFiles page_;
-  FamilyFolder families_;
+  FamilyFolder family_folder_;
   Films films_;
   Background maps_;
 };

@@ -2,10 +2,12 @@
 // What the dashboard asks of a run beside its database, and hands in on behalf of a person. A small interface, so that
 // routes are tested without a network.
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "material/parameters.hpp"
 #include "nacre/diagnosis_t.hpp"
@@ -58,6 +60,8 @@ class Desk {
   virtual Laboratory laboratory() = 0;
   /// The model adopted in a round; nothing when none was.
   virtual std::optional<material::ParameterSet> model(int round) = 0;
+  /// The own model of a family of the stage after the game; nothing when there is no such family.
+  virtual std::optional<material::ParameterSet> family_model(const std::string& family) = 0;
   /// The analyser's newest word on a round.
   virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
   /// Nodes that have spoken in the last seconds; none when the run does not play.
@@ -66,6 +70,8 @@ class Desk {
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Answer judge(const Judgement& judgement) = 0;
   virtual Answer decide(const Decision& decision) = 0;
+  /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is called.
+  virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;
 };
 
 }  // namespace nacre::dashboard

@@ -121,6 +121,34 @@ Result<Decision> decision_from_json(std::string_view text) {
   return Decision{design->name(), *round, *approved, *by, *why};
 }
 
+Result<std::vector<families::Family>> grouping_from_json(std::string_view text) {
+  const Result<Json> object = object_in(text);
+  if (!object) return tl::unexpected(object.error());
+  const auto listed = object->find("families");
+  if (listed == object->end() || !listed->is_array() || listed->empty()) return fail("families: expected a list");
+  std::vector<families::Family> families;
+  for (const Json& each : *listed) {
+    if (!each.is_object()) return fail("families: expected objects with name and seeds");
+    const auto name = text_of(each, "name", true);
+    if (!name) return tl::unexpected(name.error());
+    if (!is_plain_name(*name)) return fail("name '{}': expected letters, digits, - and _, at most 64", *name);
+    families::Family& family = families.emplace_back(families::Family{.name = *name, .seeds = {}});
+    const auto seeds = each.find("seeds");
+    if (seeds == each.end() || !seeds->is_array()) return fail("{}: seeds: expected a list of pattern keys", *name);
+    for (const Json& seed : *seeds) {
+      const auto layout = seed.is_string() ? pattern::layout_from_key(seed.get<std::string>()) : fail("not a text");
+      const auto pattern = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+      if (!pattern) return fail("{}: seeds: expected keys of 14 hex digits", *name);
+      family.seeds.push_back(*pattern);
+    }
+  }
+  try {
+    return families::parse_families(families::to_toml(families), "families");  // its rules are the file's
+  } catch (const InputError& error) {
+    return fail("{}", error.what());
+  }
+}
+
 Result<SimulationWish> wish_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());

@@ -20,6 +20,15 @@ bool is_film_name(const std::string& name) {
 
 std::string key_of(const std::string& design, const std::string& model) { return design + "@" + model; }
 
+/// How the model lets designs break, where the run knows; nullptr where it has no such model.
+const std::map<std::string, store::RecordedCrack>* cracks_by(const store::RunRecord& run, const std::string& model) {
+  for (const auto& [number, round] : run.rounds)
+    if (std::to_string(number) == model) return &round.cracks;
+  for (const store::RecordedFamily& family : run.families)
+    if (family.stated.name == model) return &family.cracks;
+  return nullptr;
+}
+
 /// Both tests, and the specimen pulled once more for its film.
 Result<std::string> simulated_film(const tester::Simulation& simulation) {
   const auto modulus = tester::test_modulus(simulation);
@@ -42,11 +51,12 @@ MadeFilm unpacked(const std::string& made) {
           std::string_view(made).substr(sizeof(double))};
 }
 
-std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const std::string& design, int round) const {
-  const auto of_round = run.rounds.find(round);
-  if (of_round == run.rounds.end()) return std::nullopt;
-  const auto found = of_round->second.cracks.find(design);
-  if (found == of_round->second.cracks.end() || !is_film_name(found->second.film)) return std::nullopt;
+std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const std::string& design,
+                                              const std::string& model) const {
+  const auto* cracks = cracks_by(run, model);
+  if (cracks == nullptr) return std::nullopt;
+  const auto found = cracks->find(design);
+  if (found == cracks->end() || !is_film_name(found->second.film)) return std::nullopt;
   std::error_code unreadable;
   // A link could lead anywhere.
   if (std::filesystem::symlink_status(folder_ / found->second.film, unreadable).type() !=
@@ -56,8 +66,8 @@ std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const
 }
 
 std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, const std::string& design,
-                                                 int round) const {
-  const auto name = name_in_run(run, design, round);
+                                                 const std::string& model) const {
+  const auto name = name_in_run(run, design, model);
   if (!name) return nullptr;
   try {
     return std::make_shared<const std::string>(read_file_up_to(folder_ / *name, kMostFilmBytes));

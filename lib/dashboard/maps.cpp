@@ -169,6 +169,25 @@ Result<PatternMap> FamilyFolder::map(const std::string& id) const {
   }
 }
 
+Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int rank) const {
+  Grouping grouping{.families = {}, .near_pareto = {}, .from = "proposal", .problem = ""};
+  const std::vector<families::Member> near = families::near_pareto(measured, rank);
+  for (const families::Member& member : near) grouping.near_pareto.push_back(member.pattern);
+  std::error_code unreadable;
+  const std::filesystem::path file = folder_ / "families.toml";
+  if (std::filesystem::is_regular_file(file, unreadable)) {
+    try {
+      grouping.families = families::parse_families(read_file_up_to(file, kMostFileBytes), "families.toml");
+      grouping.from = "file";
+      return grouping;
+    } catch (const InputError& error) {
+      grouping.problem = error.what();
+    }
+  }
+  if (!near.empty()) grouping.families = families::proposed_families(near);
+  return grouping;
+}
+
 Result<material::ParameterSet> FamilyFolder::model(const std::string& family) const {
   if (!is_plain_name(family)) return fail("family: expected a name");
   try {

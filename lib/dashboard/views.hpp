@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dashboard/desk.hpp"
+#include "families/grouping.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre::dashboard {
@@ -21,6 +22,23 @@ Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_si
 
 /// All that a run knows of one design: proposals, specimens with curves, what models said, cracks.
 Json design_json(const store::RunRecord& run, const pattern::Design& design);
+
+/// Which measured designs belong together, and who says so.
+struct Grouping {
+  std::vector<families::Family> families;
+  std::vector<pattern::Pattern> near_pareto;  ///< what a person may choose from
+  std::string from;     ///< `file` (families.toml) or `proposal`
+  std::string problem;  ///< why the file is not taken; empty when it is, or when there is none
+};
+
+/// The patterns that the run has measured in both tests.
+std::vector<families::Member> measured_members(const store::RunRecord& run);
+
+/// Families of the stage after the game with designs, errors of both models and whether they over-fit; and the grouping.
+Json families_json(const store::RunRecord& run, const Grouping& grouping);
+
+/// A family's variants as gamut_bytes() takes them.
+store::RecordedGamut gamut_of_family(const store::RecordedFamily& family);
 
 /// Specimens, groups of replicates with proposed outliers, orders, proposed designs with their state.
 Json laboratory_json(const Laboratory& laboratory);

@@ -125,28 +125,38 @@ void keep(SQLite::Database& db, const diagnosis_t& d) {
   }
 }
 
+/// The number N of `question`, which holds %d and ends with %n, when an answer belongs to it.
+std::optional<int> number_in(const std::string& request_id, const char* question) {
+  int number = 0, matched = 0;
+  return std::sscanf(request_id.c_str(), question, &number, &matched) == 1 && matched > 0 ? std::optional(number) : std::nullopt;
+}
+
 /// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured designs.
 void keep(SQLite::Database& db, const wire::SimulateResult& s) {
-  int round = 0, matched = 0;
-  if (std::sscanf(s.request_id.c_str(), "analyser/r%d/measured%n", &round, &matched) != 1 || matched == 0) return;
+  const auto round = number_in(s.request_id, "analyser/r%d/measured%n");
+  if (!round) return;
   for (const wire::SimulatedDesign& d : s.results) {
-    run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", round, d.design.name(), d.modulus_pa, d.toughness_pa, d.failure, packed(d.curve));
+    run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", *round, d.design.name(), d.modulus_pa, d.toughness_pa, d.failure, packed(d.curve));
   }
 }
 
-/// Answers to the analyser's own question `analyser/rN/films`: how the designs proposed in round N break.
-void keep(SQLite::Database& db, const wire::Fracture& f) {
-  int round = 0, matched = 0;
-  if (std::sscanf(f.request_id.c_str(), "analyser/r%d/films%n", &round, &matched) != 1 || matched == 0) return;
+void keep_crack(SQLite::Database& db, const char* table, int number, const wire::Fracture& f) {
   const auto of_path = [&](auto value) { return f.crack.path ? std::optional<double>(value(*f.crack.path)) : std::nullopt; };
   std::vector<std::int32_t> path, breaks;
   if (f.crack.path) path.assign(f.crack.path->elements.begin(), f.crack.path->elements.end());
   for (const tester::Break& broken : f.crack.order) breaks.push_back(broken.element);
-  run(db, "INSERT OR REPLACE INTO crack VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", round, f.design.name(), f.film, f.crack.columns, f.crack.rows,
+  const std::string insert = fmt::format("INSERT OR REPLACE INTO {} VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", table);
+  run(db, insert.c_str(), number, f.design.name(), f.film, f.crack.columns, f.crack.rows,
       f.broken, f.crack.branches, f.crack.separate_cracks, of_path([](const auto& p) { return p.length_m; }),
       of_path([](const auto& p) { return p.straight_length_m; }), of_path([](const auto& p) { return p.bridged_share; }),
       of_path([](const auto& p) { return p.material[0]; }), of_path([](const auto& p) { return p.material[1]; }),
       of_path([](const auto& p) { return p.material[2]; }), f.crack.path && f.crack.path->crosses, path, breaks);
+}
+
+/// Answers to the analyser's own questions: how the designs proposed in round N break, and those of family N.
+void keep(SQLite::Database& db, const wire::Fracture& f) {
+  if (const auto round = number_in(f.request_id, "analyser/r%d/films%n")) keep_crack(db, "crack", *round, f);
+  if (const auto family = number_in(f.request_id, "analyser/family%d/films%n")) keep_crack(db, "family_crack", *family, f);
 }
 
 /// A family that is validated is not put back by an older word of it.
@@ -205,11 +215,14 @@ RunDatabase::RunDatabase(const std::filesystem::path& path) : path_(path) {
     if (version == 0) {
       SQLite::Transaction transaction(*database_);
       database_->exec(kRunSchema);
+      database_->exec(fmt::format(kCrackSchema, "crack", "round"));
       database_->exec("PRAGMA user_version = " + std::to_string(kRunSchemaVersion));
       transaction.commit();
     } else if (version != kRunSchemaVersion) {
       refuse(path_, fmt::format("it has schema version {}, this program writes {}", version, kRunSchemaVersion));
     }
+    database_->exec(kFamilySchema);
+    database_->exec(fmt::format(kCrackSchema, "family_crack", "number"));
   } catch (const SQLite::Exception& error) {
     refuse(path_, error.what());
   }

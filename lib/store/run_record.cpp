@@ -93,11 +93,14 @@ std::vector<std::int32_t> elements(const SQLite::Column& blob) {
   return result;
 }
 
-void read_cracks(SQLite::Database& db, RunRecord& run) {
-  constexpr const char* kCracks =
-      "SELECT round, design, film, columns, rows, broken, branches, separate_cracks, path, breaks, path_length_m, straight_length_m, bridged_share, "
-      "soft_share, rigid_share, interface_share, crosses FROM crack";
-  each_row(db, kCracks, [&](SQLite::Statement& q) {
+/// Calls `keep` with round or number of the family, design, and how it breaks.
+template <class Keep>
+void each_crack(SQLite::Database& db, const char* table, const char* number, const Keep& keep) {
+  const std::string cracks = fmt::format(
+      "SELECT {}, design, film, columns, rows, broken, branches, separate_cracks, path, breaks, path_length_m, straight_length_m, bridged_share, "
+      "soft_share, rigid_share, interface_share, crosses FROM {}",
+      number, table);
+  each_row(db, cracks.c_str(), [&](SQLite::Statement& q) {
     RecordedCrack recorded{.crack = {}, .broken = q.getColumn(5).getInt(), .film = q.getColumn(2).getString()};
     crack::Record& record = recorded.crack;
     record.columns = q.getColumn(3).getInt();
@@ -114,7 +117,13 @@ void read_cracks(SQLite::Database& db, RunRecord& run) {
                                 .material = {q.getColumn(13).getDouble(), q.getColumn(14).getDouble(), q.getColumn(15).getDouble()},
                                 .crosses = q.getColumn(16).getInt() != 0};
     }
-    run.rounds[q.getColumn(0).getInt()].cracks[q.getColumn(1).getString()] = std::move(recorded);
+    keep(q.getColumn(0).getInt(), q.getColumn(1).getString(), std::move(recorded));
+  });
+}
+
+void read_cracks(SQLite::Database& db, RunRecord& run) {
+  each_crack(db, "crack", "round", [&](int round, const std::string& design, RecordedCrack crack) {
+    run.rounds[round].cracks[design] = std::move(crack);
   });
 }
 
@@ -171,7 +180,13 @@ void read_families(SQLite::Database& db, RunRecord& run) {
     const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
     if (known) families[q.getColumn(0).getInt()].gamut.push_back({*known, {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}});
   });
-  for (auto& [number, family] : families) run.families.push_back(std::move(family));
+  if (db.tableExists("family_crack")) {  // absent in a run of an earlier version
+    each_crack(db, "family_crack", "number", [&](int number, const std::string& design, RecordedCrack crack) {
+      if (families.contains(number)) families[number].cracks[design] = std::move(crack);
+    });
+  }
+  for (auto& [number, family] : families)
+    if (!family.stated.name.empty()) run.families.push_back(std::move(family));  // its variants come before its FAMILY
 }
 
 /// Validity is the measurement's own unless a review says otherwise; the highest revision wins, "not valid" wins a tie.

@@ -44,7 +44,7 @@ struct RecordedSimulation {
   tester::Curve curve;
 };
 
-/// How the model of a round lets a proposed design break.
+/// How a model lets a design break.
 struct RecordedCrack {
   crack::Record crack;  ///< order without strains
   int broken = 0;
@@ -72,7 +72,8 @@ struct MeasuredSpecimen {
 struct RecordedFamily {
   wire::Family stated;
   std::map<std::string, double> parameters;
-  std::vector<explore::Evaluated> gamut;  ///< its variants by its own model
+  std::vector<explore::Evaluated> gamut;        ///< its variants by its own model
+  std::map<std::string, RecordedCrack> cracks;  ///< of its seeds and chosen designs by its own model, by design
 };
 
 struct RunRecord {

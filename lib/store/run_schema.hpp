@@ -57,25 +57,34 @@ inline constexpr const char* kRunSchema = R"sql(
     round INTEGER NOT NULL, design TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL, failure TEXT NOT NULL,
     curve BLOB NOT NULL, PRIMARY KEY (round, design)
   ) STRICT;
-  CREATE TABLE crack (  -- how proposed designs break by the model of their round; path and breaks: int32 elements; film: file in films/
-    round INTEGER NOT NULL, design TEXT NOT NULL, film TEXT NOT NULL, columns INTEGER NOT NULL, rows INTEGER NOT NULL, broken INTEGER NOT NULL,
-    branches INTEGER NOT NULL, separate_cracks INTEGER NOT NULL, path_length_m REAL, straight_length_m REAL, bridged_share REAL,
-    soft_share REAL, rigid_share REAL, interface_share REAL, crosses INTEGER, path BLOB NOT NULL, breaks BLOB NOT NULL,
-    PRIMARY KEY (round, design)
-  ) STRICT;
-  CREATE TABLE family (  -- of the stage after the game
+)sql";
+
+/// The family stage after the game; made where absent, for runs that an earlier version began.
+inline constexpr const char* kFamilySchema = R"sql(
+  CREATE TABLE IF NOT EXISTS family (
     number INTEGER PRIMARY KEY, name TEXT NOT NULL, round INTEGER NOT NULL, fidelity TEXT NOT NULL, count INTEGER NOT NULL,
     is_validated INTEGER NOT NULL, simulations INTEGER NOT NULL, samples INTEGER NOT NULL
   ) STRICT;
-  CREATE TABLE family_parameter (number INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (number, name)) STRICT;
-  CREATE TABLE family_design (  -- seeds and chosen designs, in order
+  CREATE TABLE IF NOT EXISTS family_parameter (number INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (number, name)) STRICT;
+  CREATE TABLE IF NOT EXISTS family_design (  -- seeds and chosen designs, in order
     number INTEGER NOT NULL, pattern TEXT NOT NULL, position INTEGER NOT NULL, is_seed INTEGER NOT NULL, measured_modulus_pa REAL,
     measured_toughness_pa REAL, global_modulus_pa REAL, global_toughness_pa REAL, family_modulus_pa REAL, family_toughness_pa REAL,
     PRIMARY KEY (number, pattern)
   ) STRICT;
-  CREATE TABLE family_gamut (  -- variants by the family's own model
+  CREATE TABLE IF NOT EXISTS family_gamut (  -- variants by the family's own model
     number INTEGER NOT NULL, pattern TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL, PRIMARY KEY (number, pattern)
   ) STRICT, WITHOUT ROWID;
+)sql";
+
+/// How designs break by a model, {1} saying which: `crack` has proposals by the model of their round, `family_crack` the designs of a
+/// family by its own. Path and breaks: int32 elements; film: file in films/.
+inline constexpr const char* kCrackSchema = R"sql(
+  CREATE TABLE IF NOT EXISTS {0} (
+    {1} INTEGER NOT NULL, design TEXT NOT NULL, film TEXT NOT NULL, columns INTEGER NOT NULL, rows INTEGER NOT NULL, broken INTEGER NOT NULL,
+    branches INTEGER NOT NULL, separate_cracks INTEGER NOT NULL, path_length_m REAL, straight_length_m REAL, bridged_share REAL,
+    soft_share REAL, rigid_share REAL, interface_share REAL, crosses INTEGER, path BLOB NOT NULL, breaks BLOB NOT NULL,
+    PRIMARY KEY ({1}, design)
+  ) STRICT;
 )sql";
 
 }  // namespace nacre::store

@@ -53,6 +53,13 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
       for (const wire::ProposedDesign& proposed : proposal->designs) designs.push_back(proposed.design);
       ask_for_films();
     }
+  } else if (message.channel == "FAMILY") {
+    const auto family = wire::read<wire::Family>(message.payload);
+    if (scenario_.fidelity != tester::Fidelity::tiny && filmed_families_.insert(family->number).second) {
+      std::vector<pattern::Design> designs;
+      for (const game::FamilyDesign& each : family->designs) designs.emplace_back(each.pattern);
+      ask_for_films_of(fmt::format("family{}", family->number), family->parameters, std::move(designs));
+    }
   } else if (message.channel == "MEASUREMENT") {
     accept_measurement(message.payload);
   } else if (message.channel == "DIAGNOSE") {
@@ -169,17 +176,21 @@ void AnalyserCore::ask_for_films() {
       ++proposal;
       continue;
     }
-    if (!proposal->second.empty()) {
-      wire::SimulateRequest request;
-      request.request_id = fmt::format("analyser/r{}/films", proposal->first);
-      request.toughness = request.crack = request.film = true;
-      request.fidelity = scenario_.fidelity;
-      request.parameters = game::material_side(model->second.parameters);
-      request.designs = proposal->second;
-      ask(request);
-    }
+    ask_for_films_of(fmt::format("r{}", proposal->first), model->second.parameters, proposal->second);
     proposal = unfilmed_.erase(proposal);
   }
+}
+
+void AnalyserCore::ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
+                                    std::vector<pattern::Design> designs) {
+  if (designs.empty()) return;
+  wire::SimulateRequest request;
+  request.request_id = fmt::format("analyser/{}/films", whose);
+  request.toughness = request.crack = request.film = true;
+  request.fidelity = scenario_.fidelity;
+  request.parameters = game::material_side(model);
+  request.designs = std::move(designs);
+  ask(request);
 }
 
 void AnalyserCore::accept_answer(const wire::SimulateResult& part) {

@@ -1,5 +1,6 @@
 #include "run_desk.hpp"
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "laboratory_view.hpp"
 #include "nacre/approval_t.hpp"
@@ -38,6 +39,20 @@ std::optional<material::ParameterSet> RunDesk::model(int round) {
     if (model && model->round == round) parameters = model->parameters;
   }
   return parameters;
+}
+
+std::optional<material::ParameterSet> RunDesk::family_model(const std::string& family) {
+  std::optional<material::ParameterSet> parameters;
+  for (const std::string& payload : sent_by_validation_agent(run_, "FAMILY")) {
+    const auto stated = wire::read<wire::Family>(payload);
+    if (stated && stated->name == family) parameters = stated->parameters;
+  }
+  return parameters;
+}
+
+void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) {
+  std::filesystem::create_directories(folder);
+  write_file_atomically(folder / "families.toml", families::to_toml(families));
 }
 
 std::optional<diagnosis_t> RunDesk::diagnosis(int round) {

@@ -12,11 +12,13 @@ class RunDesk : public dashboard::Desk {
   explicit RunDesk(RunAccess run);
   dashboard::Laboratory laboratory() override;
   std::optional<material::ParameterSet> model(int round) override;
+  std::optional<material::ParameterSet> family_model(const std::string& family) override;
   std::optional<diagnosis_t> diagnosis(int round) override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
   dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
   dashboard::Answer judge(const dashboard::Judgement& judgement) override;
   dashboard::Answer decide(const dashboard::Decision& decision) override;
+  void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) override;
 
  private:
   /// Sends it, if anybody is there to hear it.

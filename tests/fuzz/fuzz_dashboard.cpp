@@ -5,6 +5,7 @@
 #include "dashboard/dashboard.hpp"
 #include "dashboard/entries.hpp"
 #include "dashboard/guard.hpp"
+#include "dashboard/maps.hpp"
 #include "fuzz.hpp"
 
 namespace nacre::fuzz {
@@ -42,6 +43,7 @@ dashboard::Dashboard& page() {
   desk.specimens.clear();
   desk.judgements.clear();
   desk.decisions.clear();
+  desk.groupings.clear();
   return page;
 }
 
@@ -66,6 +68,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(!judgement->why.empty() && judgement->why.size() <= 500);
   if (const auto decision = dashboard::decision_from_json(request.body)) fuzz::expect(decision->round >= -1);
   (void)dashboard::wish_from_json(request.body);
+  if (const auto grouping = dashboard::grouping_from_json(request.body))
+    for (const families::Family& family : *grouping)
+      fuzz::expect(dashboard::is_plain_name(family.name) && !family.seeds.empty());
   if (request.path == "/api/simulate") return 0;  // would break specimens for minutes
   const dashboard::Response response = fuzz::page().handle(request);
   fuzz::expect(response.status != 500 && response.status >= 200);

@@ -119,6 +119,8 @@ void add_requests(const Corpus& corpus) {
   corpus.add("dashboard", "measurement", "POST /api/measurement\n" + entry +
                  R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
   corpus.add("dashboard", "review", "POST /api/review\n" + entry + R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
+  corpus.add("dashboard", "families", "GET /api/families\n" + host + cookie + "\n");
+  corpus.add("dashboard", "grouping", "POST /api/grouping\n" + entry + R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})");
   corpus.add("dashboard", "approval", "POST /api/approval\n" + entry + R"({"design":"577fffe9fffdef","round":2,"approved":true,"by":"Ada","why":""})");
 }
 

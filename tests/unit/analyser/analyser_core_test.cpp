@@ -146,6 +146,27 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
   EXPECT_THAT(analyser.ids("report"), SizeIs(1));
 }
 
+TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
+  Watched analyser;
+  wire::Family family;
+  family.number = 2;
+  family.count = 3;
+  family.name = "family-3";
+  family.parameters = material::default_parameters();
+  family.parameters.toughness.w_vw_j_per_m3 *= 1.5;
+  family.designs = {{.pattern = pattern::Pattern(5), .is_seed = true, .measured = {}, .global_model = {}, .family_model = {}},
+                    {.pattern = pattern::Pattern(6), .is_seed = false, .measured = {}, .global_model = {}, .family_model = {}}};
+  analyser.hear("FAMILY", wire::write(family));
+  family.is_validated = true;
+  analyser.hear("FAMILY", wire::write(family));
+  ASSERT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
+  const auto asked = wire::read<wire::SimulateRequest>(analyser.sent_on("SIMULATE").front().payload).value();
+  EXPECT_EQ(asked.request_id, "analyser/family2/films");
+  EXPECT_TRUE(asked.film && asked.crack && asked.toughness && !asked.modulus);
+  EXPECT_EQ(asked.parameters, family.parameters);
+  EXPECT_THAT(asked.designs, ElementsAre(pattern::Pattern(5), pattern::Pattern(6)));
+}
+
 TEST(Analyser, TinySpecimensAreNotFilmed) {
   game::Scenario scenario;
   scenario.fidelity = tester::Fidelity::tiny;

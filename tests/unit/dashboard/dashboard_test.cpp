@@ -68,7 +68,8 @@ class DashboardOfARun : public testing::Test {
 };
 
 TEST_F(DashboardOfARun, EveryReadingIsAnswered) {
-  for (const char* path : {"/api/run", "/api/live", "/api/rounds", "/api/laboratory", "/api/maps"}) {
+  for (const char* path : {"/api/run", "/api/live", "/api/rounds", "/api/laboratory", "/api/maps",
+                           "/api/families"}) {
     const Response response = get(path);
     EXPECT_EQ(response.status, 200) << path << response.body;
     EXPECT_TRUE(Json::accept(response.body)) << path;
@@ -170,6 +171,77 @@ TEST_F(DashboardOfARun, AFilmThatIsNotThereIsMadeOnDemand) {
   ASSERT_EQ(state["state"], "ready") << state.dump();
   EXPECT_GT(state["modulus_pa"].get<double>(), 0.0);
   EXPECT_EQ(get("/api/film", query).body.substr(0, 8), "NACREFLM");
+}
+
+TEST_F(DashboardOfARun, FamiliesOfTheStageComeWithTheErrorsOfBothModels) {
+  const Json said = json("/api/families");
+  ASSERT_EQ(said["stage"].size(), 1u) << said.dump();
+  const Json& family = said["stage"][0];
+  EXPECT_EQ(family["name"], "family-2");
+  EXPECT_EQ(family["is_validated"], true);
+  EXPECT_EQ(family["designs"].size(), 2u);
+  EXPECT_TRUE(family["designs"][1]["measured"]["toughness_pa"].is_null());
+  // The sample's seed: E 1.5 GPa measured, 1.6 by the global model, 1.5 by the family's; the chosen one: 1.4, 1.3, 1.2.
+  const Json& errors = family["errors"];
+  EXPECT_NEAR(errors["seeds"]["global"]["modulus_mean"].get<double>(), 0.1 / 1.5, 1e-9);
+  EXPECT_NEAR(errors["seeds"]["family"]["modulus_mean"].get<double>(), 0.0, 1e-9);
+  EXPECT_NEAR(errors["chosen"]["family"]["modulus_mean"].get<double>(), 0.2 / 1.4, 1e-9);
+  EXPECT_EQ(family["over_fits"], Json::array({"E"}));
+}
+
+TEST_F(DashboardOfARun, TheVariantsOfAFamilyAreColumnsLikeAGamut) {
+  store::RunDatabase database(folder_ / "run.db");
+  wire::FamilyGamut chunk = wire::samples::family_gamut();
+  chunk.number = wire::samples::family().number;
+  database.project("FAMILY_GAMUT", wire::write(chunk));
+  EXPECT_EQ(get("/api/gamut", {{"family", "family-2"}}).body.substr(0, 8), "NACREGMT");
+  EXPECT_EQ(json("/api/families")["stage"][0]["gamut_count"], 1);
+  EXPECT_EQ(get("/api/gamut", {{"family", "family-9"}}).status, 404);
+}
+
+TEST_F(DashboardOfARun, AFilmOfAFamilysDesignComesFromTheGame) {
+  store::RunDatabase database(folder_ / "run.db");
+  wire::Fracture fracture = wire::samples::fracture();
+  fracture.request_id = fmt::format("analyser/family{}/films", wire::samples::family().number);
+  database.project("FRACTURE", wire::write(fracture));
+  std::ofstream(folder_ / "films" / fracture.film) << "NACREFLM of the game";
+  const std::map<std::string, std::string> query = {{"design", fracture.design.name()}, {"model", "family-2"}};
+  EXPECT_EQ(json("/api/simulation", query)["source"], "run");
+  EXPECT_EQ(get("/api/film", query).body, "NACREFLM of the game");
+  EXPECT_EQ(json("/api/simulation", {{"design", fracture.design.name()}, {"model", "family-3"}})["state"], "absent");
+}
+
+TEST_F(DashboardOfARun, APersonGroupsMeasuredDesigns) {
+  store::RunDatabase database(folder_ / "run.db");
+  wire::Measurement m = wire::samples::measurement();
+  m.round = 0;
+  m.record.design = pattern::Pattern(0x577fffe9fffdef);
+  m.record.curve = {};
+  for (const bool is_modulus : {true, false}) {
+    m.record.specimen = is_modulus ? "E" : "T";
+    m.record.test = is_modulus ? tester::TestKind::modulus : tester::TestKind::toughness;
+    m.record.modulus_pa = is_modulus ? std::optional(1e9) : std::nullopt;
+    m.record.toughness_pa = is_modulus ? std::nullopt : std::optional(4e5);
+    database.project("MEASUREMENT", wire::write(m));
+  }
+  const Json proposed = json("/api/families")["grouping"];
+  EXPECT_EQ(proposed["from"], "proposal");
+  EXPECT_EQ(proposed["near_pareto"], Json::array({"577fffe9fffdef"}));
+  ASSERT_EQ(proposed["families"].size(), 1u);
+
+  EXPECT_EQ(post("/api/grouping", R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})").status, 200);
+  EXPECT_EQ(desk_.groupings.at(0), (std::vector<families::Family>{{"mine", {pattern::Pattern(0x577fffe9fffdef)}}}));
+  const Response unmeasured = post("/api/grouping", R"({"families":[{"name":"mine","seeds":["3ffc9b4ad4d2d9"]}]})");
+  EXPECT_EQ(unmeasured.status, 400);
+  EXPECT_THAT(unmeasured.body, HasSubstr("not measured"));
+  EXPECT_EQ(desk_.groupings.size(), 1u);
+
+  fs::create_directories(folder_ / "families");
+  std::ofstream(folder_ / "families" / "families.toml") << families::to_toml(desk_.groupings[0]);
+  EXPECT_EQ(json("/api/families")["grouping"]["from"], "file");
+  EXPECT_EQ(json("/api/families")["grouping"]["families"][0]["name"], "mine");
+  std::ofstream(folder_ / "families" / "families.toml") << "[[family]]\nname = 3\n";
+  EXPECT_THAT(json("/api/families")["grouping"]["problem"].get<std::string>(), HasSubstr("families.toml:1"));
 }
 
 TEST_F(DashboardOfARun, TheMapOfAGamutIsMadeOnDemand) {

@@ -13,11 +13,18 @@ class FakeDesk : public Desk {
   std::optional<material::ParameterSet> model(int round) override {
     return round == 0 ? std::optional(material::default_parameters()) : std::nullopt;
   }
+  std::optional<material::ParameterSet> family_model(const std::string& family) override {
+    return family == "family-2" ? std::optional(material::default_parameters()) : std::nullopt;
+  }
   std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
   Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
   Answer judge(const Judgement& judgement) override { return judgements.push_back(judgement), answer; }
   Answer decide(const Decision& decision) override { return decisions.push_back(decision), answer; }
+
+  void keep_grouping(const std::filesystem::path&, const std::vector<families::Family>& families) override {
+    groupings.push_back(families);
+  }
 
   Laboratory picture;
   std::vector<NodeReport> reports;
@@ -25,6 +32,7 @@ class FakeDesk : public Desk {
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<Judgement> judgements;
   std::vector<Decision> decisions;
+  std::vector<std::vector<families::Family>> groupings;
 };
 
 }  // namespace nacre::dashboard

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include "../wire/samples.hpp"
@@ -32,6 +33,46 @@ TEST_F(RunRecordOfAFile, OnlyAnswersAboutMeasuredDesignsAreWhatTheModelSaysOfThe
   EXPECT_TRUE(read_run_record(file_).rounds[1].simulated.empty());
   project_answer("analyser/r1/measured/0");
   EXPECT_EQ(read_run_record(file_).rounds[1].simulated.size(), 2u);
+}
+
+TEST_F(RunRecordOfAFile, CracksBelongToTheRoundOrTheFamilyWhoseModelBrokeThem) {
+  const wire::Family family = wire::samples::family();
+  database_.project("FAMILY", wire::write(family));
+  wire::Fracture fracture = wire::samples::fracture();
+  for (const std::string& question : {fmt::format("analyser/family{}/films", family.number), std::string("analyser/r7/films")}) {
+    fracture.request_id = question;
+    database_.project("FRACTURE", wire::write(fracture));
+  }
+  RunRecord run = read_run_record(file_);
+  const std::string design = fracture.design.name();
+  ASSERT_EQ(run.families.size(), 1u);
+  ASSERT_TRUE(run.families[0].cracks.contains(design));
+  EXPECT_EQ(run.families[0].cracks[design].film, fracture.film);
+  EXPECT_EQ(run.families[0].cracks[design].crack.path, fracture.crack.path);
+  ASSERT_TRUE(run.rounds[7].cracks.contains(design));
+  EXPECT_EQ(run.rounds[7].cracks.size(), 1u);
+  EXPECT_FALSE(run.rounds.contains(family.number));
+}
+
+TEST_F(RunRecordOfAFile, VariantsWaitForTheWordOnTheirFamily) {
+  wire::FamilyGamut gamut = wire::samples::family_gamut();
+  gamut.number = wire::samples::family().number;
+  database_.project("FAMILY_GAMUT", wire::write(gamut));
+  EXPECT_TRUE(read_run_record(file_).families.empty());
+  database_.project("FAMILY", wire::write(wire::samples::family()));
+  ASSERT_EQ(read_run_record(file_).families.size(), 1u);
+  EXPECT_EQ(read_run_record(file_).families[0].gamut.size(), gamut.samples.size());
+}
+
+TEST_F(RunRecordOfAFile, FamiliesAreKeptInAFileOfAVersionBeforeThem) {
+  {
+    SQLite::Database before(file_.string(), SQLite::OPEN_READWRITE);
+    for (const char* table : {"family", "family_parameter", "family_design", "family_gamut", "family_crack"})
+      before.exec(std::string("DROP TABLE ") + table);
+  }
+  EXPECT_TRUE(read_run_record(file_).families.empty());
+  RunDatabase(file_).project("FAMILY", wire::write(wire::samples::family()));
+  EXPECT_EQ(read_run_record(file_).families.size(), 1u);
 }
 
 TEST_F(RunRecordOfAFile, AGamutIsReadWithItsPatternsOrLeftOut) {
