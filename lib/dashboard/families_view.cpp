@@ -32,19 +32,20 @@ Json stage_json(const store::RecordedFamily& family) {
   for (const auto& [name, value] : family.parameters) parameters[name] = value;
   if (errors.over_fits_modulus()) over_fits.push_back("E");
   if (errors.over_fits_toughness()) over_fits.push_back("T");
-  return {{"number", stated.number},
-          {"name", stated.name},
-          {"round", stated.round},
-          {"is_validated", stated.is_validated},
-          {"simulations", stated.simulations},
-          {"samples", stated.samples},
-          {"gamut_count", family.gamut.size()},
-          {"designs", designs},
-          {"errors",
-           {{"seeds", {{"global", errors_json(errors.seeds_global)}, {"family", errors_json(errors.seeds_family)}}},
-            {"chosen", {{"global", errors_json(errors.chosen_global)}, {"family", errors_json(errors.chosen_family)}}}}},
-          {"over_fits", over_fits},
-          {"parameters", parameters}};
+  return {
+      {"number", stated.number},
+      {"name", stated.name},
+      {"round", stated.round},
+      {"is_validated", stated.is_validated},
+      {"simulations", stated.simulations},
+      {"samples", stated.samples},
+      {"gamut_count", family.gamut.size()},
+      {"designs", designs},
+      {"errors",
+       {{"seeds", {{"global", errors_json(errors.seeds_global)}, {"family", errors_json(errors.seeds_family)}}},
+        {"chosen", {{"global", errors_json(errors.chosen_global)}, {"family", errors_json(errors.chosen_family)}}}}},
+      {"over_fits", over_fits},
+      {"parameters", parameters}};
 }
 
 }  // namespace

@@ -173,18 +173,19 @@ Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int 
   Grouping grouping{.families = {}, .near_pareto = {}, .from = "proposal", .problem = ""};
   const std::vector<families::Member> near = families::near_pareto(measured, rank);
   for (const families::Member& member : near) grouping.near_pareto.push_back(member.pattern);
+  if (!near.empty()) grouping.families = families::proposed_families(near);
   std::error_code unreadable;
   const std::filesystem::path file = folder_ / "families.toml";
   if (std::filesystem::is_regular_file(file, unreadable)) {
     try {
-      grouping.families = families::parse_families(read_file_up_to(file, kMostFileBytes), "families.toml");
+      auto kept = families::parse_families(read_file_up_to(file, kMostFileBytes), "families.toml");
+      if (kept == grouping.families) return grouping;  // the programs write their proposals down, too
+      grouping.families = std::move(kept);
       grouping.from = "file";
-      return grouping;
     } catch (const InputError& error) {
       grouping.problem = error.what();
     }
   }
-  if (!near.empty()) grouping.families = families::proposed_families(near);
   return grouping;
 }
 

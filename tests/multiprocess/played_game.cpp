@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kTurnS = 0.02;
 
-const std::vector<std::string> kComparedChannels = {"PARAMETERS",  "GAMUT",     "PROPOSAL", "TEST_ORDER",
-                                                    "MEASUREMENT", "DIAGNOSIS", "ROUND"};
+const std::vector<std::string> kComparedChannels = {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",   "MEASUREMENT",
+                                                    "DIAGNOSIS",  "ROUND", "FAMILY",   "FAMILY_GAMUT"};
 
 /// The environment is the children's too.
 std::vector<std::string> with_faults(const std::string& faults, std::vector<std::string> command) {

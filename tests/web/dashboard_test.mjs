@@ -105,12 +105,35 @@ test("what cannot be a measurement is refused with its column", async () => {
   await other.context().close();
 });
 
-test("proposals are approved and the game goes on to its end", async () => {
+/** Says yes to everything that waits for it. */
+const approveAll = async () => {
   const approve = page.getByRole("button", { name: "Approve" });
+  await approve.first().waitFor({ timeout: 120_000 });
   for (let left = await approve.count(); left > 0; --left) {
     await approve.first().click();
     await until(async () => (await approve.count()) < left, 20, "the approval is taken");
   }
+};
+
+test("designs are grouped by hand before the family stage", async () => {
+  await approveAll();
+  await view(page, "families");
+  const keep = page.getByRole("button", { name: "Keep this grouping" });
+  await page.locator(".groups .member").first().waitFor({ timeout: 120_000 });
+  assert.ok(await keep.isDisabled());
+  await page.getByLabel("name of family 1").fill("not a name");
+  await page.locator(".notice.bad", { hasText: "letters, digits" }).waitFor();
+  assert.ok(await keep.isDisabled());
+  await page.getByLabel("name of family 1").fill("mine");
+  await keep.click();
+  await page.locator(".notice.good", { hasText: "the family stage takes it" }).waitFor();
+  assert.match(readFileSync(join(game.folder, "families/families.toml"), "utf8"), /name = "mine"/);
+});
+
+test("the family stage waits for a yes to its variants, and the game goes on to its end", async () => {
+  await view(page, "laboratory");
+  await page.locator("h2", { hasText: "Variants of the families" }).waitFor({ timeout: 120_000 });
+  await approveAll();
   await page.locator(".standing", { hasText: "finished after round 1" }).waitFor({ timeout: 120_000 });
   assert.equal(await game.ended, 0, game.said);
   await view(page, "game");
@@ -145,6 +168,26 @@ test("a finished run is the same page, in the dark", async () => {
   assert.equal(await dark.evaluate(() => document.documentElement.dataset.theme), "light");
   assert.deepEqual(dark.troubles, []);
   await dark.context().close();
+  await finished.close();
+});
+
+test("families show their variants and whether their models were worth it", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visit(`${finished.url}#families`);
+  await on.locator(".unit-button").first().click();
+  await on.locator(".film canvas").waitFor({ timeout: 40_000 });
+  for (const table of [/^Mean relative errors on variants/, /^Mean relative errors on the seeds/, /^Seeds and chosen variants/])
+    assert.ok((await on.locator(".table", { hasText: table }).locator("tbody tr").count()) > 0, String(table));
+  assert.match(await on.locator(".table", { hasText: /on variants/ }).innerText(), /over-fit/);
+  await on.locator(".catcher").focus();
+  await on.keyboard.press("ArrowRight");
+  await on.keyboard.press("ArrowRight");
+  assert.match(await on.locator(".catcher").getAttribute("data-pointed"), /^[0-9a-f]{14}$/);
+  const [download] = await Promise.all([on.waitForEvent("download"), on.getByLabel("families as CSV").click()]);
+  assert.match(readFileSync(await download.path(), "utf8"), /^family,what,pattern,[\s\S]*,simulated,[0-9a-f]{14},/);
+  await photograph(on, "families", true);
+  assert.deepEqual(on.troubles, []);
+  await on.context().close();
   await finished.close();
 });
 
@@ -243,7 +286,7 @@ test("everything is reached with the keyboard alone", async () => {
 test("a phone shows every view without scrolling sideways", async () => {
   const finished = await openDashboard(game.folder);
   const phone = await visit(finished.url, { width: 375, height: 740, touch: true });
-  for (const name of ["game", "laboratory", "diagnosis", "explorer", "nodes"]) {
+  for (const name of ["game", "laboratory", "diagnosis", "families", "explorer", "nodes"]) {
     await phone.goto(`${finished.url}#${name}`);
     await phone.locator(".panel").first().waitFor({ timeout: 40_000 });
     await phone.waitForTimeout(500);

@@ -271,9 +271,67 @@ export interface Maps {
     seeds: number;
     samples?: number;
     map_ids: string[];
-    mechanisms?: Record<string, number | string>[];
+    mechanisms?: Mechanism[];
+    maps?: Subfamily[];
   }[];
   gamuts: string[];
+}
+
+export interface Mechanism {
+  mechanism: string;
+  patterns: number;
+  spearman_with_toughness: number;
+  partial: number;
+  p_family_wise: number;
+}
+
+/** The map of one seed's surroundings, as `nacre families` made it. */
+export interface Subfamily {
+  seed: string;
+  sampled: number;
+  interpolated: number;
+  growth: number;
+  residual_variance: number;
+}
+
+/** E and T as far as they are known. */
+export interface Values {
+  modulus_pa: number | null;
+  toughness_pa: number | null;
+}
+
+export interface FamilyDesign {
+  design: string;
+  is_seed: boolean;
+  rigid_fraction: number;
+  measured: Values;
+  global_model: Values;
+  family_model: Values;
+  film: boolean;
+}
+
+export interface Family {
+  number: number;
+  name: string;
+  round: number;
+  is_validated: boolean;
+  simulations: number;
+  samples: number;
+  gamut_count: number;
+  designs: FamilyDesign[];
+  errors: Record<"seeds" | "chosen", Record<"global" | "family", Errors | null>>;
+  over_fits: ("E" | "T")[];
+}
+
+export interface NamedSeeds {
+  name: string;
+  seeds: string[];
+}
+
+export interface Families {
+  enabled: boolean;
+  stage: Family[];
+  grouping: { from: "file" | "proposal"; problem: string; families: NamedSeeds[]; near_pareto: string[] };
 }
 
 export interface Between {

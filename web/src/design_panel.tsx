@@ -266,8 +266,8 @@ export function DesignBody({ chosen }: { chosen: Chosen }) {
       {state.film && state.simulation?.source === "here" && (
         <p class="quiet">
           Simulated just now with the model of{" "}
-          {typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model}; films of the proposals come from
-          the game.
+          {typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model}; films of proposals and of a family's
+          designs come from the game.
         </p>
       )}
     </>

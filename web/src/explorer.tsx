@@ -1,13 +1,14 @@
 // Maps of patterns: likeness as nearness, colour as modulus or toughness. A click breaks a pattern, a drag goes between patterns.
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { get, Refusal, type Between, type Maps, type PatternMap, type Rounds } from "./api";
-import { axis, basis, ChartBox, type Chart, type Option } from "./chart";
+import { get, Refusal, type Between, type Maps, type Mechanism, type PatternMap, type Rounds } from "./api";
+import { axis, basis, ChartBox, type Option } from "./chart";
 import { scaleColour, themeColour } from "./colour";
 import { DesignBody, type Chosen } from "./design_panel";
 import { newestModel } from "./game";
 import { figure, GPA, MPA, percent } from "./numbers";
 import { Table, Unit } from "./parts";
+import { ARROWS, CardTip, placeIn, useDrawn } from "./point_chart";
 
 type Coloured = "toughness" | "modulus";
 const REACH = 14;
@@ -118,10 +119,9 @@ function MapChart({
   open: (design: string, index: number | null) => void;
   theme: string;
 }) {
-  const chart = useRef<Chart | undefined>(undefined);
+  const { chart, onReady } = useDrawn();
   const overlay = useRef<HTMLDivElement>(null);
   const [pointed, setPointed] = useState<number | null>(null);
-  const [, redraw] = useState(0);
   const dragging = useRef<{ from: [number, number]; moved: boolean } | null>(null);
   const values = coloured === "modulus" ? map.modulus_pa : map.toughness_pa;
   const [low, high] = useMemo(() => range(values), [values]);
@@ -160,10 +160,7 @@ function MapChart({
 
   const pixel = (x: number, y: number) => chart.current!.convertToPixel("grid", [x, y]) as [number, number];
   const data = (px: number, py: number) => chart.current!.convertFromPixel("grid", [px, py]) as [number, number];
-  const place2 = (event: MouseEvent): [number, number] => {
-    const box = overlay.current!.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
+  const place2 = (event: MouseEvent) => placeIn(overlay.current!, event);
   const patternAt = (px: number, py: number): number | null => {
     let best: number | null = null;
     let least = REACH;
@@ -175,16 +172,10 @@ function MapChart({
     return best;
   };
   const onKey = (event: KeyboardEvent) => {
-    const arrows: Record<string, [number, number]> = {
-      ArrowLeft: [-1, 0],
-      ArrowRight: [1, 0],
-      ArrowUp: [0, 1],
-      ArrowDown: [0, -1],
-    };
     const width = Math.max(...map.x) - Math.min(...map.x);
-    if (arrows[event.key]) {
+    if (ARROWS[event.key]) {
       const from = place ?? { x: map.x[0], y: map.y[0] };
-      const [dx, dy] = arrows[event.key];
+      const [dx, dy] = ARROWS[event.key];
       setPlace({ x: from.x + dx * STEP * width, y: from.y + dy * STEP * width });
     } else if ((event.key === "Enter" || event.key === " ") && blend?.between?.pattern)
       open(blend.between.pattern, null);
@@ -199,11 +190,7 @@ function MapChart({
       label={`map of ${map.pattern.length} patterns coloured by ${coloured}`}
       option={option}
       height="var(--gamut-height)"
-      onReady={(made) => {
-        chart.current = made;
-        made.off("finished");
-        made.on("finished", () => redraw((n) => n + 1));
-      }}
+      onReady={onReady}
       table={() => ({
         heading: ["pattern", "source", "x", "y", "modulus_pa", "toughness_pa"],
         rows: map.pattern.map((p, i) => [p, map.source[i], map.x[i], map.y[i], map.modulus_pa[i], map.toughness_pa[i]]),
@@ -263,22 +250,14 @@ function MapChart({
           {handle && <circle cx={handle[0]} cy={handle[1]} r="8" class="handle" />}
         </svg>
         {pointed !== null && chart.current && (
-          <div
-            class="card-tip"
-            style={{
-              left: `${Math.min(pixel(map.x[pointed], map.y[pointed])[0] + 14, overlay.current!.clientWidth - 236)}px`,
-              top: `${Math.max(pixel(map.x[pointed], map.y[pointed])[1] - 60, 4)}px`,
-            }}
-          >
-            <Unit design={map.pattern[pointed]} size={72} label={false} />
-            <div>
-              <code class="key">{map.pattern[pointed]}</code>
-              <br />E {figure((map.modulus_pa[pointed] ?? NaN) * GPA)} GPa
-              <br />T {figure((map.toughness_pa[pointed] ?? NaN) * MPA)} MPa
-              <br />
-              <span class="quiet">{map.source[pointed]}</span>
-            </div>
-          </div>
+          <CardTip
+            at={pixel(map.x[pointed], map.y[pointed])}
+            width={overlay.current!.clientWidth}
+            design={map.pattern[pointed]}
+            modulus={(map.modulus_pa[pointed] ?? NaN) * GPA}
+            toughness={(map.toughness_pa[pointed] ?? NaN) * MPA}
+            of={map.source[pointed]}
+          />
         )}
         <span class="for-reader" aria-live="polite">
           {blend?.between?.pattern ? `between ${blend.corners.length} patterns: ${blend.between.pattern}` : ""}
@@ -452,35 +431,33 @@ export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
       </div>
       {mechanisms.length > 0 && (
         <section class="panel">
-          <Table
-            name={`mechanisms-${family}`}
-            caption={`What goes with toughness in ${family}, at equal rigid fraction and modulus (evidence, not cause)`}
-            rows={mechanisms}
-            rowKey={(m) => String(m.mechanism)}
-            empty=""
-            columns={[
-              {
-                heading: "mechanism",
-                words: true,
-                show: (m) => String(m.mechanism).replace("_", " "),
-                value: (m) => m.mechanism,
-              },
-              { heading: "patterns", show: (m) => m.patterns, value: (m) => m.patterns },
-              {
-                heading: "rank correlation",
-                show: (m) => figure(Number(m.spearman_with_toughness), 2),
-                value: (m) => m.spearman_with_toughness,
-              },
-              { heading: "partial", show: (m) => figure(Number(m.partial), 2), value: (m) => m.partial },
-              {
-                heading: "p, family-wise",
-                show: (m) => figure(Number(m.p_family_wise), 2),
-                value: (m) => m.p_family_wise,
-              },
-            ]}
-          />
+          <MechanismTable family={family!} mechanisms={mechanisms} />
         </section>
       )}
     </>
+  );
+}
+
+/** Which mechanism goes with toughness among the patterns of a family. */
+export function MechanismTable({ family, mechanisms }: { family: string; mechanisms: Mechanism[] }) {
+  return (
+    <Table
+      name={`mechanisms-${family}`}
+      caption={`What goes with toughness in ${family}, at equal rigid fraction and modulus (evidence, not cause)`}
+      rows={mechanisms}
+      rowKey={(m) => m.mechanism}
+      empty="No cracks of this family were looked at (nacre families --cracks)."
+      columns={[
+        { heading: "mechanism", words: true, show: (m) => m.mechanism.replace("_", " "), value: (m) => m.mechanism },
+        { heading: "patterns", show: (m) => m.patterns, value: (m) => m.patterns },
+        {
+          heading: "rank correlation",
+          show: (m) => figure(m.spearman_with_toughness, 2),
+          value: (m) => m.spearman_with_toughness,
+        },
+        { heading: "partial", show: (m) => figure(m.partial, 2), value: (m) => m.partial },
+        { heading: "p, family-wise", show: (m) => figure(m.p_family_wise, 2), value: (m) => m.p_family_wise },
+      ]}
+    />
   );
 }

@@ -19,7 +19,7 @@ function useGamuts(rounds: Rounds, wanted: Set<number>): Map<number, Gamut> {
   useEffect(() => {
     let dropped = false;
     for (const round of needed) {
-      loadGamut(round)
+      loadGamut({ round })
         .then((gamut) => !dropped && setGamuts((before) => new Map(before).set(round, gamut)))
         .catch(() => undefined);
     }

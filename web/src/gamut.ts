@@ -13,13 +13,15 @@ export interface Gamut {
   front: number[];
 }
 
-export async function loadGamut(round: number): Promise<Gamut> {
-  const buffer = await getBytes("/api/gamut", { round });
+/** The gamut of a round, or the variants of a family. */
+export async function loadGamut(which: { round: number } | { family: string }): Promise<Gamut> {
+  const buffer = await getBytes("/api/gamut", { ...which });
   const view = new DataView(buffer);
   if (new TextDecoder().decode(buffer.slice(0, 8)) !== "NACREGMT" || view.getUint32(8, true) !== 1)
     throw new Error("the gamut has another format");
   const length = view.getUint32(12, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 16, length))) as {
+    round: number;
     count: number;
     front: number[];
   };
@@ -32,7 +34,7 @@ export async function loadGamut(round: number): Promise<Gamut> {
     points[2 * i + 1] = toughness[i] * MPA;
   }
   header.front.sort((a, b) => modulus[a] - modulus[b]);
-  return { round, patterns: new BigUint64Array(buffer, begin, header.count), points, front: header.front };
+  return { round: header.round, patterns: new BigUint64Array(buffer, begin, header.count), points, front: header.front };
 }
 
 export const keyAt = (gamut: Gamut, index: number) => keyOfBits(gamut.patterns[index]);

@@ -1,13 +1,13 @@
-// Modulus against toughness: the clouds of the rounds, their fronts, what is proposed and measured. Pointer, touch and keys find points.
+// The gamuts of the rounds, their fronts, what is proposed and measured.
 
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import type { Rounds } from "./api";
-import { axis, basis, ChartBox, type Chart, type Option } from "./chart";
+import type { Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
 import type { Chosen } from "./design_panel";
-import { keyAt, PointIndex, staircase, type Gamut } from "./gamut";
-import { figure, GPA, MPA } from "./numbers";
-import { Unit } from "./parts";
+import { keyAt, staircase, type Gamut } from "./gamut";
+import { GPA, MPA } from "./numbers";
+import { cloudSeries, PointChart, type Spot } from "./point_chart";
 
 export interface Layers {
   cloud: boolean;
@@ -16,18 +16,6 @@ export interface Layers {
   measured: boolean;
   mixtures: boolean;
 }
-
-/** A point that can be pointed at. x in GPa, y in MPa. */
-interface Spot {
-  x: number;
-  y: number;
-  design: string;
-  of: string;
-  model: number;
-}
-
-const REACH = 16; // points on the screen within which the pointer catches
-const LARGE = 3000; // from here on a cloud is drawn in one go
 
 /** Few points that lie above the clouds: measured ones and proposals. */
 function marks(rounds: Rounds, layers: Layers, shown: Set<number>): Spot[] {
@@ -57,25 +45,6 @@ function marks(rounds: Rounds, layers: Layers, shown: Set<number>): Spot[] {
   return [...measured, ...proposals];
 }
 
-function cloudSeries(gamut: Gamut, newest: number): Option {
-  const count = gamut.patterns.length;
-  const colour = roundColour("sim", gamut.round, newest);
-  const size = count > 20_000 ? 2 : count > 2000 ? 3 : 4.5;
-  return {
-    type: "scatter",
-    name: `gamut ${gamut.round}`,
-    data: gamut.points,
-    dimensions: ["x", "y"],
-    large: count > LARGE,
-    largeThreshold: LARGE,
-    progressive: 0,
-    silent: true,
-    symbolSize: size,
-    itemStyle: { color: colour, opacity: count > 20_000 ? 0.35 : 0.55, borderWidth: 0 },
-    z: 2,
-  };
-}
-
 const line = (name: string, data: [number, number][], colour: string, more: Option = {}): Option => ({
   type: "line",
   name,
@@ -89,7 +58,8 @@ const line = (name: string, data: [number, number][], colour: string, more: Opti
 function seriesOf(rounds: Rounds, gamuts: Gamut[], layers: Layers): Option[] {
   const newest = Math.max(0, ...rounds.rounds.map((r) => r.round));
   const series: Option[] = [];
-  if (layers.cloud) for (const gamut of gamuts) series.push(cloudSeries(gamut, newest));
+  if (layers.cloud) for (const gamut of gamuts) 
+      series.push(cloudSeries(`gamut ${gamut.round}`, gamut, roundColour("sim", gamut.round, newest)));
   const units = (points: [number, number][]) => points.map(([e, t]) => [e * GPA, t * MPA] as [number, number]);
   const byRound = rounds.rounds.filter((r) => gamuts.some((g) => g.round === r.round));
   if (layers.mixtures) {
@@ -170,17 +140,6 @@ function seriesOf(rounds: Rounds, gamuts: Gamut[], layers: Layers): Option[] {
   return series;
 }
 
-/** Where a value lies on the screen, and the other way round. */
-interface Frame {
-  chart: Chart;
-  scale: [number, number];
-}
-
-function frameOf(chart: Chart): Frame {
-  const [a, b] = [chart.convertToPixel("grid", [0, 0]), chart.convertToPixel("grid", [1, 1])];
-  return { chart, scale: [Math.abs(b[0] - a[0]), Math.abs(b[1] - a[1])] };
-}
-
 export function GamutChart({
   rounds,
   gamuts,
@@ -196,213 +155,27 @@ export function GamutChart({
   choose: (c: Chosen) => void;
   theme: string;
 }) {
-  const chart = useRef<Chart | undefined>(undefined);
-  const overlay = useRef<HTMLDivElement>(null);
-  const [pointed, setPointed] = useState<Spot | null>(null);
-  const [, redraw] = useState(0);
   const shown = useMemo(
     () => new Set(gamuts.map((g) => g.round)),
     [gamuts.map((g) => `${g.round}:${g.patterns.length}`).join()],
   );
-  const indices = useMemo(() => gamuts.map((gamut) => ({ gamut, index: new PointIndex(gamut.points) })), [shown]);
   const spots = useMemo(() => marks(rounds, layers, shown), [rounds, layers, shown]);
-  const option = useMemo<Option>(
-    () => ({
-      ...basis(),
-      xAxis: axis("Young's modulus E / GPa", { min: 0 }),
-      yAxis: axis("toughness T / MPa", { min: 0, nameGap: 40 }),
-      dataZoom: [
-        {
-          type: "inside",
-          xAxisIndex: 0,
-          filterMode: "none",
-          zoomOnMouseWheel: "ctrl",
-          moveOnMouseMove: true,
-          moveOnMouseWheel: false,
-          preventDefaultMouseMove: false,
-        },
-        {
-          type: "inside",
-          yAxisIndex: 0,
-          filterMode: "none",
-          zoomOnMouseWheel: "ctrl",
-          moveOnMouseMove: true,
-          moveOnMouseWheel: false,
-          preventDefaultMouseMove: false,
-        },
-      ],
-      series: seriesOf(rounds, gamuts, layers),
-    }),
-    [rounds, shown, layers, theme],
-  );
-
-  const spotAt = (px: number, py: number): Spot | null => {
-    const { chart: c, scale } = frameOf(chart.current!);
-    if (!c.containPixel("grid", [px, py])) return null;
-    const [x, y] = c.convertFromPixel("grid", [px, py]);
-    let best: Spot | null = null;
-    let least = 1.0;
-    for (const spot of spots) {
-      const distance = Math.hypot((spot.x - x) * scale[0], (spot.y - y) * scale[1]) / REACH;
-      if (distance < least) [best, least] = [spot, distance];
-    }
-    if (best && least < 0.6) return best; // marks lie on top
-    if (layers.cloud)
-      for (const { gamut, index } of indices) {
-        const found = index.nearest(x, y, REACH / scale[0], REACH / scale[1]);
-        if (found && found.distance < least) [best, least] = [spotOf(gamut, found.index), found.distance];
-      }
-    return best;
-  };
-
-  /** The nearest point in a direction, among all that are shown. */
-  const step = (dx: number, dy: number) => {
-    const { scale } = frameOf(chart.current!);
-    const from = pointed ?? spots[0] ?? (gamuts[0] && spotOf(gamuts[0], gamuts[0].front[0]));
-    if (!from) return;
-    if (!pointed) return setPointed(from);
-    let best: Spot | null = null;
-    let least = Infinity;
-    const weigh = (x: number, y: number, make: () => Spot) => {
-      const [along, across] = [
-        (x - from.x) * dx * scale[0] + (y - from.y) * dy * scale[1],
-        Math.abs((x - from.x) * dy * scale[0]) + Math.abs((y - from.y) * dx * scale[1]),
-      ];
-      if (along <= 0.5 || along + 2 * across >= least) return;
-      least = along + 2 * across;
-      best = make();
-    };
-    for (const spot of spots) weigh(spot.x, spot.y, () => spot);
-    if (layers.cloud)
-      for (const gamut of gamuts)
-        for (let i = 0; i < gamut.patterns.length; ++i)
-          weigh(gamut.points[2 * i], gamut.points[2 * i + 1], () => spotOf(gamut, i));
-    if (best) setPointed(best);
-  };
-
-  const take = (spot: Spot | null) =>
-    spot &&
-    choose({ design: spot.design, model: spot.model, modulus: spot.x / GPA, toughness: spot.y / MPA, of: spot.of });
-  const place = (event: MouseEvent): [number, number] => {
-    const box = overlay.current!.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
-  const zoom = (factor: number) => {
-    const c = chart.current!;
-    const now = c.getOption() as { dataZoom: { start: number; end: number }[] };
-    now.dataZoom.forEach((each, dataZoomIndex) => {
-      const half = Math.min(50, ((each.end - each.start) / 2) * factor);
-      const middle = Math.min(100 - half, Math.max(half, (each.start + each.end) / 2));
-      c.dispatchAction({ type: "dataZoom", dataZoomIndex, start: middle - half, end: middle + half });
-    });
-  };
-  const onKey = (event: KeyboardEvent) => {
-    const arrows: Record<string, [number, number]> = {
-      ArrowLeft: [-1, 0],
-      ArrowRight: [1, 0],
-      ArrowUp: [0, 1],
-      ArrowDown: [0, -1],
-    };
-    if (arrows[event.key]) step(...arrows[event.key]);
-    else if (event.key === "Enter" || event.key === " ") take(pointed);
-    else if (event.key === "+") zoom(0.7);
-    else if (event.key === "-") zoom(1 / 0.7);
-    else if (event.key === "0") zoom(100);
-    else if (event.key === "Escape") setPointed(null);
-    else return;
-    event.preventDefault();
-  };
-  useEffect(() => setPointed(null), [shown]);
-
-  const pressed = useRef<[number, number] | null>(null);
-  const at = (x: number, y: number): [number, number] | null => {
-    if (!chart.current) return null;
-    const pixel = chart.current.convertToPixel("grid", [x, y]);
-    return chart.current.containPixel("grid", pixel) ? [pixel[0], pixel[1]] : null;
-  };
-  const ring = pointed && at(pointed.x, pointed.y);
-  const chosenRing = chosen && at(chosen.modulus * GPA, chosen.toughness * MPA);
+  const series = useMemo(() => seriesOf(rounds, gamuts, layers), [rounds, shown, layers, theme]);
   return (
-    <ChartBox
+    <PointChart
       name="gamut"
       label="Gamut: Young's modulus against toughness"
-      option={option}
-      height="var(--gamut-height)"
-      onReady={(made) => {
-        chart.current = made;
-        made.off("finished");
-        made.on("finished", () => redraw((n) => n + 1));
-      }}
+      series={series}
+      clouds={layers.cloud ? gamuts.map((g) => ({ gamut: g, of: `gamut of round ${g.round}`, model: g.round })) : []}
+      spots={spots}
+      chosen={chosen}
+      choose={choose}
       table={() => ({
         heading: ["round", "pattern", "modulus_pa", "toughness_pa"],
         rows: gamuts.flatMap((g) =>
           Array.from(g.patterns, (_, i) => [g.round, keyAt(g, i), g.points[2 * i] / GPA, g.points[2 * i + 1] / MPA]),
         ),
       })}
-      tools={
-        <span class="zoom">
-          <button type="button" class="quiet" aria-label="zoom in" onClick={() => zoom(0.7)}>
-            +
-          </button>
-          <button type="button" class="quiet" aria-label="zoom out" onClick={() => zoom(1 / 0.7)}>
-            −
-          </button>
-          <button type="button" class="quiet" aria-label="show everything" onClick={() => zoom(100)}>
-            all
-          </button>
-          <span class="quiet hint">drag, Ctrl + wheel; keys: arrows, Enter, + − 0</span>
-        </span>
-      }
-    >
-      <div
-        ref={overlay}
-        class="catcher"
-        tabIndex={0}
-        role="application"
-        aria-label="points of the gamut: arrow keys move, Enter opens"
-        onKeyDown={onKey}
-        data-pointed={pointed?.design ?? ""}
-        onPointerMove={(event) => setPointed(spotAt(...place(event)))}
-        onPointerLeave={() => setPointed(null)}
-        onPointerDown={(event) => (pressed.current = place(event))}
-        onClick={(event) => {
-          const [x, y] = place(event);
-          const moved = pressed.current && Math.hypot(x - pressed.current[0], y - pressed.current[1]) > 5;
-          if (!moved) take(spotAt(x, y));
-        }}
-      >
-        {chosenRing && <span class="ring chosen" style={{ left: `${chosenRing[0]}px`, top: `${chosenRing[1]}px` }} />}
-        {ring && <span class="ring" style={{ left: `${ring[0]}px`, top: `${ring[1]}px` }} />}
-        {ring && pointed && (
-          <div
-            class="card-tip"
-            style={{
-              left: `${Math.min(ring[0] + 14, overlay.current!.clientWidth - 236)}px`,
-              top: `${Math.max(ring[1] - 60, 4)}px`,
-            }}
-          >
-            <Unit design={pointed.design} size={72} label={false} />
-            <div>
-              <code class="key">{pointed.design.slice(0, 20)}</code>
-              <br />E {figure(pointed.x)} GPa
-              <br />T {figure(pointed.y)} MPa
-              <br />
-              <span class="quiet">{pointed.of}</span>
-            </div>
-          </div>
-        )}
-        <span class="for-reader" aria-live="polite">
-          {pointed ? `${pointed.of}: E ${figure(pointed.x)} gigapascal, T ${figure(pointed.y)} megapascal` : ""}
-        </span>
-      </div>
-    </ChartBox>
+    />
   );
 }
-
-const spotOf = (gamut: Gamut, index: number): Spot => ({
-  x: gamut.points[2 * index],
-  y: gamut.points[2 * index + 1],
-  design: keyAt(gamut, index),
-  of: `gamut of round ${gamut.round}`,
-  model: gamut.round,
-});

@@ -9,12 +9,13 @@ type Answer = { answer: string };
 /** Hands something in and says what came of it. */
 export function useHandIn(
   refresh: () => Promise<void>,
+  meanwhile = "waiting for the validation agent …",
 ): [Said | null, boolean, (path: string, body: unknown, done: string) => Promise<boolean>] {
   const [said, setSaid] = useState<Said | null>(null);
   const [busy, setBusy] = useState(false);
   const handIn = async (path: string, body: unknown, done: string) => {
     setBusy(true);
-    setSaid({ kind: "busy", text: "waiting for the validation agent …" });
+    setSaid({ kind: "busy", text: meanwhile });
     try {
       const { answer } = await post<Answer>(path, body);
       setSaid({ kind: "good", text: answer === "repeated" ? "The run has this already." : done });

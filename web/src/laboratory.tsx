@@ -1,11 +1,11 @@
 // The laboratory's work: decide on proposals, enter measurements, judge specimens.
 
 import { useState } from "preact/hooks";
-import { get, type DesignState, type Group, type Laboratory as Work, type RunInfo } from "./api";
+import { get, type DesignState, type Families, type Family, type Group, type Laboratory as Work, type RunInfo } from "./api";
 import { Entry } from "./entry";
 import { gpa, mpa, percent } from "./numbers";
 import { Name, Table, Unit, useRepeated, useStored } from "./parts";
-import { Proposals } from "./proposals";
+import { offerOf, Proposals } from "./proposals";
 import { Specimens } from "./review";
 
 const stateColumns = [
@@ -87,7 +87,10 @@ const groupColumns = [
 export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean }) {
   const [work, setWork] = useState<Work | null>(null);
   const [by, setBy] = useStored("by", info.user);
+  const [stage, setStage] = useState<Family[]>([]);
   const refresh = async () => {
+    const families = (await get<Families>("/api/families")).stage;
+    setStage((before) => (JSON.stringify(before) === JSON.stringify(families) ? before : families));
     const next = await get<Work>("/api/laboratory");
     setWork((before) => (JSON.stringify(before) === JSON.stringify(next) ? before : next));
   };
@@ -103,7 +106,7 @@ export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean 
           <span class="quiet">kept with everything you decide here</span>
         </div>
       )}
-      <Proposals work={work} by={by} refresh={refresh} playing={playing} approval={info.approval} />
+      <Proposals work={work} offer={offerOf(work, stage)} by={by} refresh={refresh} playing={playing} approval={info.approval} />
       <Entry work={work} refresh={refresh} playing={playing} />
       <Specimens work={work} by={by} refresh={refresh} playing={playing} />
       <section class="panel">

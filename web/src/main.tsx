@@ -6,6 +6,7 @@ import { get, Refusal, type Live, type Rounds, type RunInfo } from "./api";
 import { ThemeContext } from "./chart";
 import { Diagnosis } from "./diagnosis";
 import { Explorer } from "./explorer";
+import { Families } from "./families";
 import { Game } from "./game";
 import { Laboratory } from "./laboratory";
 import { Nodes, NodeStrip } from "./nodes";
@@ -16,6 +17,7 @@ const VIEWS = {
   game: "Game",
   laboratory: "Laboratory",
   diagnosis: "Diagnosis",
+  families: "Families",
   explorer: "Explorer",
   nodes: "Nodes",
 } as const;
@@ -144,6 +146,7 @@ function Page() {
         {view === "game" && <Game rounds={rounds} theme={theme} />}
         {view === "laboratory" && <Laboratory info={info} playing={playing} />}
         {view === "diagnosis" && <Diagnosis rounds={rounds} />}
+        {view === "families" && <Families rounds={rounds} data={data} theme={theme} run={info.run} />}
         {view === "explorer" && <Explorer rounds={rounds} theme={theme} />}
         {view === "nodes" && live && <Nodes live={live} />}
       </main>

@@ -1,19 +1,49 @@
-// The newest proposal, to be decided on, and designs of one's own.
+// What is proposed for the laboratory, to be decided on, and designs of one's own.
 
 import { useState } from "preact/hooks";
-import type { Laboratory as Work } from "./api";
+import type { Family, Laboratory as Work, Proposed } from "./api";
 import { useHandIn } from "./hand_in";
 import { gpa, mpa } from "./numbers";
 import { Name, Notice, Unit } from "./parts";
 
+/** Designs that wait for a decision: of a round, or of the families of the stage after the last one. */
+export interface Offer {
+  title: string;
+  round: number;
+  designs: Proposed[];
+}
+
+/** The stage's variants while they are measured, else the newest proposal. */
+export function offerOf(work: Work, stage: Family[]): Offer | null {
+  const open = stage.filter((f) => !f.is_validated);
+  if (open.length > 0)
+    return {
+      title: "Variants of the families",
+      round: open[0].round,
+      designs: open.flatMap((f) =>
+        f.designs
+          .filter((d) => !d.is_seed)
+          .map((d) => ({
+            design: d.design,
+            modulus_pa: d.family_model.modulus_pa ?? NaN,
+            toughness_pa: d.family_model.toughness_pa ?? NaN,
+            reason: `chosen of the variants of ${f.name}, by its own model`,
+          })),
+      ),
+    };
+  return work.proposal && { title: `Proposal of round ${work.proposal.round}`, ...work.proposal };
+}
+
 export function Proposals({
   work,
+  offer,
   by,
   refresh,
   playing,
   approval,
 }: {
   work: Work;
+  offer: Offer | null;
   by: string;
   refresh: () => Promise<void>;
   playing: boolean;
@@ -26,10 +56,10 @@ export function Proposals({
   const decide = (design: string, approved: boolean) =>
     handIn(
       "/api/approval",
-      { design, round: work.proposal!.round, approved, by, why },
+      { design, round: offer!.round, approved, by, why },
       `${design} ${approved ? "approved" : "rejected"}.`,
     );
-  if (!work.proposal)
+  if (!offer)
     return (
       <section class="panel">
         <h2>Proposals</h2>
@@ -38,14 +68,14 @@ export function Proposals({
     );
   return (
     <section class="panel">
-      <h2>Proposal of round {work.proposal.round}</h2>
+      <h2>{offer.title}</h2>
       <p class="quiet">
         {approval
           ? "The game waits for a yes or no to each design."
           : "This game does not wait for a person's yes; a no still keeps a design from being measured when it comes in time."}
       </p>
       <ul class="cards">
-        {work.proposal.designs.map((p) => {
+        {offer.designs.map((p) => {
           const state = stateOf(p.design);
           const open = state === undefined || state.state === "pending";
           return (

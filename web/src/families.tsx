@@ -1,0 +1,490 @@
+// The families of a run: near-Pareto designs in groups, the variants of each by its own model, and whether that model was worth it.
+
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { get, type Errors, type Families as Said, type Family, type FamilyDesign, type Maps, type Rounds } from "./api";
+import type { Option } from "./chart";
+import { themeColour } from "./colour";
+import { DesignBody, type Chosen } from "./design_panel";
+import { MechanismTable } from "./explorer";
+import { Grouping } from "./family_grouping";
+import { newestModel } from "./game";
+import { keyAt, loadGamut, type Gamut } from "./gamut";
+import { figure, gpa, GPA, MPA, mpa, percent } from "./numbers";
+import { Table, Unit } from "./parts";
+import { cloudSeries, PointChart, type Spot } from "./point_chart";
+
+const THESIS_GROWTH = 0.045; // Table A.7, the mean of eleven subfamilies
+const COLOURS = 6;
+
+/** Colour of the n-th family, as a custom property of the page. */
+const familyVariable = (index: number) => `family-${(index % COLOURS) + 1}`;
+
+/** A family as it is drawn: with its stage, or as seeds alone. */
+interface Shown {
+  name: string;
+  index: number;
+  seeds: string[];
+  stage: Family | null;
+  gamut: Gamut | null;
+}
+
+/** What the server says of the families, again whenever the run's data change. */
+function useFamilies(data: string | null): { said: Said | null; maps: Maps | null; refresh: () => Promise<void> } {
+  const [said, setSaid] = useState<Said | null>(null);
+  const [maps, setMaps] = useState<Maps | null>(null);
+  const refresh = async () => {
+    setSaid(await get<Said>("/api/families"));
+    setMaps(await get<Maps>("/api/maps"));
+  };
+  useEffect(() => void refresh().catch(() => undefined), [data]);
+  return { said, maps, refresh };
+}
+
+/** The variants of every family of the stage. */
+function useVariants(stage: Family[]): Map<string, Gamut> {
+  const [variants, setVariants] = useState(new Map<string, Gamut>());
+  const known = stage.map((f) => `${f.name}:${f.gamut_count}`).join();
+  useEffect(() => {
+    let dropped = false;
+    const loads = stage
+      .filter((f) => f.gamut_count > 0)
+      .map(async (f) => [f.name, await loadGamut({ family: f.name })] as const);
+    Promise.all(loads)
+      .then((loaded) => !dropped && setVariants(new Map(loaded)))
+      .catch(() => undefined);
+    return () => {
+      dropped = true;
+    };
+  }, [known]);
+  return variants;
+}
+
+const isKnown = (v: { modulus_pa: number | null; toughness_pa: number | null }) =>
+  v.modulus_pa !== null && v.toughness_pa !== null;
+const pointOf = (v: { modulus_pa: number | null; toughness_pa: number | null }): [number, number] => [
+  v.modulus_pa! * GPA,
+  v.toughness_pa! * MPA,
+];
+
+function seriesOf(rounds: Rounds, families: Shown[], variants: boolean): Option[] {
+  const panel = themeColour("panel");
+  const scatter = (name: string, data: unknown[], style: Option, more: Option = {}): Option => ({
+    type: "scatter",
+    name,
+    data,
+    silent: true,
+    itemStyle: style,
+    ...more,
+  });
+  const measured = new Map(rounds.measured.map((m) => [m.design, [m.modulus_pa * GPA, m.toughness_pa * MPA]]));
+  const series: Option[] = [
+    scatter("measured", [...measured.values()], { color: themeColour("homo"), opacity: 0.7 }, { symbolSize: 6, z: 3 }),
+  ];
+  for (const family of families) {
+    const colour = themeColour(familyVariable(family.index));
+    if (variants && family.gamut) series.push(cloudSeries(`${family.name}, variants`, family.gamut, colour));
+    series.push(
+      scatter(
+        `${family.name}, seeds`,
+        family.seeds.map((s) => measured.get(s)).filter(Boolean),
+        { color: colour, borderColor: panel, borderWidth: 1 },
+        { symbol: "diamond", symbolSize: 15, z: 6 },
+      ),
+    );
+    const chosen = family.stage?.designs.filter((d) => !d.is_seed) ?? [];
+    const steps = chosen
+      .filter((d) => isKnown(d.measured) && isKnown(d.family_model))
+      .flatMap((d) => [pointOf(d.family_model), pointOf(d.measured), [null, null]]);
+    series.push(
+      {
+        type: "line",
+        name: `${family.name}, from foretold to measured`,
+        data: steps,
+        symbol: "none",
+        silent: true,
+        lineStyle: { color: colour, width: 1.2 },
+        z: 5,
+      },
+      scatter(
+        `${family.name}, chosen, foretold`,
+        chosen.filter((d) => isKnown(d.family_model)).map((d) => pointOf(d.family_model)),
+        { color: "transparent", borderColor: colour, borderWidth: 2 },
+        { symbolSize: 11, z: 7 },
+      ),
+      scatter(
+        `${family.name}, chosen, measured`,
+        chosen.filter((d) => isKnown(d.measured)).map((d) => pointOf(d.measured)),
+        { color: colour, borderColor: panel, borderWidth: 1 },
+        { symbolSize: 11, z: 8 },
+      ),
+    );
+  }
+  return series;
+}
+
+function spotsOf(rounds: Rounds, families: Shown[], newest: number): Spot[] {
+  const spots: Spot[] = [];
+  const taken = new Set<string>();
+  const add = (design: string, [x, y]: [number, number], of: string, model: number | string) =>
+    spots.push({ x, y, design, of, model });
+  for (const family of families) {
+    const model = family.stage ? family.name : newest;
+    for (const d of family.stage?.designs ?? []) {
+      if (d.is_seed) continue;
+      if (isKnown(d.measured)) add(d.design, pointOf(d.measured), `${family.name}: variant, measured`, model);
+      if (isKnown(d.family_model)) add(d.design, pointOf(d.family_model), `${family.name}: variant, foretold`, model);
+      taken.add(d.design);
+    }
+    for (const m of rounds.measured) {
+      if (!family.seeds.includes(m.design)) continue;
+      add(m.design, pointOf(m), `${family.name}: seed, measured in round ${m.round}`, model);
+      taken.add(m.design);
+    }
+  }
+  for (const m of rounds.measured)
+    if (!taken.has(m.design)) add(m.design, pointOf(m), `measured in round ${m.round}`, newest);
+  return spots;
+}
+
+function ErrorTable({ families, which }: { families: Family[]; which: "seeds" | "chosen" }) {
+  const mean = (e: Errors | null, kind: "modulus" | "toughness") =>
+    e && e[`${kind}_count`] > 0 ? e[`${kind}_mean`] : null;
+  const column = (heading: string, model: "global" | "family", kind: "modulus" | "toughness") => ({
+    heading,
+    show: (f: Family) => percent(mean(f.errors[which][model], kind)),
+    value: (f: Family) => mean(f.errors[which][model], kind),
+  });
+  const verdict = {
+    heading: "own model",
+    words: true,
+    show: (f: Family) =>
+      !f.is_validated ? (
+        <span class="quiet">awaits its measurements</span>
+      ) : f.over_fits.length > 0 ? (
+        <strong class="bad">over-fits {f.over_fits.join(" and ")}</strong>
+      ) : (
+        "does not over-fit"
+      ),
+    value: (f: Family) => (f.is_validated ? f.over_fits.join(" ") : "awaited"),
+  };
+  return (
+    <Table
+      name={which === "seeds" ? "family-errors-seeds" : "family-errors-variants"}
+      caption={
+        which === "seeds"
+          ? "Mean relative errors on the seeds, which the family's own model was calibrated on"
+          : "Mean relative errors on variants, foretold before they were measured"
+      }
+      rows={families}
+      rowKey={(f) => f.name}
+      empty=""
+      columns={[
+        { heading: "family", words: true, show: (f) => f.name, value: (f) => f.name },
+        {
+          heading: "designs",
+          show: (f) => f.designs.filter((d) => d.is_seed === (which === "seeds")).length,
+          value: (f) => f.designs.filter((d) => d.is_seed === (which === "seeds")).length,
+        },
+        column("E global", "global", "modulus"),
+        column("E own", "family", "modulus"),
+        column("T global", "global", "toughness"),
+        column("T own", "family", "toughness"),
+        ...(which === "chosen" ? [verdict] : []),
+      ]}
+    />
+  );
+}
+
+function DesignTable({ families, open }: { families: Family[]; open: (f: Family, d: FamilyDesign) => void }) {
+  const rows = families.flatMap((family) => family.designs.map((design) => ({ family, design })));
+  type Row = (typeof rows)[number];
+  const values = (heading: string, of: "measured" | "global_model" | "family_model", kind: "E" | "T") => ({
+    heading,
+    show: ({ design }: Row) => (kind === "E" ? gpa(design[of].modulus_pa) : mpa(design[of].toughness_pa)),
+    value: ({ design }: Row) => (kind === "E" ? design[of].modulus_pa : design[of].toughness_pa),
+  });
+  return (
+    <Table
+      name="family-designs"
+      caption="Seeds and chosen variants (E in GPa, T in MPa)"
+      rows={rows}
+      rowKey={({ family, design }) => `${family.name} ${design.design}`}
+      empty=""
+      columns={[
+        { heading: "family", words: true, show: (r) => r.family.name, value: (r) => r.family.name },
+        {
+          heading: "role",
+          words: true,
+          show: (r) => (r.design.is_seed ? "seed" : "variant"),
+          value: (r) => (r.design.is_seed ? "seed" : "variant"),
+        },
+        {
+          heading: "design",
+          words: true,
+          show: (r) => (
+            <button
+              type="button"
+              class="link"
+              onClick={() => {
+                open(r.family, r.design);
+                window.scrollTo({ top: 0, behavior: "smooth" });
+              }}
+            >
+              <code class="key">{r.design.design}</code>
+            </button>
+          ),
+          value: (r) => r.design.design,
+        },
+        { heading: "rigid", show: (r) => percent(r.design.rigid_fraction, 0), value: (r) => r.design.rigid_fraction },
+        values("E measured", "measured", "E"),
+        values("E global", "global_model", "E"),
+        values("E own", "family_model", "E"),
+        values("T measured", "measured", "T"),
+        values("T global", "global_model", "T"),
+        values("T own", "family_model", "T"),
+      ]}
+    />
+  );
+}
+
+function SubfamilyTable({ maps }: { maps: Maps }) {
+  const rows = maps.families.flatMap((f) => (f.maps ?? []).map((map) => ({ family: f.name, ...map })));
+  if (rows.length === 0) return null;
+  return (
+    <section class="panel">
+      <Table
+        name="subfamilies"
+        caption={`Subfamilies: what interpolation adds to the variants around a seed (thesis, Table A.7: ${percent(THESIS_GROWTH)})`}
+        rows={rows}
+        rowKey={(r) => `${r.family} ${r.seed}`}
+        empty=""
+        columns={[
+          { heading: "family", words: true, show: (r) => r.family, value: (r) => r.family },
+          {
+            heading: "seed",
+            words: true,
+            show: (r) => (
+              <span class="with-unit">
+                <Unit design={r.seed} size={26} label={false} />
+                <code class="key">{r.seed}</code>
+              </span>
+            ),
+            value: (r) => r.seed,
+          },
+          { heading: "sampled", show: (r) => r.sampled, value: (r) => r.sampled },
+          { heading: "interpolated", show: (r) => r.interpolated, value: (r) => r.interpolated },
+          { heading: "growth", show: (r) => percent(r.growth), value: (r) => r.growth },
+          {
+            heading: "variance kept by the map",
+            show: (r) => percent(1 - r.residual_variance),
+            value: (r) => 1 - r.residual_variance,
+          },
+        ]}
+      />
+    </section>
+  );
+}
+
+/** What there is to say before, or instead of, a stage. */
+function Standing({ said }: { said: Said }) {
+  const over = said.stage.filter((f) => f.over_fits.length > 0);
+  if (said.stage.length === 0)
+    return (
+      <p class="quiet">
+        {said.enabled
+          ? "After the last round the validation agent calibrates a model of each family, chooses variants and has them measured. Until then: the best designs so far, grouped."
+          : "The best designs measured so far, grouped by pattern and properties. This game plays no family stage ([families] enabled = true asks for one); nacre families works the groups out afterwards."}
+      </p>
+    );
+  return (
+    <>
+      <p class="quiet">
+        Diamonds: measured seeds. Small points: variants within 16 pixels, by the family's own model. Rings: variants
+        chosen for the laboratory, foretold; a line leads to what was measured.
+      </p>
+      {over.map((f) => (
+        <p key={f.name} class="notice bad" role="status">
+          {f.name}: its own model over-fits {f.over_fits.join(" and ")} – nearer to the seeds than the global one, farther
+          from the variants. Trust the global model there.
+        </p>
+      ))}
+    </>
+  );
+}
+
+export function Families({
+  rounds,
+  data,
+  theme,
+  run,
+}: {
+  rounds: Rounds;
+  data: string | null;
+  theme: string;
+  run: string;
+}) {
+  const { said, maps, refresh } = useFamilies(data);
+  const gamuts = useVariants(said?.stage ?? []);
+  const [hidden, setHidden] = useState<Set<string>>(new Set());
+  const [variants, setVariants] = useState(true);
+  const [chosen, setChosen] = useState<Chosen | null>(null);
+  const all = useMemo<Shown[]>(() => {
+    if (!said) return [];
+    if (said.stage.length === 0)
+      return said.grouping.families.map((g, index) => ({ ...g, index, stage: null, gamut: null }));
+    return said.stage.map((stage, index) => ({
+      name: stage.name,
+      index,
+      seeds: stage.designs.filter((d) => d.is_seed).map((d) => d.design),
+      stage,
+      gamut: gamuts.get(stage.name) ?? null,
+    }));
+  }, [said, gamuts]);
+  const shown = useMemo(() => all.filter((f) => !hidden.has(f.name)), [all, hidden]);
+  const newest = newestModel(rounds);
+  const series = useMemo(() => seriesOf(rounds, shown, variants), [rounds, shown, variants, theme]);
+  const spots = useMemo(() => spotsOf(rounds, shown, newest), [rounds, shown, newest]);
+  const clouds = useMemo(
+    () =>
+      variants
+        ? shown.flatMap((f) => (f.gamut ? [{ gamut: f.gamut, of: `${f.name}: variant`, model: f.name }] : []))
+        : [],
+    [shown, variants],
+  );
+  if (!said) return <p class="awaited wait">reading …</p>;
+  if (all.length === 0)
+    return (
+      <p class="awaited wait">
+        No pattern has been measured in both tests yet: the families of the best designs appear here.
+      </p>
+    );
+  const open = (family: Family, design: FamilyDesign) =>
+    setChosen({
+      design: design.design,
+      model: family.name,
+      modulus: design.family_model.modulus_pa ?? NaN,
+      toughness: design.family_model.toughness_pa ?? NaN,
+      of: `${family.name}: ${design.is_seed ? "seed" : "variant"}`,
+    });
+  const flip = (name: string) => {
+    const next = new Set(hidden);
+    if (!next.delete(name)) next.add(name);
+    setHidden(next);
+  };
+  return (
+    <>
+      <div class="split">
+        <div class="stack">
+        <section class="panel gamut">
+          <div class="panel-head">
+            <h2>Families</h2>
+            <div class="toggles">
+              <fieldset>
+                <legend>show</legend>
+                {all.map((f) => (
+                  <label key={f.name} class="toggle" style={{ "--c": `var(--${familyVariable(f.index)})` } as never}>
+                    <input type="checkbox" checked={!hidden.has(f.name)} onChange={() => flip(f.name)} />
+                    <span>{f.name}</span>
+                  </label>
+                ))}
+                {said.stage.length > 0 && (
+                  <label class="toggle" style={{ "--c": "var(--homo)" } as never}>
+                    <input type="checkbox" checked={variants} onChange={() => setVariants(!variants)} />
+                    <span>variants</span>
+                  </label>
+                )}
+              </fieldset>
+            </div>
+          </div>
+          <Standing said={said} />
+          <PointChart
+            name="families"
+            label="Families: Young's modulus against toughness"
+            series={series}
+            clouds={clouds}
+            spots={spots}
+            chosen={chosen}
+            choose={setChosen}
+            table={() => ({
+              heading: ["family", "what", "pattern", "modulus_pa", "toughness_pa"],
+              rows: shown.flatMap((f) => [
+                ...spots
+                  .filter((s) => s.of.startsWith(`${f.name}:`))
+                  .map((s) => [f.name, s.of.slice(f.name.length + 2), s.design, s.x / GPA, s.y / MPA]),
+                ...(f.gamut
+                  ? Array.from(f.gamut.patterns, (_, i) => [
+                      f.name,
+                      "simulated",
+                      keyAt(f.gamut!, i),
+                      f.gamut!.points[2 * i] / GPA,
+                      f.gamut!.points[2 * i + 1] / MPA,
+                    ])
+                  : []),
+              ]),
+            })}
+          />
+        </section>
+        {said.stage.length > 0 && (
+          <section class="panel after">
+            <ErrorTable families={said.stage} which="chosen" />
+            <ErrorTable families={said.stage} which="seeds" />
+          </section>
+        )}
+        </div>
+        <section class="panel design" aria-label="design">
+          <div class="panel-head">
+            <h2>Design</h2>
+          </div>
+          {chosen ? (
+            <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} />
+          ) : (
+            <>
+              <p class="quiet">Click a point, or press Enter on it, to see it break by its family's model.</p>
+              {shown.map((family) => {
+                const spotsOfIt = spots.filter((s) => s.of.startsWith(`${family.name}:`));
+                const variantsOfIt = spotsOfIt.filter((s) => s.of.endsWith("foretold"));
+                return (
+                  <div key={family.name}>
+                    <h3>
+                      {family.name}: {variantsOfIt.length > 0 ? "variants chosen for the laboratory" : "seeds"}
+                    </h3>
+                    <ul class="units">
+                      {(variantsOfIt.length > 0 ? variantsOfIt : spotsOfIt).map((s) => (
+                        <li key={s.design}>
+                          <button
+                            type="button"
+                            class="unit-button"
+                            onClick={() => setChosen({ ...s, modulus: s.x / GPA, toughness: s.y / MPA })}
+                          >
+                            <Unit design={s.design} size={66} />
+                            <span>
+                              E {figure(s.x)} · T {figure(s.y)}
+                            </span>
+                          </button>
+                        </li>
+                      ))}
+                    </ul>
+                  </div>
+                );
+              })}
+            </>
+          )}
+        </section>
+      </div>
+      {said.stage.length > 0 && (
+        <section class="panel">
+          <DesignTable families={said.stage} open={open} />
+        </section>
+      )}
+      {maps && <SubfamilyTable maps={maps} />}
+      {maps?.families
+        .filter((f) => f.mechanisms && f.mechanisms.length > 0)
+        .map((f) => (
+          <section key={f.name} class="panel">
+            <MechanismTable family={f.name} mechanisms={f.mechanisms!} />
+          </section>
+        ))}
+      <Grouping said={said} run={run} refresh={refresh} colour={familyVariable} />
+    </>
+  );
+}
