@@ -70,26 +70,22 @@ std::vector<PrintedRow> read_printed(const RunAccess& run) {
 }
 
 template <class Domain, class Take>
-void take_each(const std::vector<std::string>& payloads, const Take& take) {
-  for (const std::string& payload : payloads) {
-    if (auto message = wire::read<Domain>(payload)) take(*message);
-  }
+auto each(const Take& take) {
+  return [take](const std::string& payload) {
+    if (const auto message = wire::read<Domain>(payload)) take(*message);
+  };
 }
 
-void take_reviews(const RunAccess& run, game::MeasurementBook& book) {
-  for (const std::string& payload : received_by_validation_agent(run, "REVIEW")) {
-    if (const auto review = wire::decode_safe<review_t>(payload))
-      book.review(review->specimen, {review->revision, review->valid != 0, review->why});
-  }
+void take_review(const std::string& payload, game::MeasurementBook& book) {
+  if (const auto review = wire::decode_safe<review_t>(payload))
+    book.review(review->specimen, {review->revision, review->valid != 0, review->why});
 }
 
-void take_approvals(const RunAccess& run, game::LaboratoryFacts& facts) {
-  for (const std::string& payload : received_by_validation_agent(run, "APPROVAL")) {
-    const auto approval = wire::decode_safe<approval_t>(payload);
-    if (!approval) continue;
-    if (const auto design = pattern::design_from_name(approval->design))
-      facts.decisions.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
-  }
+void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
+  const auto approval = wire::decode_safe<approval_t>(payload);
+  if (!approval) return;
+  if (const auto design = pattern::design_from_name(approval->design))
+    facts.decisions.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
 }
 
 }  // namespace
@@ -98,16 +94,18 @@ LaboratoryView view_laboratory(const RunAccess& run) {
   LaboratoryView view;
   game::LaboratoryFacts& facts = view.facts;
   facts.enough_valid = run.scenario.validation.enough_valid;
-  take_each<wire::Proposal>(received_by_validation_agent(run, "PROPOSAL"), [&](const wire::Proposal& proposal) {
+  const auto take_proposal = [&](const wire::Proposal& proposal) {
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
     if (!view.newest_proposal || proposal.round >= view.newest_proposal->round) view.newest_proposal = proposal;
-  });
-  take_each<wire::TestOrder>(sent_by_validation_agent(run, "TEST_ORDER"),
-                             [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); });
-  take_each<wire::Measurement>(received_by_validation_agent(run, "MEASUREMENT"),
-                               [&](const wire::Measurement& one) { facts.book.enter(one.record, one.order_id); });
-  take_reviews(run, facts.book);
-  take_approvals(run, facts);
+  };
+  const auto take_order = [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); };
+  const auto take_measurement = [&](const wire::Measurement& one) { facts.book.enter(one.record, one.order_id); };
+  read_validation_agent(run,
+                        {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
+                         {"MEASUREMENT", each<wire::Measurement>(take_measurement)},
+                         {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
+                         {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
+                        {{"TEST_ORDER", each<wire::TestOrder>(take_order)}});
   for (const auto& [specimen, by] : read_printed(run)) facts.printed.push_back(specimen);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);

@@ -23,18 +23,6 @@ runtime::BusOptions bus_options(const RunAccess& run, const std::string& name) {
   return options;
 }
 
-/// Records of one channel of the agent's journal, oldest first.
-std::vector<std::string> journaled_by_validation_agent(const RunAccess& run, const std::string& channel) {
-  const auto journal = run.folder / "nodes" / "validation_agent" / "journal.lcm";
-  std::vector<std::string> records;
-  if (!std::filesystem::exists(journal)) return records;
-  runtime::LogReader reader(journal);
-  while (auto record = reader.next()) {
-    if (record->channel == channel) records.push_back(std::move(record->data));
-  }
-  return records;
-}
-
 }  // namespace
 
 std::string user_name() {
@@ -81,16 +69,31 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
   return 1;
 }
 
+void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent) {
+  const auto journal = run.folder / "nodes" / "validation_agent" / "journal.lcm";
+  if (!std::filesystem::exists(journal)) return;
+  runtime::LogReader reader(journal);
+  while (const auto record = reader.next()) {
+    std::string_view channel = record->channel;
+    if (channel.starts_with(runtime::kOutPrefix)) {
+      channel.remove_prefix(runtime::kOutPrefix.size());
+      if (const auto taker = sent.find(channel); taker != sent.end()) taker->second(record->data);
+    } else if (const auto taker = received.find(channel); taker != received.end()) {
+      if (const auto blanked = wire::blank_header(channel, record->data)) taker->second(blanked->payload);
+    }
+  }
+}
+
 std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel) {
   std::vector<std::string> payloads;
-  for (const std::string& message : journaled_by_validation_agent(run, channel)) {
-    if (auto blanked = wire::blank_header(channel, message)) payloads.push_back(std::move(blanked->payload));
-  }
+  read_validation_agent(run, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}}, {});
   return payloads;
 }
 
 std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const std::string& channel) {
-  return journaled_by_validation_agent(run, std::string(runtime::kOutPrefix) + channel);
+  std::vector<std::string> payloads;
+  read_validation_agent(run, {}, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}});
+  return payloads;
 }
 
 }  // namespace nacre::cli

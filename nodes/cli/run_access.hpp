@@ -2,6 +2,8 @@
 // How subcommands reach a run: its folder, its bus, its validation agent's journal.
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,8 +43,14 @@ std::unique_ptr<runtime::Endpoint> speak(const RunAccess& run, const std::string
 /// time.
 int deliver(const RunAccess& run, const std::string& name, const runtime::Message& message, double timeout_s);
 
-/// What the validation agent has received on `channel` so far, oldest first, as payloads with blank header; empty
-/// before its first message and on machines that do not hold the run's folder.
+/// Who takes a payload (with blank header), by channel.
+using Takers = std::map<std::string, std::function<void(const std::string& payload)>, std::less<>>;
+
+/// Hands out what the validation agent has received and sent so far on these channels, oldest first, in one reading of its
+/// journal; nothing before its first message and on machines that do not hold the run's folder.
+void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent);
+
+/// What it has received on `channel` alone.
 std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel);
 
 /// The same for what it has sent.
