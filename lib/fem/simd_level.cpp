@@ -16,14 +16,17 @@ std::string_view to_string(SimdLevel level) {
   return "unknown";
 }
 
+// By features, since Clang before 18 does not know the levels x86-64-v3 and -v4 by name.
 bool has_simd_level(SimdLevel level) {
   switch (level) {
     case SimdLevel::baseline:
       return true;
     case SimdLevel::avx2:
-      return __builtin_cpu_supports("x86-64-v3");
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+             __builtin_cpu_supports("bmi2");
     case SimdLevel::avx512:
-      return __builtin_cpu_supports("x86-64-v4");
+      return has_simd_level(SimdLevel::avx2) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
   }
   return false;
 }
