@@ -34,6 +34,7 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--surrogate-population", learned.population)->capture_default_str();
   command.add_option("--optimism", learned.optimism)->capture_default_str();
   command.add_option("--most-samples", learned.most_samples)->capture_default_str();
+  command.add_option("--floor-deviations", learned.floor_deviations)->capture_default_str();
   command.add_flag_function(
       "--thesis", [&learned](std::int64_t) { learned = nacre::explore::thesis_learning(); }, "the learning of 2.3.3");
 }

@@ -9,6 +9,20 @@ namespace {
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
+/// What is left of the errors once the value of one pattern is known.
+void learn(Eigen::MatrixXd& covariance, std::size_t known, std::vector<Belief>& beliefs, LogNormal Belief::*property) {
+  if (covariance.size() == 0) return;
+  const auto i = static_cast<Eigen::Index>(known);
+  const double variance = covariance(i, i);
+  if (variance <= 0.0) return;
+  const Eigen::VectorXd column = covariance.col(i);
+  covariance.noalias() -= column * column.transpose() / variance;
+  for (std::size_t k = 0; k < beliefs.size(); ++k) {
+    const double left = covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
+    (beliefs[k].*property).log_deviation = std::sqrt(std::max(0.0, left));
+  }
+}
+
 }  // namespace
 
 double LogNormal::median() const { return std::exp(log_mean); }
@@ -34,11 +48,12 @@ double expected_improvement(const Belief& belief, std::span<const optimize::Perf
   return improvement + excess * belief.toughness.expected_excess(0.0);
 }
 
-std::vector<std::size_t> best_improvements(std::span<const Belief> beliefs, std::vector<optimize::Performance> front,
-                                           int count) {
+std::vector<std::size_t> best_improvements(std::vector<Belief> beliefs, std::vector<optimize::Performance> front,
+                                           int count, SharedErrors shared) {
   std::vector<std::size_t> chosen;
   std::vector<bool> taken(beliefs.size(), false);
-  // What a belief can add only falls as the front grows: an old value is a bound, and most need no new one.
+  // What a belief can add only falls as the front grows and as it gets surer: an old value is a bound, and most need no
+  // new one.
   std::vector<double> bound(beliefs.size());
   for (std::size_t i = 0; i < beliefs.size(); ++i) bound[i] = expected_improvement(beliefs[i], front);
   std::vector<std::size_t> order(beliefs.size());
@@ -56,6 +71,8 @@ std::vector<std::size_t> best_improvements(std::span<const Belief> beliefs, std:
     chosen.push_back(best);
     front.push_back(beliefs[best].median());
     front = optimize::pareto_front(front);
+    learn(shared.log_modulus, best, beliefs, &Belief::modulus);
+    learn(shared.log_toughness, best, beliefs, &Belief::toughness);
   }
   return chosen;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // How much a simulation can be expected to enlarge the dominated area, in closed form.
 
+#include <Eigen/Dense>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,14 @@ struct Belief {
 /// sum over steps is exact.
 double expected_improvement(const Belief& belief, std::span<const optimize::Performance> front);
 
-/// Indices of up to `count` beliefs, chosen one by one for the largest expected improvement over the front and, as if
-/// they came true, the medians of those already chosen.
-std::vector<std::size_t> best_improvements(std::span<const Belief> beliefs, std::vector<optimize::Performance> front,
-                                           int count);
+/// How the errors of beliefs about several patterns hang together, n x n each; empty: not at all.
+struct SharedErrors {
+  Eigen::MatrixXd log_modulus, log_toughness;
+};
+
+/// Indices of up to `count` beliefs, chosen one by one for the largest expected improvement over the front as if those
+/// already chosen had come out at their medians: these stand in the front, and what is like them is no longer unsure.
+std::vector<std::size_t> best_improvements(std::vector<Belief> beliefs, std::vector<optimize::Performance> front,
+                                           int count, SharedErrors shared = {});
 
 }  // namespace nacre::explore

@@ -1,5 +1,6 @@
 #include "explore/learned.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,23 +15,45 @@
 namespace nacre::explore {
 namespace {
 
-/// Candidates whose uncertainty is looked at.
-constexpr std::size_t kShortList = 1000;
+/// Candidates whose uncertainty is looked at, and those of them that a batch is chosen from.
+constexpr std::size_t kShortList = 1000, kFinalists = 250;
+
+std::vector<pattern::Pattern> patterns_of(std::span<const Evaluated> samples) {
+  std::vector<pattern::Pattern> patterns;
+  for (const Evaluated& sample : samples) patterns.push_back(sample.pattern);
+  return patterns;
+}
+
+std::vector<Belief> beliefs_about(const Predictors& predictors, std::span<const pattern::Pattern> patterns) {
+  const auto modulus = predictors.modulus->predict(patterns), toughness = predictors.toughness->predict(patterns);
+  std::vector<Belief> beliefs;
+  for (std::size_t i = 0; i < patterns.size(); ++i)
+    beliefs.push_back({{modulus[i].mean, modulus[i].deviation}, {toughness[i].mean, toughness[i].deviation}});
+  return beliefs;
+}
+
+/// The patterns whose own improvement is expected to be largest.
+std::vector<pattern::Pattern> finalists(const Predictors& predictors, std::span<const pattern::Pattern> patterns,
+                                        std::span<const optimize::Performance> front) {
+  const std::vector<Belief> beliefs = beliefs_about(predictors, patterns);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < patterns.size(); ++i) order.emplace_back(-expected_improvement(beliefs[i], front), i);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), kFinalists));
+  std::vector<pattern::Pattern> best;
+  for (const auto& [improvement, i] : order) best.push_back(patterns[i]);
+  return best;
+}
 
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
                                                     std::span<const Evaluated> evaluated, int count) {
-  const std::vector<Evaluated> shortlist = best_by_rank(candidates, kShortList);
-  std::vector<pattern::Pattern> patterns;
-  for (const Evaluated& candidate : shortlist) patterns.push_back(candidate.pattern);
-  const auto modulus = predictors.modulus->predict(patterns), toughness = predictors.toughness->predict(patterns);
-  std::vector<Belief> beliefs;
-  for (std::size_t i = 0; i < patterns.size(); ++i) {
-    beliefs.push_back({{modulus[i].mean, modulus[i].deviation}, {toughness[i].mean, toughness[i].deviation}});
-  }
+  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(evaluated));
+  const auto patterns = finalists(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
   std::vector<pattern::Pattern> batch;
-  for (const std::size_t i : best_improvements(beliefs, optimize::pareto_front(performances_of(evaluated)), count)) {
+  for (const std::size_t i :
+       best_improvements(beliefs_about(predictors, patterns), front, count,
+                         {predictors.modulus->covariance(patterns), predictors.toughness->covariance(patterns)}))
     batch.push_back(patterns[i]);
-  }
   return batch;
 }
 
@@ -52,15 +75,17 @@ void check_learned(const LearnedSettings& settings) {
   check(settings.generations >= 1, "generations", settings.generations, "at least 1");
   check(settings.population >= 2, "population", settings.population, "at least 2");
   check(settings.optimism >= 0.0 && settings.optimism <= 10.0, "optimism", settings.optimism, "0 to 10 deviations");
+  check(settings.floor_deviations >= 0.0, "floor_deviations", settings.floor_deviations, "at least 0");
   check(settings.most_samples >= 10, "most_samples", settings.most_samples, "at least 10");
 }
 
 std::string to_text(const LearnedSettings& settings) {
   return fmt::format(
       "predictor={} choice={} generations={} population={} optimism={} most_samples={} members={} warm_start={} "
-      "weight_decay={} dropout={}",
+      "weight_decay={} dropout={} floor_deviations={}",
       settings.predictor, settings.choice, settings.generations, settings.population, settings.optimism,
-      settings.most_samples, settings.members, settings.warm_start, settings.weight_decay, settings.dropout);
+      settings.most_samples, settings.members, settings.warm_start, settings.weight_decay, settings.dropout,
+      settings.floor_deviations);
 }
 
 LearnedSettings thesis_learning() {

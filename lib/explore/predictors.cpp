@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Dense>
+
+#include "base/statistics.hpp"
 #include "explore/surrogate_search.hpp"
 #include "surrogate/network.hpp"
 #include "surrogate/patch_process.hpp"
@@ -31,6 +34,36 @@ LogSamples logarithms(std::span<const Evaluated> samples) {
     logs.log_toughness.push_back(std::log(std::max(kLeast, sample.performance.toughness_pa)));
   }
   return logs;
+}
+
+/// A parabola over the rigid fraction, by least squares.
+std::vector<double> trend_of(const std::vector<pattern::Pattern>& patterns, const std::vector<double>& values) {
+  Eigen::MatrixXd terms(static_cast<Eigen::Index>(patterns.size()), 3);
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    const double fraction = patterns[i].rigid_fraction();
+    terms.row(static_cast<Eigen::Index>(i)) << 1.0, fraction, fraction * fraction;
+  }
+  const Eigen::Map<const Eigen::VectorXd> y(values.data(), terms.rows());
+  const Eigen::VectorXd trend = terms * terms.colPivHouseholderQr().solve(y);
+  return {trend.begin(), trend.end()};
+}
+
+/// Raises what lies too far below the trend. How bad a bad pattern is says nothing about the good ones, and the few
+/// that fall apart at once (a factor of a hundred) would make a process of all others too rough and too unsure.
+void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<double>& values, double deviations) {
+  constexpr std::size_t kFewest = 10;
+  constexpr int kTimes = 4;  // the trend itself is drawn down at first
+  if (deviations <= 0.0 || values.size() < kFewest) return;
+  const std::vector<double> as_they_are = values;
+  for (int time = 0; time < kTimes; ++time) {
+    const std::vector<double> trend = trend_of(patterns, values);
+    std::vector<double> residuals(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) residuals[i] = values[i] - trend[i];
+    // Of the upper half, which has no tail: its quartile lies 0.674 deviations above the middle.
+    const double middle = quantile(residuals, 0.5), deviation = (quantile(residuals, 0.75) - middle) / 0.674;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = std::max(as_they_are[i], trend[i] + middle - deviations * deviation);
+  }
 }
 
 /// How many of the first `size` samples decide on the kernel, or are those that networks are trained on in full.
@@ -66,6 +99,7 @@ class Sum final : public Predictor {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i].mean += base[i];
     return sum;
   }
+  Eigen::MatrixXd covariance(std::span<const pattern::Pattern> at) const override { return remainder_->covariance(at); }
 
  private:
   std::shared_ptr<const Predictor> base_;
@@ -101,10 +135,12 @@ Predictors fit_networks(const LogSamples& all, std::size_t settled, const Search
 }  // namespace
 
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings, const Predictors& base) {
-  const LogSamples all = logarithms(samples);
+  LogSamples all = logarithms(samples);
+  raise_to_floor(all.patterns, all.log_toughness, settings.learned.floor_deviations);
   const std::size_t stage = settled_samples(samples.size());
   if (settings.learned.predictor == "networks") return fit_networks(all, stage, settings, base);
-  const LogSamples learnt = logarithms(best_by_rank(samples, static_cast<std::size_t>(settings.learned.most_samples)));
+  LogSamples learnt = logarithms(best_by_rank(samples, static_cast<std::size_t>(settings.learned.most_samples)));
+  raise_to_floor(learnt.patterns, learnt.log_toughness, settings.learned.floor_deviations);
   const auto fit = [&](const std::vector<double> LogSamples::*property, surrogate::PriorMean prior_mean,
                        const std::shared_ptr<const Predictor>& of_base) {
     return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), prior_mean},

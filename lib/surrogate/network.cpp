@@ -76,19 +76,39 @@ class Ensemble final : public Predictor {
   }
 
   std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const override {
-    const std::vector<float> quarters = quarters_of(at);
-    std::vector<std::vector<double>> by_pattern(at.size());
-    const std::lock_guard lock(mutex_);
-    for (const auto& member : members_) {
-      const std::vector<float> values = member->evaluate(quarters);
-      for (std::size_t i = 0; i < at.size(); ++i) by_pattern[i].push_back(scale_.mean + scale_.deviation * values[i]);
-    }
+    const Eigen::MatrixXd values = guesses(at);
+    const Eigen::RowVectorXd means = values.colwise().mean();
+    const Eigen::RowVectorXd deviations = apart(values).colwise().norm();
     std::vector<Prediction> result;
-    for (const auto& values : by_pattern) result.push_back({mean(values), standard_deviation(values)});
+    for (Eigen::Index i = 0; i < values.cols(); ++i) result.push_back({means[i], deviations[i]});
     return result;
   }
 
+  Eigen::MatrixXd covariance(std::span<const pattern::Pattern> at) const override {
+    const Eigen::MatrixXd differences = apart(guesses(at));
+    return differences.transpose() * differences;
+  }
+
  private:
+  /// What each member (row) says of each pattern (column).
+  Eigen::MatrixXd guesses(std::span<const pattern::Pattern> at) const {
+    const std::vector<float> quarters = quarters_of(at);
+    Eigen::MatrixXd values(static_cast<Eigen::Index>(members_.size()), static_cast<Eigen::Index>(at.size()));
+    const std::lock_guard lock(mutex_);
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      const std::vector<float> said = members_[m]->evaluate(quarters);
+      for (std::size_t i = 0; i < at.size(); ++i)
+        values(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(i)) = scale_.mean + scale_.deviation * said[i];
+    }
+    return values;
+  }
+
+  /// Disagreement: differences from the mean over sqrt(members - 1); none where there is one member.
+  static Eigen::MatrixXd apart(const Eigen::MatrixXd& values) {
+    return (values.rowwise() - values.colwise().mean()) /
+           std::sqrt(std::max<double>(1.0, static_cast<double>(values.rows() - 1)));
+  }
+
   std::vector<std::unique_ptr<Network>> members_;
   Scale scale_;
   mutable std::mutex mutex_;

@@ -110,11 +110,7 @@ class PatchProcess final : public Predictor {
 
   std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const override {
     const VectorXd trend = trend_(at);
-    MatrixXd cross(static_cast<Index>(rows_.size()), static_cast<Index>(at.size()));
-    for (Index i = 0; i < cross.cols(); ++i) {
-      const QuarterRows rows = quarter_rows(at[static_cast<std::size_t>(i)]);
-      for (Index k = 0; k < cross.rows(); ++k) cross(k, i) = covariance_(rows, rows_[static_cast<std::size_t>(k)]);
-    }
+    MatrixXd cross = to_samples(rows_of(at));
     const VectorXd means = trend + cross.transpose() * weights_;
     factor_.matrixL().solveInPlace(cross);
     std::vector<Prediction> result(at.size());
@@ -125,7 +121,28 @@ class PatchProcess final : public Predictor {
     return result;
   }
 
+  MatrixXd covariance(std::span<const pattern::Pattern> at) const override {
+    const std::vector<QuarterRows> rows = rows_of(at);
+    MatrixXd cross = to_samples(rows), prior(cross.cols(), cross.cols());
+    factor_.matrixL().solveInPlace(cross);
+    for (Index j = 0; j < prior.cols(); ++j) {
+      for (Index i = j; i < prior.rows(); ++i)
+        prior(i, j) = prior(j, i) = covariance_(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+    }
+    return prior - cross.transpose() * cross;
+  }
+
  private:
+  /// Covariance of every sample (rows) with these patterns (columns).
+  MatrixXd to_samples(const std::vector<QuarterRows>& at) const {
+    MatrixXd cross(static_cast<Index>(rows_.size()), static_cast<Index>(at.size()));
+    for (Index i = 0; i < cross.cols(); ++i) {
+      for (Index k = 0; k < cross.rows(); ++k)
+        cross(k, i) = covariance_(at[static_cast<std::size_t>(i)], rows_[static_cast<std::size_t>(k)]);
+    }
+    return cross;
+  }
+
   std::shared_ptr<const Predictor> base_;
   Trend trend_;
   std::vector<QuarterRows> rows_;

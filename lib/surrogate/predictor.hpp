@@ -1,6 +1,7 @@
 #pragma once
 // What a search believes about patterns that nobody has simulated: one quantity, learnt from samples.
 
+#include <Eigen/Dense>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ class Predictor {
   virtual std::vector<double> means(std::span<const pattern::Pattern> at) const = 0;
   /// With the uncertainty of each guess; dearer than means().
   virtual std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const = 0;
+  /// How the errors of these guesses hang together: n x n, the squared deviations of predict() on the diagonal.
+  virtual Eigen::MatrixXd covariance(std::span<const pattern::Pattern> at) const = 0;
 };
 
 }  // namespace nacre::surrogate

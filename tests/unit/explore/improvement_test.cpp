@@ -78,7 +78,19 @@ TEST(BestImprovements, AreChosenOneByOneAsIfTheFormerCameTrue) {
     front.push_back(beliefs[each].median());
     front = optimize::pareto_front(front);
   }
-  EXPECT_EQ(best_improvements(std::span(beliefs).first(3), {}, 8).size(), 3u);
+  EXPECT_EQ(best_improvements({beliefs.begin(), beliefs.begin() + 3}, {}, 8).size(), 3u);
+}
+
+TEST(BestImprovements, ALookAlikeOfTheChosenOneIsSurelyNotTheNext) {
+  // Three equally promising patterns; the first two err together, the third by itself.
+  const Belief belief{{std::log(0.9e9), 0.05}, {std::log(0.36e6), 0.3}};
+  const std::vector<Belief> beliefs = {belief, belief, belief};
+  Eigen::MatrixXd modulus = 0.0025 * Eigen::MatrixXd::Identity(3, 3),
+                  toughness = 0.09 * Eigen::MatrixXd::Identity(3, 3);
+  modulus(0, 1) = modulus(1, 0) = 0.0025;
+  toughness(0, 1) = toughness(1, 0) = 0.09;
+  EXPECT_EQ(best_improvements(beliefs, some_front(), 2, {modulus, toughness}), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(best_improvements(beliefs, some_front(), 2), (std::vector<std::size_t>{0, 1}));
 }
 
 }  // namespace

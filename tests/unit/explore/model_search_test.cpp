@@ -7,12 +7,14 @@
 #include <fstream>
 
 #include "base/files.hpp"
+#include "base/random.hpp"
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "explore/batch_log.hpp"
 #include "explore/learned.hpp"
 #include "explore/predictors.hpp"
 #include "explore/surrogate_search.hpp"
+#include "pattern/random_pattern.hpp"
 #include "synthetic.hpp"
 
 namespace nacre::explore {
@@ -50,6 +52,34 @@ TEST(Learned, ReachesWithAFewSamplesWhatEvolutionNeedsFourTimesAsManyFor) {
     evolution += hypervolume_after(settings("nsga2-single-pixel", seed, 480));
   }
   EXPECT_GT(learned, evolution);
+}
+
+TEST(Predictors, HowBadABadPatternIsMattersNotToTheOthers) {
+  RandomStream random(5, "test");
+  std::vector<Evaluated> mild;
+  std::vector<pattern::Pattern> others;
+  for (int i = 0; i < 160; ++i) {
+    const pattern::Pattern pattern = pattern::random_pattern(random);
+    if (i < 120)
+      mild.push_back({pattern, synthetic_performance(pattern)});
+    else
+      others.push_back(pattern);
+  }
+  // Every tenth specimen falls apart at once: at a third of the others' toughness, or at a thousandth.
+  std::vector<Evaluated> harsh = mild;
+  for (std::size_t i = 0; i < mild.size(); i += 10)
+    mild[i].performance.toughness_pa /= 3.0, harsh[i].performance.toughness_pa /= 1000.0;
+  const auto largest_change = [&](double floor_deviations) {
+    SearchSettings chosen = settings("learned", 1, 300);
+    chosen.learned.floor_deviations = floor_deviations;
+    const auto a = fit_predictors(mild, chosen).toughness->predict(others),
+               b = fit_predictors(harsh, chosen).toughness->predict(others);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i].mean - b[i].mean));
+    return largest;
+  };
+  EXPECT_LT(largest_change(0.5), 0.01);
+  EXPECT_GT(largest_change(0.0), 0.5) << "without the floor they do";
 }
 
 TEST(Learned, ChoosingByRankAsTheThesisDoesLearnsToo) {

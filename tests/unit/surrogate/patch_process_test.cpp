@@ -167,6 +167,30 @@ TEST(PatchProcess, AQuantityThatHangsOnConductanceIsLearntFromFewSamples) {
   EXPECT_GT(rank_with(PriorMean::fraction_and_conductance), rank_with(PriorMean::fraction) + 0.03);
 }
 
+TEST(PatchProcess, CovarianceSaysWhatOneMoreSampleWouldLeave) {
+  const auto patterns = random_patterns(70, 12);
+  const std::vector<pattern::Pattern> learnt(patterns.begin(), patterns.begin() + 60),
+      asked(patterns.begin() + 60, patterns.end());
+  const std::vector<double> values = values_of(learnt);
+  const PatchKernel kernel{.noise_variance = 1e-9};
+  const auto process = make_patch_process({learnt, values}, kernel);
+  const Eigen::MatrixXd covariance = process->covariance(asked);
+  const auto predictions = process->predict(asked);
+  ASSERT_EQ(covariance.rows(), 10);
+  for (int i = 0; i < 10; ++i)
+    EXPECT_NEAR(covariance(i, i), std::pow(predictions[static_cast<std::size_t>(i)].deviation, 2), 1e-12);
+  // The first of them becomes a sample: its column, squared, is what the others lose.
+  std::vector<pattern::Pattern> more = learnt;
+  more.push_back(asked.front());
+  std::vector<double> more_values = values;
+  more_values.push_back(0.5);
+  const auto afterwards = make_patch_process({more, more_values}, kernel)->predict(asked);
+  for (int i = 0; i < 10; ++i) {
+    const double left = covariance(i, i) - std::pow(covariance(i, 0), 2) / covariance(0, 0);
+    EXPECT_NEAR(std::pow(afterwards[static_cast<std::size_t>(i)].deviation, 2), std::max(0.0, left), 1e-6) << i;
+  }
+}
+
 TEST(PatchProcess, OneSampleAndEqualSamplesAreNoProblem) {
   const auto patterns = random_patterns(12, 9);
   for (const std::size_t count : {std::size_t{1}, std::size_t{12}}) {
