@@ -215,7 +215,7 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
     amounts.push_back(*amount);
   }
   if (sources.empty()) return fail("weights: expected one above 0");
-  const auto pattern = families::barycentre(sources, amounts);
+  const auto pattern = families::barycentre(sources, amounts, families::Cut::amount);
   if (!pattern)
     return Json{{"pattern", nullptr}, {"violation", "there is no soft material to move between these patterns"}};
   const auto violation = pattern::violation(*pattern);

@@ -3,7 +3,9 @@
 #include <coin/ClpSimplex.hpp>
 #include <coin/CoinPackedMatrix.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -96,9 +98,33 @@ class Programme {
   int first_flows_ = 0;
 };
 
+/// Free pixels whose cells are at least so high.
+std::uint64_t cut_at(double height, const std::vector<double>& earth) {
+  std::uint64_t soft = 0;
+  for (int i = 0; i < kFreePixels; ++i)
+    if (earth[static_cast<std::size_t>(i)] / quarter_cells(i) >= height * (1.0 - kRounding)) soft |= std::uint64_t{1} << i;
+  return soft;
+}
+
+/// The highest free pixels, as many as come nearest to so many cells.
+std::uint64_t highest(double cells, const std::vector<double>& earth) {
+  std::vector<int> order;
+  for (int i = 0; i < kFreePixels; ++i)
+    if (earth[static_cast<std::size_t>(i)] > kRounding) order.push_back(i);
+  std::ranges::stable_sort(order, std::greater{}, [&](int i) { return earth[static_cast<std::size_t>(i)] / quarter_cells(i); });
+  std::uint64_t soft = 0;
+  double taken = 0.0;
+  for (const int i : order) {
+    if (taken + 0.5 * quarter_cells(i) > cells + kRounding) break;
+    taken += quarter_cells(i);
+    soft |= std::uint64_t{1} << i;
+  }
+  return soft;
+}
+
 }  // namespace
 
-std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<const double> weights) {
+std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<const double> weights, Cut cut) {
   std::uint64_t common = kAllBits, any = 0;
   for (const Pattern& source : sources) {
     common &= ~source.bits() & kAllBits;
@@ -106,19 +132,17 @@ std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<co
   }
   if (common == any) return sources.front();
   std::vector<Earth> earths;
-  double height = 0.0;
+  double height = 0.0, cells = 0.0;
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (std::size_t k = 0; k < sources.size(); ++k) {
     earths.push_back(exclusive_earth(~sources[k].bits() & kAllBits & ~common));
     if (earths.back().pixels.empty()) return std::nullopt;
     height += weights[k] / sum * earths.back().cell_height;
+    cells += weights[k] / sum / earths.back().cell_height;
   }
   const std::vector<double> earth = Programme(earths, weights).solve();
   if (earth.empty()) return std::nullopt;
-  std::uint64_t soft = common;
-  for (int i = 0; i < kFreePixels; ++i) {
-    if (earth[static_cast<std::size_t>(i)] / quarter_cells(i) >= height * (1.0 - kRounding)) soft |= std::uint64_t{1} << i;
-  }
+  const std::uint64_t soft = common | (cut == Cut::height ? cut_at(height, earth) : highest(cells, earth));
   return Pattern(~soft & kAllBits);
 }
 

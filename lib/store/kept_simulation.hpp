@@ -14,8 +14,8 @@ inline constexpr int kKeptCurvePoints = 256;
 CachedSimulation kept(const Result<tester::ModulusResult>& result);
 CachedSimulation kept(const Result<tester::ToughnessResult>& result);
 
-/// Both properties of a design, from the cache or, where they are not known, simulated and kept; nothing when one of
-/// the tests has no result. Thread-safe. Throws InputError when the cache cannot be written.
-std::optional<optimize::Performance> kept_performance(SimulationCache& cache, const tester::Simulation& simulation);
+/// Both properties of a design, from the cache or, where they are not known, simulated and kept (nullptr: simulated);
+/// nothing when one of the tests has no result. Thread-safe. Throws InputError when the cache cannot be written.
+std::optional<optimize::Performance> kept_performance(const tester::Simulation& simulation, SimulationCache* cache);
 
 }  // namespace nacre::store

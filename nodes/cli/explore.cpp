@@ -38,17 +38,6 @@ struct Options {
   bool json = false;
 };
 
-/// Both tests of one pattern, looked up where there is a cache; nothing when one of them has no result.
-std::optional<optimize::Performance> performance_of(const tester::Simulation& simulation,
-                                                    store::SimulationCache* cache) {
-  if (cache) return store::kept_performance(*cache, simulation);
-  const auto modulus = tester::test_modulus(simulation);
-  if (!modulus) return std::nullopt;
-  const auto toughness = tester::test_toughness(simulation);
-  if (!toughness) return std::nullopt;
-  return optimize::Performance{modulus->modulus_pa, toughness->toughness_pa};
-}
-
 void print_summary(const std::vector<explore::Evaluated>& gamut, const Options& options, int failed) {
   std::vector<optimize::Performance> points;
   for (const auto& sample : gamut) points.push_back(sample.performance);
@@ -101,7 +90,7 @@ int explore_gamut(const Options& options) {
     parallel_for(static_cast<int>(batch.size()), [&](int i) {
       const auto index = static_cast<std::size_t>(i);
       if (interrupts.any()) return;
-      performances[index] = performance_of({batch[index], parameters, {}, fidelity}, cache.get());
+      performances[index] = store::kept_performance({batch[index], parameters, {}, fidelity}, cache.get());
       progress.advance();
     });
     if (interrupts.any()) break;  // what is missing of this batch was not simulated: it must not count as failed

@@ -7,7 +7,7 @@ import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
 import { duration, figure, gpa, GPA, MPA, mpa, percent } from "./numbers";
-import { Name, saveUnit, Unit } from "./parts";
+import { Name, saveUnit, Unit, UnitButton } from "./parts";
 
 /** What was pointed at. `model`: the round, or the family, whose model is to break it. */
 export interface Chosen {
@@ -300,10 +300,10 @@ export function DesignPanel({
           <ul class="units">
             {proposals.map((p) => (
               <li key={p.design}>
-                <button
-                  type="button"
-                  class="unit-button"
-                  onClick={() =>
+                <UnitButton
+                  design={p.design}
+                  values={[gpa(p.modulus_pa), mpa(p.toughness_pa)]}
+                  choose={() =>
                     choose({
                       design: p.design,
                       model: newestModel,
@@ -312,12 +312,7 @@ export function DesignPanel({
                       of: `proposed in round ${newestModel}`,
                     })
                   }
-                >
-                  <Unit design={p.design} size={76} />
-                  <span>
-                    E {gpa(p.modulus_pa)} · T {mpa(p.toughness_pa)}
-                  </span>
-                </button>
+                />
               </li>
             ))}
           </ul>

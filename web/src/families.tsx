@@ -10,7 +10,7 @@ import { Grouping } from "./family_grouping";
 import { newestModel } from "./game";
 import { keyAt, loadGamut, type Gamut } from "./gamut";
 import { figure, gpa, GPA, MPA, mpa, percent } from "./numbers";
-import { Table, Unit } from "./parts";
+import { Table, Unit, UnitButton } from "./parts";
 import { cloudSeries, PointChart, type Spot } from "./point_chart";
 
 const THESIS_GROWTH = 0.045; // Table A.7, the mean of eleven subfamilies
@@ -451,16 +451,11 @@ export function Families({
                     <ul class="units">
                       {(variantsOfIt.length > 0 ? variantsOfIt : spotsOfIt).map((s) => (
                         <li key={s.design}>
-                          <button
-                            type="button"
-                            class="unit-button"
-                            onClick={() => setChosen({ ...s, modulus: s.x / GPA, toughness: s.y / MPA })}
-                          >
-                            <Unit design={s.design} size={66} />
-                            <span>
-                              E {figure(s.x)} · T {figure(s.y)}
-                            </span>
-                          </button>
+                          <UnitButton
+                            design={s.design}
+                            values={[figure(s.x), figure(s.y)]}
+                            choose={() => setChosen({ ...s, modulus: s.x / GPA, toughness: s.y / MPA })}
+                          />
                         </li>
                       ))}
                     </ul>

@@ -29,6 +29,18 @@ export function Unit({ design, size, label = true }: { design: string; size: num
   );
 }
 
+/** A pattern to choose, with its E in GPa and T in MPa. */
+export function UnitButton({ design, values, choose }: { design: string; values: [string, string]; choose: () => void }) {
+  return (
+    <button type="button" class="unit-button" onClick={choose}>
+      <Unit design={design} size={70} />
+      <span>
+        E {values[0]} · T {values[1]}
+      </span>
+    </button>
+  );
+}
+
 function mixtureShare(design: string): number {
   return { soft: 0, interface: 0.5, rigid: 1 }[design] ?? Number(design.replace("mix:", ""));
 }

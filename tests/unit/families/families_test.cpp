@@ -43,6 +43,7 @@ TEST(Barycentre, OfOnePatternIsItself) {
     std::vector<double> weights(3, 0.0);
     weights[k] = 1.0;
     EXPECT_EQ(barycentre(three, weights), three[k]) << "all weight on one source";
+    EXPECT_EQ(barycentre(three, weights, Cut::amount), three[k]) << "all weight on one source";
   }
 }
 
@@ -50,6 +51,25 @@ TEST(Barycentre, LiesHalfWayOfASoftPixel) {
   const std::vector<Pattern> ends = {with_soft({{2, 2}, {0, 9}}), with_soft({{6, 6}, {0, 9}})};
   EXPECT_EQ(barycentre(ends, std::vector{1.0, 1.0}), with_soft({{4, 4}, {0, 9}}));
   EXPECT_EQ(barycentre(ends, std::vector{3.0, 1.0}), with_soft({{3, 3}, {0, 9}}));
+}
+
+TEST(Barycentre, CutByAmountLiesBetweenItsSourcesInRigidFraction) {
+  const std::vector<Pattern> patterns = random_patterns(12);
+  for (std::size_t k = 0; k + 2 < patterns.size(); ++k) {
+    const std::vector<Pattern> three(patterns.begin() + static_cast<std::ptrdiff_t>(k),
+                                     patterns.begin() + static_cast<std::ptrdiff_t>(k) + 3);
+    const std::vector<double> weights = {0.9, 0.02, 0.08};
+    double mean = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mean += weights[i] * three[i].rigid_fraction();
+      most = std::max(most, three[i].rigid_fraction());
+    }
+    const auto between = barycentre(three, weights, Cut::amount);
+    ASSERT_TRUE(between);
+    constexpr double kCell = 0.011;  // one of a hundred
+    EXPECT_GE(between->rigid_fraction(), mean - kCell);
+    EXPECT_LE(between->rigid_fraction(), most + kCell) << "earth may lie on earth: somewhat more rigid than the mean";
+  }
 }
 
 TEST(Barycentre, HasNothingToMoveIntoAPatternThatOthersContain) {
