@@ -4,6 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import { get, type Candidate, type Diagnosis as Word, type Effect, type Experiment, type Rounds } from "./api";
 import { figure, percent, words } from "./numbers";
 import { Name, Table, Unit } from "./parts";
+import { saveCsv } from "./save";
 
 const VERDICTS: Record<string, string> = {
   base_sufficient: "The base model is sufficient",
@@ -18,6 +19,9 @@ const STATUS: Record<string, string> = {
   invisible: "invisible on these data",
   not_applicable: "not applicable",
 };
+
+/** A figure of an effect that took part; a dash for one that these specimens cannot show. */
+const weighed = (candidate: Candidate, text: string) => (candidate.status === "not_applicable" ? "–" : text);
 
 /** A parameter with its 90 % interval on a scale from 0. */
 function Interval({ effect }: { effect: Effect }) {
@@ -58,12 +62,25 @@ function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
       {row("extended", gain.held_out_error_after, "after")}
       {gain.relative_reduction !== undefined && (
         <p class="quiet">
-          {percent(gain.relative_reduction)} less error
-          {gain.interval90 && `, 90 % interval ${percent(gain.interval90[0])} to ${percent(gain.interval90[1])}`}
+          {percent(Math.abs(gain.relative_reduction))} {gain.relative_reduction < 0 ? "more" : "less"} error
+          {gain.interval90 &&
+            `; reduction, 90 % interval ${percent(gain.interval90[0])} to ${percent(gain.interval90[1])}` +
+              (gain.interval90[0] > 0 ? "" : ": not established")}
         </p>
       )}
     </>
   );
+}
+
+/** What the picture of a verdict shows, as a table. */
+function saveWord(word: Word): void {
+  const rows: unknown[][] = word.effects.map((e) => [e.name, e.parameter, ...e.interval90, e.unit]);
+  if (word.gain) {
+    const { held_out_error_before, held_out_error_after, relative_reduction, interval90 } = word.gain;
+    rows.push(["held_out_error_before", held_out_error_before], ["held_out_error_after", held_out_error_after]);
+    if (relative_reduction !== undefined) rows.push(["relative_reduction", relative_reduction, ...(interval90 ?? [])]);
+  }
+  saveCsv(`diagnosis-${word.round}`, ["what", "value", "low90", "high90", "unit"], rows);
 }
 
 export function Diagnosis({ rounds }: { rounds: Rounds }) {
@@ -115,6 +132,11 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
           </div>
         ))}
         {word.gain && <Gain gain={word.gain} />}
+        {(word.effects.length > 0 || word.gain) && (
+          <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveWord(word)}>
+            CSV
+          </button>
+        )}
       </section>
       <section class="panel">
         <Table
@@ -173,9 +195,9 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
               ),
               value: (c) => c.status,
             },
-            { heading: "drop of χ²", show: (c) => figure(c.statistic), value: (c) => c.statistic },
-            { heading: "p, family-wise", show: (c) => figure(c.p_family_wise, 2), value: (c) => c.p_family_wise },
-            { heading: "absorbed by the base", show: (c) => percent(c.absorption, 0), value: (c) => c.absorption },
+            { heading: "drop of χ²", show: (c) => weighed(c, figure(c.statistic)), value: (c) => c.statistic },
+            { heading: "p, family-wise", show: (c) => weighed(c, figure(c.p_family_wise, 2)), value: (c) => c.p_family_wise },
+            { heading: "absorbed by the base", show: (c) => weighed(c, percent(c.absorption, 0)), value: (c) => c.absorption },
           ]}
         />
       </section>
