@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include <fstream>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,17 +22,22 @@ bool is_young(const std::filesystem::path& file) {
          runtime::now_utime() - 1'000'000 * static_cast<std::int64_t>(status.st_mtim.tv_sec) < kYoung_us;
 }
 
+/// The first copy of the header of SQLite's WAL index (sqlite.org/walformat.html), which every write changes.
+std::string wal_index_header(const std::filesystem::path& database) {
+  std::string header(48, '\0');
+  std::ifstream(database.string() + "-shm", std::ios::binary).read(header.data(), std::ssize(header));
+  return header;
+}
+
 }  // namespace
 
 std::string RunData::version() const {
-  // Without asking SQLite: a write changes the write-ahead log, a checkpoint the file.
+  // Without asking SQLite. Times of files do not do alone: two writes within a tick of the kernel's clock have the same.
   std::string version;
-  for (const char* companion : {"", "-wal"}) {
-    struct stat status {};
-    if (::stat((database_.string() + companion).c_str(), &status) != 0) continue;
-    version += fmt::format("{:x}-{:x}-{:x}.", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
-  }
-  return version;
+  struct stat status {};
+  if (::stat(database_.c_str(), &status) == 0)
+    version = fmt::format("{:x}-{:x}-{:x}", status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+  return fmt::format("{}.{:x}", version, std::hash<std::string>()(wal_index_header(database_)));
 }
 
 void RunData::refresh() {

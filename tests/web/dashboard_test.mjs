@@ -148,7 +148,10 @@ test("the family stage waits for a yes to its variants, and the game goes on to 
   await photograph(page, "diagnosis", true);
 });
 
-test("the page of a live game has no errors and asks nobody else", () => assert.deepEqual(page.troubles, []));
+test("the page of a live game has no errors and asks nobody else", async () => {
+  await photograph(page, "live-at-the-end", true);
+  assert.deepEqual(page.troubles, []);
+});
 
 test("a finished run is the same page, in the dark", async () => {
   assert.equal(await live.close(), 0, live.said);

@@ -1,8 +1,7 @@
 // Real games and dashboards, ended with the test.
 
 import { spawn, execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, mkdirSync, rmSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -10,16 +9,16 @@ export const ROOT = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const BUILD = process.argv[2] ?? join(ROOT, "build");
 const NACRE = join(BUILD, "bin/nacre");
 
-export const folder = mkdtempSync(join(tmpdir(), "nacre-web-"));
+/** The runs that are played; they stay until the next test, since a failure is understood from its run. */
+export const folder = join(BUILD, "web-runs");
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
 const children = new Set();
 /** Ends every program that still runs: a test that failed may have left one. */
 export function endAll() {
   for (const child of children) child.kill("SIGKILL");
 }
-process.on("exit", () => {
-  endAll();
-  rmSync(folder, { recursive: true, force: true });
-});
+process.on("exit", endAll);
 
 /** A program, what it has said, and how to wait for it. */
 function start(program, args) {

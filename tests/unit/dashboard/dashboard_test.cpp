@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -99,6 +100,17 @@ TEST_F(DashboardOfARun, WhatTheAnalyserWritesIsSeen) {
   database.project("GAMUT", wire::write(chunk));
   EXPECT_NE(json("/api/live")["data"], before);
   EXPECT_EQ(json("/api/rounds")["rounds"].back()["round"], 8);
+}
+
+TEST_F(DashboardOfARun, WritesWithinATickOfTheClockAreToldApart) {
+  store::RunDatabase database(folder_ / "run.db");
+  wire::GamutChunk chunk = gamut_chunk(0);
+  std::set<std::string> versions;
+  for (chunk.round = 8; chunk.round < 108; ++chunk.round) {
+    database.project("GAMUT", wire::write(chunk));
+    versions.insert(json("/api/live")["data"]);
+  }
+  EXPECT_EQ(versions.size(), 100);
 }
 
 TEST_F(DashboardOfARun, NoFileOutsideThePageIsServed) {
