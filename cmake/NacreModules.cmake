@@ -32,6 +32,12 @@ function(nacre_module name)
   add_library(nacre::${name} ALIAS nacre_${name})
 endfunction()
 
+# The suite of a test SUITE.NAME and how many seconds it may take, NACRE_PATIENCE times as many in instrumented builds.
+function(nacre_test_in_suite suite name seconds)
+  math(EXPR limit "${seconds} * ${NACRE_PATIENCE}")
+  set_tests_properties(${suite}.${name} PROPERTIES LABELS ${suite} TIMEOUT ${limit})
+endfunction()
+
 # nacre_test(NAME SOURCES ... LIBRARIES ... [LABEL unit|physics|...] [TIMEOUT seconds])
 # A GoogleTest program registered with CTest as one test named LABEL.NAME.
 function(nacre_test name)
@@ -49,6 +55,5 @@ function(nacre_test name)
                                                NACRE_BINARY_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${ARG_LABEL}.${name} COMMAND ${target})
-  math(EXPR ARG_TIMEOUT "${ARG_TIMEOUT} * ${NACRE_PATIENCE}")
-  set_tests_properties(${ARG_LABEL}.${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  nacre_test_in_suite(${ARG_LABEL} ${name} ${ARG_TIMEOUT})
 endfunction()

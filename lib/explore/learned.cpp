@@ -32,26 +32,35 @@ std::vector<Belief> beliefs_about(const Predictors& predictors, std::span<const 
   return beliefs;
 }
 
-/// The patterns whose own improvement is expected to be largest.
-std::vector<pattern::Pattern> finalists(const Predictors& predictors, std::span<const pattern::Pattern> patterns,
-                                        std::span<const optimize::Performance> front) {
+/// Patterns and what is believed of them.
+struct Finalists {
+  std::vector<pattern::Pattern> patterns;
+  std::vector<Belief> beliefs;
+};
+
+/// Those whose own improvement is expected to be largest.
+Finalists finalists_of(const Predictors& predictors, std::span<const pattern::Pattern> patterns,
+                       std::span<const optimize::Performance> front) {
   const std::vector<Belief> beliefs = beliefs_about(predictors, patterns);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < patterns.size(); ++i) order.emplace_back(-expected_improvement(beliefs[i], front), i);
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), kFinalists));
-  std::vector<pattern::Pattern> best;
-  for (const auto& [improvement, i] : order) best.push_back(patterns[i]);
+  Finalists best;
+  for (const auto& [improvement, i] : order) {
+    best.patterns.push_back(patterns[i]);
+    best.beliefs.push_back(beliefs[i]);
+  }
   return best;
 }
 
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
                                                     std::span<const Evaluated> evaluated, int count) {
   const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(evaluated));
-  const auto patterns = finalists(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
+  const auto [patterns, beliefs] = finalists_of(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
   std::vector<pattern::Pattern> batch;
   for (const std::size_t i :
-       best_improvements(beliefs_about(predictors, patterns), front, count,
+       best_improvements(beliefs, front, count,
                          {predictors.modulus->covariance(patterns), predictors.toughness->covariance(patterns)}))
     batch.push_back(patterns[i]);
   return batch;
@@ -117,10 +126,7 @@ std::vector<pattern::Pattern> learned_batch(const Question& question) {
              question);
   if (learned.choice == "improvement")
     return choose_by_improvement(predictors, candidates, question.evaluated, question.count);
-  std::vector<pattern::Pattern> batch;
-  for (const Evaluated& best : best_by_rank(candidates, static_cast<std::size_t>(question.count)))
-    batch.push_back(best.pattern);
-  return batch;
+  return patterns_of(best_by_rank(candidates, static_cast<std::size_t>(question.count)));
 }
 
 }  // namespace nacre::explore

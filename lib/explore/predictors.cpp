@@ -25,17 +25,6 @@ struct LogSamples {
   std::vector<double> log_modulus, log_toughness;
 };
 
-LogSamples logarithms(std::span<const Evaluated> samples) {
-  constexpr double kLeast = 1.0;  // Pa: softer or weaker than anything that holds together
-  LogSamples logs;
-  for (const Evaluated& sample : samples) {
-    logs.patterns.push_back(sample.pattern);
-    logs.log_modulus.push_back(std::log(std::max(kLeast, sample.performance.modulus_pa)));
-    logs.log_toughness.push_back(std::log(std::max(kLeast, sample.performance.toughness_pa)));
-  }
-  return logs;
-}
-
 /// A parabola over the rigid fraction, by least squares.
 std::vector<double> trend_of(const std::vector<pattern::Pattern>& patterns, const std::vector<double>& values) {
   Eigen::MatrixXd terms(static_cast<Eigen::Index>(patterns.size()), 3);
@@ -64,6 +53,19 @@ void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<d
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = std::max(as_they_are[i], trend[i] + middle - deviations * deviation);
   }
+}
+
+/// Toughness with the floor of the settings.
+LogSamples logarithms(std::span<const Evaluated> samples, const LearnedSettings& learned) {
+  constexpr double kLeast = 1.0;  // Pa: softer or weaker than anything that holds together
+  LogSamples logs;
+  for (const Evaluated& sample : samples) {
+    logs.patterns.push_back(sample.pattern);
+    logs.log_modulus.push_back(std::log(std::max(kLeast, sample.performance.modulus_pa)));
+    logs.log_toughness.push_back(std::log(std::max(kLeast, sample.performance.toughness_pa)));
+  }
+  raise_to_floor(logs.patterns, logs.log_toughness, learned.floor_deviations);
+  return logs;
 }
 
 /// How many of the first `size` samples decide on the kernel, or are those that networks are trained on in full.
@@ -135,12 +137,11 @@ Predictors fit_networks(const LogSamples& all, std::size_t settled, const Search
 }  // namespace
 
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings, const Predictors& base) {
-  LogSamples all = logarithms(samples);
-  raise_to_floor(all.patterns, all.log_toughness, settings.learned.floor_deviations);
+  const LogSamples all = logarithms(samples, settings.learned);
   const std::size_t stage = settled_samples(samples.size());
   if (settings.learned.predictor == "networks") return fit_networks(all, stage, settings, base);
-  LogSamples learnt = logarithms(best_by_rank(samples, static_cast<std::size_t>(settings.learned.most_samples)));
-  raise_to_floor(learnt.patterns, learnt.log_toughness, settings.learned.floor_deviations);
+  const LogSamples learnt =
+      logarithms(best_by_rank(samples, static_cast<std::size_t>(settings.learned.most_samples)), settings.learned);
   const auto fit = [&](const std::vector<double> LogSamples::*property, surrogate::PriorMean prior_mean,
                        const std::shared_ptr<const Predictor>& of_base) {
     return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), prior_mean},

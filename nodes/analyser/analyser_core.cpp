@@ -117,7 +117,6 @@ void AnalyserCore::close_round(const wire::RoundSummary& round) {
   last_ = last_ || round.last;
   report_due_ = round_;
   phase_ = fmt::format("reporting round {}", round.round);
-  unasked_.insert(round.round);
   ask_about_measured_designs();
   report_when_ready();
 }
@@ -142,7 +141,6 @@ void AnalyserCore::ask_about_measured_designs() {
   for (const int round : closed_) {
     const auto model = models_.find(round);
     if (model == models_.end()) continue;  // still on its way
-    unasked_.erase(round);
     std::set<std::string>& asked = asked_designs_[round];
     const std::size_t asked_before = asked.size();
     std::vector<pattern::Design> designs;
@@ -219,7 +217,8 @@ void AnalyserCore::close_when_complete(const std::string& request_id) {
 }
 
 void AnalyserCore::report_when_ready() {
-  const bool all_known = storing_.empty() && unasked_.empty() && open_answers_.empty();
+  const bool all_asked = std::ranges::all_of(closed_, [&](int round) { return models_.contains(round); });
+  const bool all_known = storing_.empty() && all_asked && open_answers_.empty();
   if (!report_due_ || reporting_ || !all_known) return;
   outputs_.computes.push_back({.id = fmt::format("report/r{}/{}", *report_due_, ++reports_),
                                .kind = "report",

@@ -56,7 +56,6 @@ class AnalyserCore : public runtime::NodeCore {
   std::set<std::string> kept_;     // ids of "store" work ever asked for
   std::set<std::string> storing_;  // ids of "store" work in progress
   std::set<int> closed_;           // rounds
-  std::set<int> unasked_;          // closed rounds whose model has not come yet
   /// A pattern and the first round that measured it.
   struct MeasuredDesign {
     pattern::Design design;

@@ -92,14 +92,16 @@ material::ParameterSet adopted_parameters(const RunAccess& run) {
 
 std::vector<StagedFamily> staged_families(const RunAccess& run) {
   std::map<int, StagedFamily> families;
-  for (const std::string& payload : sent_by_validation_agent(run, "FAMILY"))
+  const auto take_family = [&](const std::string& payload) {
     if (auto family = wire::read<wire::Family>(payload)) families[family->number].stated = std::move(*family);
-  for (const std::string& payload : sent_by_validation_agent(run, "FAMILY_GAMUT")) {
+  };
+  const auto take_variants = [&](const std::string& payload) {
     const auto chunk = wire::read<wire::FamilyGamut>(payload);
-    if (!chunk) continue;
+    if (!chunk) return;
     auto& variants = families[chunk->number].variants;
     variants.insert(variants.end(), chunk->samples.begin(), chunk->samples.end());
-  }
+  };
+  read_validation_agent(run, {}, {{"FAMILY", take_family}, {"FAMILY_GAMUT", take_variants}});
   std::vector<StagedFamily> all;
   for (auto& [number, family] : families) all.push_back(std::move(family));
   return all;

@@ -1,7 +1,8 @@
 // One design: pattern, what is known of it, stress-strain curves, and how it breaks.
 
+import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
-import { get, getBytes, post, Refusal, type Design, type Proposed, type Rounds, type Simulation } from "./api";
+import { get, getBytes, post, Refusal, type Design, type Proposed, type Simulation } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
@@ -274,50 +275,51 @@ export function DesignBody({ chosen }: { chosen: Chosen }) {
   );
 }
 
-export function DesignPanel({
-  chosen,
-  newestModel,
-  choose,
-  proposals,
-}: {
-  chosen: Chosen | null;
-  newestModel: number;
-  choose: (c: Chosen) => void;
-  proposals: Proposed[];
-  rounds: Rounds;
-}) {
+/** The design that was chosen; `children` stand there until one is. */
+export function DesignPanel({ chosen, children }: { chosen: Chosen | null; children: ComponentChildren }) {
   return (
     <section class="panel design" aria-label="design">
       <div class="panel-head">
         <h2>Design</h2>
       </div>
-      {chosen ? (
-        <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} />
-      ) : (
-        <>
-          <p class="quiet">Point at the gamut to see a pattern; click, or press Enter, to see it break.</p>
-          {proposals.length > 0 && <h3>Newest proposals</h3>}
-          <ul class="units">
-            {proposals.map((p) => (
-              <li key={p.design}>
-                <UnitButton
-                  design={p.design}
-                  values={[gpa(p.modulus_pa), mpa(p.toughness_pa)]}
-                  choose={() =>
-                    choose({
-                      design: p.design,
-                      model: newestModel,
-                      modulus: p.modulus_pa,
-                      toughness: p.toughness_pa,
-                      of: `proposed in round ${newestModel}`,
-                    })
-                  }
-                />
-              </li>
-            ))}
-          </ul>
-        </>
-      )}
+      {chosen ? <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} /> : children}
     </section>
+  );
+}
+
+/** What may be chosen before anything is: the newest proposals. */
+export function NewestProposals({
+  newestModel,
+  choose,
+  proposals,
+}: {
+  newestModel: number;
+  choose: (c: Chosen) => void;
+  proposals: Proposed[];
+}) {
+  return (
+    <>
+      <p class="quiet">Point at the gamut to see a pattern; click, or press Enter, to see it break.</p>
+      {proposals.length > 0 && <h3>Newest proposals</h3>}
+      <ul class="units">
+        {proposals.map((p) => (
+          <li key={p.design}>
+            <UnitButton
+              design={p.design}
+              values={[gpa(p.modulus_pa), mpa(p.toughness_pa)]}
+              choose={() =>
+                choose({
+                  design: p.design,
+                  model: newestModel,
+                  modulus: p.modulus_pa,
+                  toughness: p.toughness_pa,
+                  of: `proposed in round ${newestModel}`,
+                })
+              }
+            />
+          </li>
+        ))}
+      </ul>
+    </>
   );
 }

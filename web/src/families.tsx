@@ -4,7 +4,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { get, type Errors, type Families as Said, type Family, type FamilyDesign, type Maps, type Rounds } from "./api";
 import type { Option } from "./chart";
 import { themeColour } from "./colour";
-import { DesignBody, type Chosen } from "./design_panel";
+import { DesignPanel, type Chosen } from "./design_panel";
 import { MechanismTable } from "./explorer";
 import { Grouping } from "./family_grouping";
 import { newestModel } from "./game";
@@ -122,27 +122,40 @@ function seriesOf(rounds: Rounds, families: Shown[], variants: boolean): Option[
   return series;
 }
 
-function spotsOf(rounds: Rounds, families: Shown[], newest: number): Spot[] {
-  const spots: Spot[] = [];
+/** A point of a family, or of none, and what it stands for. */
+interface FamilySpot extends Spot {
+  family: string | null;
+  role: string;
+}
+
+const FORETOLD = "variant, foretold";
+
+function spotsOf(rounds: Rounds, families: Shown[], newest: number): FamilySpot[] {
+  const spots: FamilySpot[] = [];
   const taken = new Set<string>();
-  const add = (design: string, [x, y]: [number, number], of: string, model: number | string) =>
-    spots.push({ x, y, design, of, model });
+  const add = (
+    design: string,
+    [x, y]: [number, number],
+    family: string | null,
+    role: string,
+    model: number | string,
+  ) => spots.push({ x, y, design, family, role, of: family ? `${family}: ${role}` : role, model });
   for (const family of families) {
     const model = family.stage ? family.name : newest;
     for (const d of family.stage?.designs ?? []) {
       if (d.is_seed) continue;
-      if (isKnown(d.measured)) add(d.design, pointOf(d.measured), `${family.name}: variant, measured`, model);
-      if (isKnown(d.family_model)) add(d.design, pointOf(d.family_model), `${family.name}: variant, foretold`, model);
+      if (isKnown(d.measured)) add(d.design, pointOf(d.measured), family.name, "variant, measured", model);
+      if (isKnown(d.family_model)) add(d.design, pointOf(d.family_model), family.name, FORETOLD, model);
       taken.add(d.design);
     }
     for (const m of rounds.measured) {
       if (!family.seeds.includes(m.design)) continue;
-      add(m.design, pointOf(m), `${family.name}: seed, measured in round ${m.round}`, model);
+      add(m.design, pointOf(m), family.name, `seed, measured in round ${m.round}`, model);
       taken.add(m.design);
     }
   }
   for (const m of rounds.measured)
-    if (!taken.has(m.design)) add(m.design, pointOf(m), `measured in round ${m.round}`, newest);
+    if (!taken.has(m.design)) add(m.design, pointOf(m), null, `measured in round ${m.round}`, newest);
   return spots;
 }
 
@@ -375,96 +388,87 @@ export function Families({
     <>
       <div class="split">
         <div class="stack">
-        <section class="panel gamut">
-          <div class="panel-head">
-            <h2>Families</h2>
-            <div class="toggles">
-              <fieldset>
-                <legend>show</legend>
-                {all.map((f) => (
-                  <label key={f.name} class="toggle" style={{ "--c": `var(--${familyVariable(f.index)})` } as never}>
-                    <input type="checkbox" checked={!hidden.has(f.name)} onChange={() => flip(f.name)} />
-                    <span>{f.name}</span>
-                  </label>
-                ))}
-                {said.stage.length > 0 && (
-                  <label class="toggle" style={{ "--c": "var(--homo)" } as never}>
-                    <input type="checkbox" checked={variants} onChange={() => setVariants(!variants)} />
-                    <span>variants</span>
-                  </label>
-                )}
-              </fieldset>
+          <section class="panel gamut">
+            <div class="panel-head">
+              <h2>Families</h2>
+              <div class="toggles">
+                <fieldset>
+                  <legend>show</legend>
+                  {all.map((f) => (
+                    <label key={f.name} class="toggle" style={{ "--c": `var(--${familyVariable(f.index)})` } as never}>
+                      <input type="checkbox" checked={!hidden.has(f.name)} onChange={() => flip(f.name)} />
+                      <span>{f.name}</span>
+                    </label>
+                  ))}
+                  {said.stage.length > 0 && (
+                    <label class="toggle" style={{ "--c": "var(--homo)" } as never}>
+                      <input type="checkbox" checked={variants} onChange={() => setVariants(!variants)} />
+                      <span>variants</span>
+                    </label>
+                  )}
+                </fieldset>
+              </div>
             </div>
-          </div>
-          <Standing said={said} />
-          <PointChart
-            name="families"
-            label="Families: Young's modulus against toughness"
-            series={series}
-            clouds={clouds}
-            spots={spots}
-            chosen={chosen}
-            choose={setChosen}
-            table={() => ({
-              heading: ["family", "what", "pattern", "modulus_pa", "toughness_pa"],
-              rows: shown.flatMap((f) => [
-                ...spots
-                  .filter((s) => s.of.startsWith(`${f.name}:`))
-                  .map((s) => [f.name, s.of.slice(f.name.length + 2), s.design, s.x / GPA, s.y / MPA]),
-                ...(f.gamut
-                  ? Array.from(f.gamut.patterns, (_, i) => [
-                      f.name,
-                      "simulated",
-                      keyAt(f.gamut!, i),
-                      f.gamut!.points[2 * i] / GPA,
-                      f.gamut!.points[2 * i + 1] / MPA,
-                    ])
-                  : []),
-              ]),
-            })}
-          />
-        </section>
-        {said.stage.length > 0 && (
-          <section class="panel after">
-            <ErrorTable families={said.stage} which="chosen" />
-            <ErrorTable families={said.stage} which="seeds" />
-          </section>
-        )}
-        </div>
-        <section class="panel design" aria-label="design">
-          <div class="panel-head">
-            <h2>Design</h2>
-          </div>
-          {chosen ? (
-            <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} />
-          ) : (
-            <>
-              <p class="quiet">Click a point, or press Enter on it, to see it break by its family's model.</p>
-              {shown.map((family) => {
-                const spotsOfIt = spots.filter((s) => s.of.startsWith(`${family.name}:`));
-                const variantsOfIt = spotsOfIt.filter((s) => s.of.endsWith("foretold"));
-                return (
-                  <div key={family.name}>
-                    <h3>
-                      {family.name}: {variantsOfIt.length > 0 ? "variants chosen for the laboratory" : "seeds"}
-                    </h3>
-                    <ul class="units">
-                      {(variantsOfIt.length > 0 ? variantsOfIt : spotsOfIt).map((s) => (
-                        <li key={s.design}>
-                          <UnitButton
-                            design={s.design}
-                            values={[figure(s.x), figure(s.y)]}
-                            choose={() => setChosen({ ...s, modulus: s.x / GPA, toughness: s.y / MPA })}
-                          />
-                        </li>
-                      ))}
-                    </ul>
-                  </div>
-                );
+            <Standing said={said} />
+            <PointChart
+              name="families"
+              label="Families: Young's modulus against toughness"
+              series={series}
+              clouds={clouds}
+              spots={spots}
+              chosen={chosen}
+              choose={setChosen}
+              table={() => ({
+                heading: ["family", "what", "pattern", "modulus_pa", "toughness_pa"],
+                rows: shown.flatMap((f) => [
+                  ...spots
+                    .filter((s) => s.family === f.name)
+                    .map((s) => [f.name, s.role, s.design, s.x / GPA, s.y / MPA]),
+                  ...(f.gamut
+                    ? Array.from(f.gamut.patterns, (_, i) => [
+                        f.name,
+                        "simulated",
+                        keyAt(f.gamut!, i),
+                        f.gamut!.points[2 * i] / GPA,
+                        f.gamut!.points[2 * i + 1] / MPA,
+                      ])
+                    : []),
+                ]),
               })}
-            </>
+            />
+          </section>
+          {said.stage.length > 0 && (
+            <section class="panel after">
+              <ErrorTable families={said.stage} which="chosen" />
+              <ErrorTable families={said.stage} which="seeds" />
+            </section>
           )}
-        </section>
+        </div>
+        <DesignPanel chosen={chosen}>
+          <p class="quiet">Click a point, or press Enter on it, to see it break by its family's model.</p>
+          {shown.map((family) => {
+            const spotsOfIt = spots.filter((s) => s.family === family.name);
+            const foretold = spotsOfIt.filter((s) => s.role === FORETOLD);
+            return (
+              <div key={family.name}>
+                <h3>
+                  {family.name}: {foretold.length > 0 ? "variants chosen for the laboratory" : "seeds"}
+                </h3>
+                <ul class="units">
+                  {(foretold.length > 0 ? foretold : spotsOfIt).map((s) => (
+                    <li key={s.design}>
+                      <UnitButton
+                        design={s.design}
+                        values={[figure(s.x), figure(s.y)]}
+                        choose={() => setChosen({ ...s, modulus: s.x / GPA, toughness: s.y / MPA })}
+                      />
+                    </li>
+                  ))}
+                </ul>
+              </div>
+            );
+          })}
+        </DesignPanel>
       </div>
       {said.stage.length > 0 && (
         <section class="panel">

@@ -4,7 +4,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Measured, Rounds } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
-import { DesignPanel, type Chosen } from "./design_panel";
+import { DesignPanel, NewestProposals, type Chosen } from "./design_panel";
 import { loadGamut, type Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
 import { figure, percent } from "./numbers";
@@ -284,13 +284,13 @@ export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark
           </section>
           <Trends rounds={rounds} theme={theme} />
         </div>
-        <DesignPanel
-          chosen={chosen}
-          newestModel={newestModel(rounds)}
-          choose={setChosen}
-          proposals={rounds.rounds.find((r) => r.round === newest)?.proposals ?? []}
-          rounds={rounds}
-        />
+        <DesignPanel chosen={chosen}>
+          <NewestProposals
+            newestModel={newestModel(rounds)}
+            choose={setChosen}
+            proposals={rounds.rounds.find((r) => r.round === newest)?.proposals ?? []}
+          />
+        </DesignPanel>
       </div>
       <section class="panel">
         <RoundTable rounds={rounds} />

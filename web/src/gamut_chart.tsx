@@ -58,7 +58,8 @@ const line = (name: string, data: [number, number][], colour: string, more: Opti
 function seriesOf(rounds: Rounds, gamuts: Gamut[], layers: Layers): Option[] {
   const newest = Math.max(0, ...rounds.rounds.map((r) => r.round));
   const series: Option[] = [];
-  if (layers.cloud) for (const gamut of gamuts) 
+  if (layers.cloud)
+    for (const gamut of gamuts)
       series.push(cloudSeries(`gamut ${gamut.round}`, gamut, roundColour("sim", gamut.round, newest)));
   const units = (points: [number, number][]) => points.map(([e, t]) => [e * GPA, t * MPA] as [number, number]);
   const byRound = rounds.rounds.filter((r) => gamuts.some((g) => g.round === r.round));

@@ -106,6 +106,17 @@ export function cloudSeries(name: string, gamut: Gamut, colour: string): Option 
   };
 }
 
+/** Dragging moves, Ctrl and the wheel zoom; the page scrolls by itself. */
+const zoomAlong = (axisIndex: "xAxisIndex" | "yAxisIndex"): Option => ({
+  type: "inside",
+  [axisIndex]: 0,
+  filterMode: "none",
+  zoomOnMouseWheel: "ctrl",
+  moveOnMouseMove: true,
+  moveOnMouseWheel: false,
+  preventDefaultMouseMove: false,
+});
+
 /** Where a value lies on the screen, and the other way round. */
 interface Frame {
   chart: Chart;
@@ -146,26 +157,7 @@ export function PointChart({
       ...basis(),
       xAxis: axis("Young's modulus E / GPa", { min: 0 }),
       yAxis: axis("toughness T / MPa", { min: 0, nameGap: 40 }),
-      dataZoom: [
-        {
-          type: "inside",
-          xAxisIndex: 0,
-          filterMode: "none",
-          zoomOnMouseWheel: "ctrl",
-          moveOnMouseMove: true,
-          moveOnMouseWheel: false,
-          preventDefaultMouseMove: false,
-        },
-        {
-          type: "inside",
-          yAxisIndex: 0,
-          filterMode: "none",
-          zoomOnMouseWheel: "ctrl",
-          moveOnMouseMove: true,
-          moveOnMouseWheel: false,
-          preventDefaultMouseMove: false,
-        },
-      ],
+      dataZoom: [zoomAlong("xAxisIndex"), zoomAlong("yAxisIndex")],
       series,
     }),
     [series],
