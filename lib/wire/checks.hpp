@@ -15,6 +15,12 @@ inline Result<void> expect_range(std::string_view member, double value, double m
   return fail("{}: {} is outside [{}, {}]", member, value, minimum, maximum);
 }
 
+/// An index into `count` things; `count` may be anything that a message holds.
+inline Result<void> expect_index(std::string_view member, int index, int count) {
+  if (index >= 0 && index < count) return {};
+  return fail("{}: {} is no index into {}", member, index, count);
+}
+
 /// Moduli, toughnesses and stresses beyond these are no material's; a value out of range is a broken program, not a
 /// finding.
 inline constexpr double kLargestPressurePa = 1e13;

@@ -172,7 +172,7 @@ Result<SimulateResult> from_wire(const simulate_result_t& message) {
   }
   const Result<void> sound =
       all_of(expect_name("request_id", message.request_id), expect_range("chunks", message.chunks, 1, kMaximumDesigns),
-             expect_range("chunk", message.chunk, 0, message.chunks - 1),
+             expect_index("chunk", message.chunk, message.chunks),
              expect_range("first", message.first, 0, kMaximumDesigns - 1.0),
              expect_range("n_results", message.n_results, 1, static_cast<double>(kMaximumDesigns) - message.first));
   if (!sound) return in_type(type, sound.error());

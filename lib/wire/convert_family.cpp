@@ -64,7 +64,7 @@ Result<Family> from_wire(const family_t& message) {
   constexpr std::string_view type = "family_t";
   const Result<void> sound =
       all_of(expect_round(message.round), expect_range("count", message.count, 1, 1000),
-             expect_range("number", message.number, 0, message.count - 1), expect_name("name", message.name),
+             expect_index("number", message.number, message.count), expect_name("name", message.name),
              expect_range("simulations", message.simulations, 0, kLargestCount),
              expect_range("samples", message.samples, 0, kLargestCount),
              expect_count("designs", message.designs.size(), kMostDesigns));

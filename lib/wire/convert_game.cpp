@@ -85,7 +85,7 @@ gamut_t to_wire(const GamutChunk& chunk) {
 Result<GamutChunk> from_wire(const gamut_t& message) {
   constexpr std::string_view type = "gamut_t";
   const Result<void> sound = all_of(expect_round(message.round), expect_range("chunks", message.chunks, 1, 1'000'000),
-                                    expect_range("chunk", message.chunk, 0, message.chunks - 1),
+                                    expect_index("chunk", message.chunk, message.chunks),
                                     expect_count("pattern", message.pattern.size(), kGamutChunk));
   if (!sound) return in_type(type, sound.error());
   const Result<tester::Fidelity> fidelity = fidelity_from_wire(message.fidelity);
