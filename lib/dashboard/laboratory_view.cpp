@@ -41,6 +41,7 @@ Json group_json(const measurement::ReplicateGroup& group) {
           {"tested", group.tested},
           {"valid", group.valid},
           {"proposed_outliers", proposed},
+          {"wanted", group.wanted},
           {"mean_pa", group.mean_pa},
           {"scatter", group.scatter}};
 }

@@ -197,6 +197,7 @@ export interface Group {
   tested: string[];
   valid: string[];
   proposed_outliers: { specimen: string; reasons: string[] }[];
+  wanted: number;
   mean_pa: number;
   scatter: number;
 }

@@ -66,7 +66,7 @@ const groupColumns = [
     words: true,
     show: (g: Group) => (
       <span class={`chip ${g.state === "complete" ? "approved" : g.state === "inconsistent" ? "rejected" : "pending"}`}>
-        {g.state.replace("_", " ")}
+        {g.wanted > 0 ? `${g.wanted} more for a sure mean` : g.state}
       </span>
     ),
     value: (g: Group) => g.state,
@@ -112,7 +112,7 @@ export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean 
       <section class="panel">
         <Table
           name="replicates"
-          caption="Replicates"
+          caption="Replicates: a mean is sure once four are tested and three of them agree; the game goes on with what it ordered"
           rows={work.groups}
           rowKey={(g) => `${g.design}${g.test}${g.orientation_deg}`}
           empty="Nothing has been measured yet."
