@@ -183,11 +183,11 @@ std::string constants_toml(std::string_view table, std::span<const std::string_v
 
 }  // namespace
 
-Truth parse_laboratory(std::string_view text, std::string_view source) try {
+Truth parse_laboratory(std::string_view text, std::string_view source, std::uint64_t seed) try {
   const toml::table document = toml::parse(text, source);
   Section top(document, source, "");
   Truth truth;
-  truth.seed = static_cast<std::uint64_t>(top.integer("seed", 0, INT64_MAX, 1));
+  truth.seed = static_cast<std::uint64_t>(top.integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(seed)));
   const std::string_view fidelity_name = top.text("fidelity", "full");
   const Result<tester::Fidelity> fidelity = tester::fidelity_from_string(fidelity_name);
   if (!fidelity) throw fault_at(source, *document.get("fidelity"), "fidelity", "tiny, preview or full");
@@ -212,7 +212,9 @@ Truth parse_laboratory(std::string_view text, std::string_view source) try {
                            error.description());
 }
 
-Truth read_laboratory(const std::filesystem::path& path) { return parse_laboratory(read_file(path), path.string()); }
+Truth read_laboratory(const std::filesystem::path& path, std::uint64_t seed) {
+  return parse_laboratory(read_file(path), path.string(), seed);
+}
 
 std::string to_toml(const Truth& truth) {
   std::string text = fmt::format("seed = {}\nfidelity = \"{}\"\nreplicates = {}\n", truth.seed,

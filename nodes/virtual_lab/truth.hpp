@@ -110,11 +110,11 @@ double draw_second_value(std::uint64_t seed, const EffectKind& kind);
 /// The truth of a laboratory that has no file: everything drawn from the seed.
 Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity);
 
-/// Reads LAB.toml. Tables that it lacks are drawn from its seed. Throws InputError naming file, line, key and what was
-/// expected.
-Truth read_laboratory(const std::filesystem::path& path);
+/// Reads LAB.toml. Tables that it lacks are drawn from its seed, which is `seed` where the file names none. Throws
+/// InputError naming file, line, key and what was expected.
+Truth read_laboratory(const std::filesystem::path& path, std::uint64_t seed = 1);
 /// The same from text; `source` names the place in errors.
-Truth parse_laboratory(std::string_view toml, std::string_view source);
+Truth parse_laboratory(std::string_view toml, std::string_view source, std::uint64_t seed = 1);
 
 /// The whole truth as TOML: parse_laboratory(to_toml(truth)) == truth.
 std::string to_toml(const Truth& truth);

@@ -126,7 +126,7 @@ runtime::Status VirtualLabCore::status() const {
 
 Truth truth_of(const game::Scenario& scenario) {
   if (scenario.laboratory.file.empty()) return draw_truth(scenario.seed, scenario.fidelity);
-  Truth truth = read_laboratory(scenario.laboratory.file);
+  Truth truth = read_laboratory(scenario.laboratory.file, scenario.seed);
   truth.fidelity = scenario.fidelity;
   return truth;
 }

@@ -116,6 +116,16 @@ TEST(LaboratoryFile, RefusalsNameFileLineKeyAndWhatWasExpected) {
   EXPECT_THAT(refusal("seed 1\n"), HasSubstr("lab.toml: line 1"));
 }
 
+TEST(LaboratoryFile, OneWithoutASeedIsAnotherLaboratoryInEveryGame) {
+  constexpr std::string_view kAnisotropic = "[[effect]]\nname = \"interface_anisotropy\"\nvalue = 0.5\n";
+  const Truth second = parse_laboratory(kAnisotropic, "lab.toml", 2),
+              third = parse_laboratory(kAnisotropic, "lab.toml", 3);
+  EXPECT_EQ(second.modulus, draw_modulus_parameters(2));
+  EXPECT_NE(second.modulus, third.modulus);
+  EXPECT_EQ(second.effects, third.effects);
+  EXPECT_EQ(parse_laboratory("seed = 4\n", "lab.toml", 2).seed, 4);
+}
+
 TEST(SealedTruth, OnlyItsOwnerMayReadIt) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "sealed.truth.toml";
   const Truth truth = draw_truth(8, tester::Fidelity::full);
