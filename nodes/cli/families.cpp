@@ -1,9 +1,9 @@
 // nacre families: which families of good designs there are, their variants, and a map of each (thesis 2.4).
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <vector>
 
@@ -82,8 +82,9 @@ Beginning beginning_of_set(const Options& options) {
 
 /// The model that the validation agent adopted last.
 material::ParameterSet adopted_parameters(const RunAccess& run) {
-  for (const std::string& payload : sent_by_validation_agent(run, "PARAMETERS") | std::views::reverse) {
-    const auto message = wire::decode_safe<parameters_t>(payload);
+  const std::vector<std::string> sent = sent_by_validation_agent(run, "PARAMETERS");
+  for (auto payload = sent.rbegin(); payload != sent.rend(); ++payload) {
+    const auto message = wire::decode_safe<parameters_t>(*payload);
     if (!message) continue;
     if (const auto model = wire::from_wire(*message)) return model->parameters;
   }
