@@ -65,7 +65,8 @@ class Exports {
     };
     if (files_.empty()) {
       const fs::path beside = folder_ / name;
-      if (fs::exists(beside)) return beside;
+      std::error_code unreadable;
+      if (fs::exists(beside, unreadable)) return beside;
       return fail("there is no file {}, expected an export beside the sheet or on the command line", beside.string());
     }
     auto found = matching([&](const fs::path& file) { return file == name || file == folder_ / name; });
