@@ -29,7 +29,7 @@ class FrontalCholesky {
   struct alignas(64) Line {
     double number[kFrontPadding];
   };
-  static double* numbers(std::vector<Line>& lines) { return lines.data()->number; }
+  static double* numbers(std::vector<Line>& lines) { return lines.empty() ? nullptr : lines.front().number; }
 
   void lay_out();
   void assemble(std::size_t block, const std::vector<material::Lame>& lame);
