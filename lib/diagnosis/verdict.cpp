@@ -156,7 +156,8 @@ Decision decide(const Evidence& evidence) {
   }
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
-    return settled(evidence, std::move(decision), confidence_set(evidence, evidence.singles, decision.p_fit), "one effect fitted jointly with the base explains the data");
+    std::vector<Fit> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
+    return settled(evidence, std::move(decision), std::move(possible), "one effect fitted jointly with the base explains the data");
   }
   report(0.9, "fitting pairs of effects");
   std::vector<Fit> pairs = significant_pairs(evidence, evidence.singles[best]);

@@ -74,7 +74,7 @@ explore::SearchSettings ProposalCore::search_settings(int branch) const {
 
 void ProposalCore::start_next_round(runtime::Outputs& outputs) {
   const auto next = waiting_.begin();
-  round_ = Round{.model = std::move(next->second)};
+  round_ = Round{.model = std::move(next->second), .branches = {}, .gamut = {}};
   waiting_.erase(next);
   const bool same_model = last_parameters_ == game::material_side(round_->model.parameters);
   log(outputs, runtime::LogLevel::info,

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../instrumented.hpp"
 #include "in_process_game.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "runtime/replay.hpp"
@@ -32,7 +33,7 @@ game::Scenario five_rounds() {
 }
 
 TEST(Restart, FoldsTheJournalOfFiveRoundsInSeconds) {
-  constexpr double kPatienceS = 5.0;  // a crashed node is missed after ten
+  constexpr double kPatienceS = 5.0 * test::kPatience;  // a crashed node is missed after ten
   const game::Scenario scenario = five_rounds();
   InProcessGame game;
   add_players(game, scenario);

@@ -154,7 +154,8 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
   EXPECT_EQ(round.calibration_count, 2) << "the approved design and the random pattern";
   EXPECT_EQ(round.held_out.toughness_count, 1);
   EXPECT_NEAR(round.held_out.toughness_mean, std::abs(approved_.toughness_pa - sound_pa) / sound_pa, 1e-9);
-  for (const wire::ProposedDesign& next : person_->proposals().at(1).designs) {
+  const wire::Proposal second = person_->proposals().at(1);
+  for (const wire::ProposedDesign& next : second.designs) {
     EXPECT_NE(next.design, refused_.design) << "what was refused is not proposed again";
   }
   for (const store::MeasuredSpecimen& kept : store::read_run_record(person_->run() / "run.db").specimens) {

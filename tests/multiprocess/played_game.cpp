@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "../instrumented.hpp"
 #include "program.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/log_file.hpp"
@@ -67,7 +68,7 @@ PlayedGame::PlayedGame(const fs::path& run, const std::string& faults)
 void PlayedGame::play_on() { wait_until_said(process_, "\n\n\n", said_, kTurnS); }
 
 bool PlayedGame::play_until(const std::function<bool()>& condition, double timeout_s) {
-  const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
+  const auto end = Clock::now() + std::chrono::duration<double>(test::kPatience * timeout_s);
   while (!condition()) {
     if (is_over() || Clock::now() > end) return condition();  // it may have come true with the end
     play_on();

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../instrumented.hpp"
 #include "base/result.hpp"
 
 namespace nacre {
@@ -96,7 +97,7 @@ bool wait_until_said(runtime::ChildProcess& process, const std::string& text, st
 }
 
 runtime::ProcessEnd wait_for_end(runtime::ChildProcess& process, std::string& said, double timeout_s) {
-  const auto end = deadline(timeout_s);
+  const auto end = deadline(test::kPatience * timeout_s);
   while (Clock::now() < end) {
     read_output(process, said);
     if (const auto how = process.poll_end()) {
@@ -121,7 +122,7 @@ std::vector<int> processes_with(const std::string& text) {
 }
 
 bool becomes_true(const std::function<bool()>& condition, double timeout_s) {
-  const auto end = deadline(timeout_s);
+  const auto end = deadline(test::kPatience * timeout_s);
   while (!condition()) {
     if (Clock::now() > end) return false;
     ::usleep(20'000);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../instrumented.hpp"
 #include "base/random.hpp"
 
 namespace nacre::optimize {
@@ -91,7 +92,7 @@ TEST(Ranks, OfAHundredThousandPointsTakeAFractionOfASecond) {
   const auto points = random_points(100000, 0, random);
   const auto begin = std::chrono::steady_clock::now();
   const auto ranks = non_dominated_ranks(points);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, test::kPatience * std::chrono::seconds(1));
   EXPECT_EQ(std::count(ranks.begin(), ranks.end(), 1), static_cast<long>(pareto_front(points).size()));
 }
 

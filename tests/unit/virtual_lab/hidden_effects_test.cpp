@@ -121,15 +121,16 @@ TEST(LaboratoryFile, EffectsWithTwoNumbersReadBackAndRefuseOthers) {
 }
 
 /// A strip of one material without notch.
-Raster strip() {
+Raster strip(int rows = 12) {
   const material::Lame lame = material::lame_from_engineering(kYoungPa, kPoisson);
-  constexpr int columns = 16, rows = 12;
+  constexpr int columns = 16;
   Raster raster;
   raster.columns = columns;
   raster.rows = rows;
-  raster.mu_pa.assign(columns * rows, lame.mu_pa);
-  raster.lambda_pa.assign(columns * rows, lame.lambda_pa);
-  raster.threshold_j_per_m3.assign(columns * rows, 5e6);
+  const auto elements = static_cast<std::size_t>(columns * rows);
+  raster.mu_pa.assign(elements, lame.mu_pa);
+  raster.lambda_pa.assign(elements, lame.lambda_pa);
+  raster.threshold_j_per_m3.assign(elements, 5e6);
   return raster;
 }
 
@@ -181,10 +182,9 @@ TEST(HiddenLaw, NothingHiddenInTheHiddenKernelIsThePlainKernel) {
   EXPECT_NEAR(tester::area_under(pulled(hidden, 0.3)) / tester::area_under(pulled(notched, 0.3)), 1.0, 0.02);
 }
 
-// The whole strip softens together or one row does: in either case no less than the threshold and no more than
-// declared.
+// A strip so low that it softens as a whole: in a higher one a single row may take all of it, which the last bits decide.
 TEST(HiddenLaw, SofteningTakesMoreWorkThanBreakingAtOnce) {
-  Raster sharp = strip();
+  Raster sharp = strip(2);
   std::fill(sharp.threshold_j_per_m3.begin(), sharp.threshold_j_per_m3.end(), 5e5);
   Raster linear = sharp, drawn_out = sharp;
   linear.law.linear_softening = 1.0;
@@ -193,7 +193,7 @@ TEST(HiddenLaw, SofteningTakesMoreWorkThanBreakingAtOnce) {
   EXPECT_NEAR(at_once, 5e5, 0.1 * 5e5);
   for (const Raster& raster : {linear, drawn_out}) {
     const double work = tester::area_under(pulled(raster, 0.3));
-    EXPECT_GT(work, 1.02 * at_once);
+    EXPECT_GT(work, 1.5 * at_once);
     EXPECT_LT(work, 2.1 * at_once);
   }
 }

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "../../instrumented.hpp"
 #include "base/random.hpp"
 #include "samples.hpp"
 #include "wire/channels.hpp"
@@ -21,21 +22,17 @@ using testing::HasSubstr;
 class MemoryCap {
  public:
   explicit MemoryCap(rlim_t bytes) {
-#ifndef __SANITIZE_ADDRESS__
     getrlimit(RLIMIT_AS, &before_);
     rlimit capped = before_;
     capped.rlim_cur = bytes;
-    setrlimit(RLIMIT_AS, &capped);
-#endif
+    if (!test::kIsInstrumented) setrlimit(RLIMIT_AS, &capped);
   }
   ~MemoryCap() {
-#ifndef __SANITIZE_ADDRESS__
-    setrlimit(RLIMIT_AS, &before_);
-#endif
+    if (!test::kIsInstrumented) setrlimit(RLIMIT_AS, &before_);
   }
 
  private:
-  [[maybe_unused]] rlimit before_{};
+  rlimit before_{};
 };
 
 std::string corrupted(std::string bytes, RandomStream& random) {
