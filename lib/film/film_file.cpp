@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
+#include "base/result.hpp"
 #include "film/sections.hpp"
 
 namespace nacre::film {
@@ -64,12 +65,33 @@ Json header_json(const Film& film, const std::vector<Section>& sections) {
       {"sections", lengths}};
 }
 
-/// Header members into a film; throws nlohmann's exceptions where one is missing or of another kind.
+/// A count. Throws InputError where it is none: a conversion would take any number for one.
+int count_from(const json& value, const char* name, int most) {
+  if (!value.is_number_integer() || value < 0 || value > most)
+    throw InputError::format("{}: {}, expected a whole number from 0 to {}", name, value.dump(), most);
+  return value.get<int>();
+}
+
+int count_in(const json& object, const char* name, int most) { return count_from(object.at(name), name, most); }
+
+crack::Path path_from(const json& path, int elements) {
+  crack::Path read{.elements = {},
+                   .length_m = path.at("length_m"),
+                   .straight_length_m = path.at("straight_length_m"),
+                   .bridged_share = path.at("bridged_share"),
+                   .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
+                   .crosses = path.at("crosses")};
+  for (const json& element : path.at("elements")) read.elements.push_back(count_from(element, "element", elements - 1));
+  return read;
+}
+
+/// Header members into a film; throws nlohmann's exceptions or InputError where one is missing or of another kind.
 void read_header(const json& header, Film& film) {
   header.at("design").get_to(film.design);
   header.at("fidelity").get_to(film.fidelity);
-  header.at("columns").get_to(film.columns);
-  header.at("rows").get_to(film.rows);
+  film.columns = count_in(header, "columns", kLargestSide);
+  film.rows = count_in(header, "rows", kLargestSide);
+  const int elements = film.columns * film.rows;
   header.at("element_size_m").get_to(film.element_size_m);
   header.at("toughness_pa").get_to(film.toughness_pa);
   header.at("peak_stress_pa").get_to(film.peak_stress_pa);
@@ -80,30 +102,23 @@ void read_header(const json& header, Film& film) {
   header.at("curve").at("strain").get_to(film.curve.strain);
   header.at("curve").at("stress_pa").get_to(film.curve.stress_pa);
   const json& crack = header.at("crack");
-  crack.at("branches").get_to(film.crack.branches);
-  crack.at("separate_cracks").get_to(film.crack.separate_cracks);
+  film.crack.branches = count_in(crack, "branches", elements);
+  film.crack.separate_cracks = count_in(crack, "separate_cracks", elements);
   film.crack.columns = film.columns;
   film.crack.rows = film.rows;
-  film.crack.order.resize(crack.at("broken").get<std::size_t>());
-  if (const json& path = crack.at("path"); !path.is_null())
-    film.crack.path =
-        crack::Path{.elements = path.at("elements").get<std::vector<int>>(),
-                    .length_m = path.at("length_m"),
-                    .straight_length_m = path.at("straight_length_m"),
-                    .bridged_share = path.at("bridged_share"),
-                    .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
-                    .crosses = path.at("crosses")};
+  film.crack.order.resize(static_cast<std::size_t>(count_in(crack, "broken", elements)));
+  if (const json& path = crack.at("path"); !path.is_null()) film.crack.path = path_from(path, elements);
   for (const json& frame : header.at("frames"))
     film.frames.push_back({.strain = frame.at("strain"),
                            .stress_pa = frame.at("stress_pa"),
-                           .broken = frame.at("broken"),
+                           .broken = count_in(frame, "broken", elements),
                            .energy_level = {},
                            .displacement_step = {}});
 }
 
 /// What in the header contradicts itself or the format; empty when nothing does.
 std::string header_fault(const Film& film) {
-  if (film.columns < 1 || film.columns > kLargestSide || film.rows < 1 || film.rows > kLargestSide)
+  if (film.columns < 1 || film.rows < 1)
     return fmt::format("{} x {} elements, expected 1 to {} on a side", film.columns, film.rows, kLargestSide);
   if (film.frames.empty() || film.frames.size() > kMostFrames)
     return fmt::format("{} frames, expected 1 to {}", film.frames.size(), kMostFrames);
@@ -111,15 +126,10 @@ std::string header_fault(const Film& film) {
   if (film.frames.size() * static_cast<std::size_t>(elements) > kMostValues)
     return fmt::format("{} frames of {} elements, expected {} values in all", film.frames.size(), elements,
                        kMostValues);
-  if (film.crack.order.size() > static_cast<std::size_t>(elements))
-    return fmt::format("{} failed elements of {}", film.crack.order.size(), elements);
   if (film.curve.strain.size() != film.curve.stress_pa.size()) return "strain and stress of the curve differ in length";
   for (const Frame& frame : film.frames)
-    if (frame.broken < 0 || frame.broken > static_cast<int>(film.crack.order.size()))
+    if (frame.broken > static_cast<int>(film.crack.order.size()))
       return fmt::format("a frame with {} failed elements of {}", frame.broken, film.crack.order.size());
-  if (film.crack.path)
-    for (const int e : film.crack.path->elements)
-      if (e < 0 || e >= elements) return fmt::format("element {} of {} on the path", e, elements);
   return {};
 }
 
@@ -129,12 +139,12 @@ Result<Film> read_film_parts(const json& header, std::string_view body) {
   try {
     read_header(header, film);
     for (const json& section : header.at("sections")) {
-      const auto bytes = section.at("bytes").get<std::size_t>();
+      const auto bytes = static_cast<std::size_t>(count_in(section, "bytes", static_cast<int>(kLargestFile)));
       if (bytes > body.size()) return fail("section {} is cut off", section.at("name").get<std::string>());
       sections.push_back({section.at("name"), std::string(body.substr(0, bytes))});
       body.remove_prefix(bytes);
     }
-  } catch (const json::exception& problem) {
+  } catch (const std::exception& problem) {
     return fail("header: {}", problem.what());
   }
   if (const std::string fault = header_fault(film); !fault.empty()) return fail("header: {}", fault);
