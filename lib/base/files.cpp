@@ -23,7 +23,8 @@ struct Descriptor {
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code unreadable;  // what a folder's name cannot be either is said below
-  if (std::filesystem::is_directory(path, unreadable)) throw InputError::format("{}: is a folder, expected a file", path.string());
+  if (std::filesystem::is_directory(path, unreadable))
+    throw InputError::format("{}: is a folder, expected a file", path.string());
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) throw InputError::format("{}: cannot be read: {}", path.string(), std::strerror(errno));
   std::string bytes;

@@ -32,7 +32,8 @@ std::string wal_index_header(const std::filesystem::path& database) {
 }  // namespace
 
 std::string RunData::version() const {
-  // Without asking SQLite. Times of files do not do alone: two writes within a tick of the kernel's clock have the same.
+  // Without asking SQLite. Times of files do not do alone: two writes within a tick of the kernel's clock have the
+  // same.
   std::string version;
   struct stat status {};
   if (::stat(database_.c_str(), &status) == 0)

@@ -128,7 +128,8 @@ void AnalyserCore::accept_measurement(const std::string& payload) {
   if (measured->record.design.layout() && upright) {
     // What nobody ordered belongs to the round that is played.
     const int round = measured->round >= 0 ? measured->round : closed_.empty() ? 0 : round_ + 1;
-    const auto known = measured_designs_.try_emplace(measured->record.design.name(), MeasuredDesign{measured->record.design, round});
+    const auto known =
+        measured_designs_.try_emplace(measured->record.design.name(), MeasuredDesign{measured->record.design, round});
     known.first->second.round = std::min(known.first->second.round, round);
     ask_about_measured_designs();
   }

@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../instrumented.hpp"
 #include "base/files.hpp"
 #include "families/dense_sampling.hpp"
 #include "families/grouping.hpp"
-#include "../instrumented.hpp"
 #include "in_process_game.hpp"
 #include "pattern/constraints.hpp"
 #include "stand_ins.hpp"

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kTurnS = 0.02;
 
-const std::vector<std::string> kComparedChannels = {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",   "MEASUREMENT",
+const std::vector<std::string> kComparedChannels = {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",  "MEASUREMENT",
                                                     "DIAGNOSIS",  "ROUND", "FAMILY",   "FAMILY_GAMUT"};
 
 /// The environment is the children's too.

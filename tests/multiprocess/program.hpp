@@ -20,7 +20,8 @@ struct Outcome {
   std::string err;
 };
 
-/// build/bin/nacre with these arguments, until it ends; killed with status 137 after timeout_s (here and below: ten times as long in instrumented builds).
+/// build/bin/nacre with these arguments, until it ends; killed with status 137 after timeout_s (here and
+/// below: ten times as long in instrumented builds).
 Outcome run_nacre(const std::vector<std::string>& arguments, double timeout_s = 60.0);
 
 /// build/bin/NAME

@@ -66,7 +66,7 @@ const groupColumns = [
     words: true,
     show: (g: Group) => (
       <span class={`chip ${g.state === "complete" ? "approved" : g.state === "inconsistent" ? "rejected" : "pending"}`}>
-        {g.wanted > 0 ? `${g.wanted} more for a sure mean` : g.state}
+        {g.state === "more needed" ? `${g.wanted} more for a sure mean` : g.state}
       </span>
     ),
     value: (g: Group) => g.state,
