@@ -1,6 +1,6 @@
 #include "virtual_lab/fracture_kernel.hpp"
 
-#define NACRE_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#include "virtual_lab/vector_loops.hpp"
 
 namespace nacre::virtual_laboratory {
 namespace {
@@ -62,7 +62,7 @@ int advance_elements(const ElementRow& row, const ElementStep& step) {
   float* y_axial = row.y_axial + 1;
   const float k = step.half_inverse_edge, e = step.grip_strain, viscosity = step.viscosity;
   int failures = 0, broken = 0;
-#pragma GCC ivdep
+  NACRE_INDEPENDENT_ITERATIONS
   for (int c = 0; c < columns; ++c) {
     const float mu = mu_row[c], lambda = lambda_row[c];
     const bool live = mu > 0.0f;
@@ -131,7 +131,7 @@ void advance_nodes(const NodeRow& row, float scale_x, float scale_y, float dt, f
   const float* inverse_mass = row.inverse_mass;
   float* total_y = force_y;
   const int nodes = row.columns + 1;
-#pragma GCC ivdep
+  NACRE_INDEPENDENT_ITERATIONS
   for (int n = 0; n < nodes; ++n) {  // node n lies between elements n - 1 (entry n) and n (entry n + 1)
     const float axial_x = xa[n] + xa[n + 1], axial_y = ya[n] + ya[n + 1];
     const float fx = carry_x[n] + ((xl[n] - xl[n + 1]) - axial_x);

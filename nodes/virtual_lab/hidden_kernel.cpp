@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#define NACRE_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#include "virtual_lab/vector_loops.hpp"
+
 #define NACRE_ALWAYS_INLINE [[gnu::always_inline]] inline
 
 namespace nacre::virtual_laboratory {
@@ -153,7 +154,7 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
   const Softening softening(hidden_step);
   const HiddenRow past = hidden;  // its pointers stay where they are
   int failures = 0, broken = 0;
-#pragma GCC ivdep
+  NACRE_INDEPENDENT_ITERATIONS
   for (int c = 0; c < columns; ++c) {
     const float mu = mu_row[c], lambda = lambda_row[c];
     const bool live = mu > 0.0f;
