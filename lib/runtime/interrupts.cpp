@@ -1,18 +1,21 @@
 #include "runtime/interrupts.hpp"
 
+#include <atomic>
 #include <cstddef>
 
 namespace nacre::runtime {
 namespace {
 
-volatile std::sig_atomic_t interrupt_count = 0;
+/// Written by a signal, which any thread may receive, and read by workers.
+std::atomic<int> interrupt_count = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 }  // namespace
 
 Interrupts::Interrupts() {
   interrupt_count = 0;
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupt_count = interrupt_count + 1; };
+  action.sa_handler = [](int) { ++interrupt_count; };
   for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &action, &before_[i]);
 }
 

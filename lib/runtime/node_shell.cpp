@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -34,7 +35,8 @@ class NodeFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-volatile std::sig_atomic_t stop_requested = 0;
+std::atomic<bool> stop_requested = false;  // by a signal, which a worker may receive
+static_assert(std::atomic<bool>::is_always_lock_free);
 int wake_fd = -1;  // an eventfd: signals and workers end the wait for messages
 
 void wake() {
@@ -44,7 +46,7 @@ void wake() {
 
 extern "C" void request_stop(int) {
   const int saved = errno;
-  stop_requested = 1;
+  stop_requested = true;
   wake();
   errno = saved;
 }

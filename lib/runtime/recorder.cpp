@@ -1,5 +1,6 @@
 #include "runtime/recorder.hpp"
 
+#include <atomic>
 #include <bit>
 #include <csignal>
 #include <cstdio>
@@ -12,8 +13,8 @@
 namespace nacre::runtime {
 namespace {
 
-volatile std::sig_atomic_t recorder_stop = 0;
-extern "C" void request_recorder_stop(int) { recorder_stop = 1; }
+std::atomic<bool> recorder_stop = false;
+extern "C" void request_recorder_stop(int) { recorder_stop = true; }
 
 /// Cuts a torn tail off an existing log; returns the number of records in it.
 std::int64_t mend(const std::filesystem::path& path) {
