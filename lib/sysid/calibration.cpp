@@ -63,6 +63,13 @@ optimize::Algorithm algorithm_of(ToughnessSearch search) {
 constexpr std::size_t kModulusDimensions = material::kModulusParameterCount - 1;
 constexpr std::size_t kToughnessDimensions = material::kToughnessParameterCount;
 
+/// A coordinate that is also off by an error of the numerics, in units of its range.
+CoordinateInterval widened(const CoordinateInterval& interval, double sd) {
+  const double middle = 0.5 * (interval.low90 + interval.high90);
+  const double half = std::hypot(0.5 * (interval.high90 - interval.low90), 1.645 * sd);
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half), std::hypot(interval.deviation, sd)};
+}
+
 }  // namespace
 
 struct Calibration::State {
@@ -219,22 +226,28 @@ struct Calibration::State {
     if (!of_toughness.empty()) toughness.fit->tell(std::move(of_toughness));
   }
 
+  /// Adds a row per parameter to the result. Returns how many of them the fit took from the data.
   template <class Vector>
-  void add_estimates(std::string_view table, std::span<const std::string_view> names,
-                     std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit) {
+  int add_estimates(std::string_view table, std::span<const std::string_view> names,
+                    std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit,
+                    double log_damping_sd) {
     std::vector<CoordinateInterval> intervals;
     if (fit != nullptr) intervals = fit->intervals();
     intervals.resize(vector.size(), {0.0, 1.0, kUnknownDeviation});  // theta's gamma is not searched
+    const auto determined = [](const CoordinateInterval& each) { return each.deviation < 0.5 * kUnknownDeviation; };
+    const auto fitted = std::count_if(intervals.begin(), intervals.end(), determined);
+    intervals.back() =
+        widened(intervals.back(), log_damping_sd / std::log(ranges.back().maximum / ranges.back().minimum));
     for (std::size_t j = 0; j < vector.size(); ++j) {
       ParameterEstimate estimate{fmt::format("{}.{}", table, names[j]), vector[j], ranges[j].minimum, ranges[j].maximum,
-                                 false};
-      estimate.determined = intervals[j].deviation < 0.5 * kUnknownDeviation;
+                                 determined(intervals[j])};
       if (estimate.determined) {
         estimate.low90 = from_unit(ranges[j], intervals[j].low90);
         estimate.high90 = from_unit(ranges[j], intervals[j].high90);
       }
       result.estimates.push_back(std::move(estimate));
     }
+    return static_cast<int>(fitted);
   }
 
   void conclude() {
@@ -262,26 +275,22 @@ struct Calibration::State {
         after[toughness.items[k]].curve = best.curve;
       }
     }
-    add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
-                  to_vector(result.parameters.modulus), modulus.fit.get());
-    add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
-                  to_vector(result.parameters.toughness), toughness.fit.get());
+    const int fitted_modulus = add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
+                                             to_vector(result.parameters.modulus), modulus.fit.get(), 0.0);
+    const int fitted_toughness =
+        add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
+                      to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_damping_sd);
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);
-    add_likelihood();
+    add_likelihood(fitted_modulus, fitted_toughness);
     add_ensemble();
   }
 
-  void add_likelihood() {
-    const auto determined = [&](std::string_view table) {
-      return static_cast<int>(std::count_if(
-          result.estimates.begin(), result.estimates.end(),
-          [&](const ParameterEstimate& each) { return each.determined && each.name.starts_with(table); }));
-    };
+  void add_likelihood(int fitted_modulus, int fitted_toughness) {
     const Likelihood modulus_likelihood =
-        modulus_likelihood_of(measured, result.predictions, settings.floor, determined("modulus"));
+        modulus_likelihood_of(measured, result.predictions, settings.floor, fitted_modulus);
     const Likelihood toughness_likelihood =
-        toughness_likelihood_of(measured, result.predictions, settings.floor, determined("toughness"));
+        toughness_likelihood_of(measured, result.predictions, settings.floor, fitted_toughness);
     result.modulus_deviance = modulus_likelihood.deviance;
     result.modulus_fit = modulus_likelihood.fit;
     result.toughness_deviance = toughness_likelihood.deviance;

@@ -27,6 +27,7 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
   read("log_modulus_mean", floor.log_modulus_common_sd);
   read("log_toughness_mean", floor.log_toughness_common_sd);
   read("log_peak_mean", floor.log_peak_common_sd);
+  read("log_damping_sd", floor.log_damping_sd);
   const auto read_trend = [&](std::size_t feature, double& value) {
     const toml::node_view<const toml::node> entry = (*table)["covariance_rigid"][feature][feature];
     if (!entry) return;

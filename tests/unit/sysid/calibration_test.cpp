@@ -246,6 +246,51 @@ TEST(Calibration, ParametersWithoutEffectAreNotDetermined) {
   EXPECT_GE(estimate("toughness.w_if_j_per_m3").high90, truth().toughness.w_if_j_per_m3);
 }
 
+/// The stand-in as a tester whose toughness goes with the damping.
+Prediction damped_fracture(const pattern::Design& design, const material::ToughnessParameters& eta) {
+  Prediction prediction = stand_in_fracture(design, eta);
+  const double factor = std::pow(eta.gamma_per_s / 2e5, shares(design)[1]);
+  *prediction.toughness_pa *= factor;
+  for (double& stress : prediction.curve.stress_pa) stress *= factor;
+  return prediction;
+}
+
+ParameterEstimate estimate_of_damping(double log_damping_sd) {
+  std::vector<Replicates> measured = measured_designs(12);
+  CalibrationSettings chosen = settings();
+  chosen.modulus_budget = 0;
+  chosen.floor = {.log_toughness_sd = 0.01,
+                  .log_peak_sd = 0.01,
+                  .log_toughness_common_sd = 0.0,
+                  .log_peak_common_sd = 0.0,
+                  .log_toughness_trend_sd = 0.0,
+                  .log_peak_trend_sd = 0.0,
+                  .log_damping_sd = log_damping_sd};
+  Calibration calibration(measured, chosen);
+  while (!calibration.finished()) {
+    const std::vector<WantedEvaluation> wanted = calibration.wanted();
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      std::vector<Prediction> predictions;
+      for (const std::size_t item : wanted[k].items)
+        predictions.push_back(damped_fracture(measured[item].design, wanted[k].parameters.toughness));
+      calibration.tell(k, predictions);
+    }
+  }
+  return calibration.result().estimates.back();
+}
+
+TEST(Calibration, ADampingIsNoBetterKnownThanAnotherMeshLetsIt) {
+  const ParameterEstimate data_alone = estimate_of_damping(0.0), small = estimate_of_damping(0.3),
+                          real = estimate_of_damping(1.1);
+  ASSERT_EQ(data_alone.name, "toughness.gamma_per_s");
+  ASSERT_TRUE(data_alone.determined);
+  EXPECT_EQ(small.value, data_alone.value);
+  ASSERT_TRUE(small.determined);
+  const auto width = [](const ParameterEstimate& each) { return std::log(each.high90 / each.low90); };
+  EXPECT_NEAR(width(small), std::hypot(width(data_alone), 2.0 * 1.645 * 0.3), 1e-6);
+  EXPECT_FALSE(real.determined);
+}
+
 /// The stand-in as a tester whose fractures jump: T and peak scatter by 12 % from one parameter set to the next.
 Prediction jumpy_fracture(const pattern::Design& design, const material::ToughnessParameters& eta) {
   std::string name = design.name();
