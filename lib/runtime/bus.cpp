@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <chrono>
@@ -213,8 +214,9 @@ Result<void> Bus::subscribe(const std::vector<std::string>& channels) {
   // Before the first subscription: this starts LCM's receive thread and its self-test. A subscription that fails because of
   // it comes back as an object around a null pointer, which the next call on it would follow.
   if (state_->lcm->getFileno() < 0) {
-    // What the library has left of itself then cannot even be destroyed.
-    [[maybe_unused]] const lcm::LCM* const broken = state_->lcm.release();
+    // What the library has left of itself then cannot even be destroyed: kept, not lost.
+    static std::atomic<const lcm::LCM*> broken;
+    broken = state_->lcm.release();
     return fail("cannot listen on {}: multicast does not come back to this host (filtered by a firewall?)",
                 state_->options.url);
   }
