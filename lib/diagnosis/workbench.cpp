@@ -22,7 +22,8 @@ constexpr double kNothing = 1e-9;
 
 /// Effects whose traces in E are calibrated against the numerics so far, and those of the machine; the others need a test beside moduli to be named by.
 bool tells_on_moduli(const material::Effect& effect) {
-  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" || effect.name == "droplet_mixing";
+  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" || effect.name == "droplet_mixing" ||
+         effect.name == "rigid_overprint";
 }
 
 void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
