@@ -47,7 +47,7 @@ Score score_trial(const Trial& trial, const std::filesystem::path& folder) {
   for (const auto& effect : diagnosis["effects"]) score.named.push_back(effect["name"]);
   score.right_name = score.verdict == "named" && same(score.named, trial.hidden);
   score.in_set = std::any_of(score.possible.begin(), score.possible.end(), [&](const auto& model) { return same(model, trial.hidden); });
-  if (const toml::array* signals = truth["modulus_signal"].as_array(); signals != nullptr && !signals->empty()) {
+  if (const toml::array* signals = truth["signal"].as_array(); signals != nullptr && !signals->empty()) {
     const toml::table& first = *signals->get(0)->as_table();
     score.s = first["s"].value_or(0.0), score.rho = first["rho"].value_or(0.0), score.ceiling = first["ceiling"].value_or(0.0);
   }

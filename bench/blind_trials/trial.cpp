@@ -24,6 +24,7 @@ using tester::TestKind;
 
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
+constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
 
 lab::ReplicateNoise noise_of(const Trial& trial) {
   const double factor = trial.noisy ? 2.0 : 1.0;
@@ -43,21 +44,26 @@ double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
 lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
   lab::Truth truth{.seed = trial.seed, .fidelity = options.fidelity, .replicates = kReplicates, .noise = noise_of(trial), .modulus = lab::draw_modulus_parameters(trial.seed),
                    .toughness = lab::draw_toughness_parameters(trial.seed), .effects = {}};
-  for (const lab::EffectKind& kind : lab::effect_kinds())
-    if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) != trial.hidden.end()) truth.effects.*kind.value = hidden_value(trial, kind);
+  for (const lab::EffectKind& kind : lab::effect_kinds()) {
+    if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) == trial.hidden.end()) continue;
+    truth.effects.*kind.value = hidden_value(trial, kind);
+    if (kind.second.value) truth.effects.*kind.second.value = lab::draw_second_value(trial.seed, kind);
+  }
   return truth;
 }
 
-/// The specimens of a trial without values.
-std::vector<measurement::SpecimenRecord> planned(const std::vector<lab::Question>& questions) {
+/// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
+std::vector<measurement::SpecimenRecord> planned(const std::vector<lab::Question>& questions, const std::vector<Result<lab::Response>>& responses) {
   std::vector<measurement::SpecimenRecord> records;
-  for (const lab::Question& q : questions) {
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    const lab::Question& q = questions[i];
     for (int r = 0; r < kReplicates; ++r) {
       measurement::SpecimenRecord record;
       record.specimen = fmt::format("{}-{}-{:.0f}-{:.2g}-{:.2g}-{}", q.design.name(), tester::to_string(q.test), q.conditions.orientation_deg, q.conditions.strain_rate_per_s, q.conditions.thickness_mm, r + 1);
       record.design = q.design;
       record.test = q.test;
       record.conditions = q.conditions;
+      if (q.test == TestKind::tensile && responses[i]) record.curve = responses[i]->curve;
       record.batch = fmt::format("batch-{}", r + 1);
       record.print_order = static_cast<int>(records.size()) + 1;
       records.push_back(record);
@@ -67,10 +73,9 @@ std::vector<measurement::SpecimenRecord> planned(const std::vector<lab::Question
 }
 
 /// What the specimens could show of each hidden effect that the library knows, at the true constants.
-std::string sealed_signals(const Trial& trial, const TrialOptions& options, const lab::Truth& truth, const std::vector<lab::Question>& questions) {
-  std::vector<lab::Question> moduli;
-  for (const lab::Question& q : questions)
-    if (q.test == TestKind::modulus) moduli.push_back(q);
+std::string sealed_signals(const Trial& trial, const TrialOptions& options, const lab::Truth& truth, std::vector<measurement::SpecimenRecord> specimens) {
+  // Fractures would have to be simulated for every effect.
+  std::erase_if(specimens, [](const auto& specimen) { return specimen.test == TestKind::toughness; });
   diagnosis::DiagnosisSettings settings;
   settings.start = material::default_parameters();
   settings.start.modulus = truth.modulus;
@@ -78,7 +83,7 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
   settings.fidelity = options.fidelity;
   settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
   diagnosis::PlannedScatter scatter{.modulus = truth.noise.modulus, .stress = truth.noise.toughness, .strain = truth.noise.strain};
-  const diagnosis::Plan plan = diagnosis::plan_diagnosis(planned(moduli), settings, scatter, false);
+  const diagnosis::Plan plan = diagnosis::plan_diagnosis(specimens, settings, scatter, false);
   std::string text;
   for (const lab::EffectKind& kind : lab::effect_kinds()) {
     const double value = truth.effects.*kind.value;
@@ -86,7 +91,7 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
     if (value == 0.0 || known == plan.effects.end()) continue;
     const double strength = std::abs(material::strength_of(material::find_effect(kind.name)->parameters.front(), value));
     const double s = diagnosis::signal_at(*known, strength), distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += fmt::format("\n[[modulus_signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", kind.name, s, known->rival_cosine, known->nearest_rival,
+    text += fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", kind.name, s, known->rival_cosine, known->nearest_rival,
                         0.5 * std::erfc(-distance / std::sqrt(2.0)));
   }
   return fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind, text);
@@ -143,16 +148,24 @@ std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& 
     }
     for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
   }
+  if (trial.kind == "pair") return questions;
+  for (const double fraction : kCouponFractions) {
+    for (const double factor : {1.0, kSecondRate}) {
+      lab::Question coupon{.design = pattern::Mixture{fraction}, .test = TestKind::tensile, .conditions = {}, .fidelity = options.fidelity};
+      coupon.conditions.strain_rate_per_s *= factor;
+      questions.push_back(coupon);
+    }
+  }
   return questions;
 }
 
 void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Question> questions = questions_of(trial, options);
-  const std::string signals = sealed_signals(trial, options, truth, questions);
   std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
   parallel_for(static_cast<int>(questions.size()), [&](int i) { responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]); });
-  std::vector<measurement::SpecimenRecord> records = planned(questions);
+  std::vector<measurement::SpecimenRecord> records = planned(questions, responses);
+  const std::string signals = sealed_signals(trial, options, truth, records);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
   for (std::size_t i = 0; i < records.size(); ++i) order.push_back(static_cast<int>(i) + 1);

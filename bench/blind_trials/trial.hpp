@@ -34,7 +34,8 @@ struct TrialOptions {
 std::vector<Trial> all_trials(const TrialOptions& options);
 
 /// One of three fixed designs of 16 layouts, by the trial's seed: random patterns over the strata, turned twins, checkerboards, a second rate and a thinner
-/// twin. Pairs are played without what tells their causes apart: no twins, no checkerboards.
+/// twin; beside them homogeneous coupons of five mixtures, pulled with a curve at both rates. Pairs are played without what tells their causes apart: layouts
+/// as they are and nothing else.
 std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
 
 /// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens could show

@@ -17,15 +17,16 @@ class Projector {
   }
   /// Residual of data against the anchor, refitted.
   Eigen::VectorXd residual(const Eigen::VectorXd& y) const { return off(fit_.whitened_residual(y, whitener_)); }
-  Eigen::VectorXd whitened(const Eigen::VectorXd& change) const {
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(change.size() + fit_.base_count);
-    b.head(change.size()) = whitener_(change);
+  /// Changes as columns.
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& changes) const {
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(changes.rows() + fit_.base_count, changes.cols());
+    b.topRows(changes.rows()) = whitener_(changes);
     return b;
   }
-  Eigen::VectorXd projected(const Eigen::VectorXd& change) const { return off(whitened(change)); }
+  Eigen::MatrixXd projected(const Eigen::MatrixXd& changes) const { return off(whitened(changes)); }
 
  private:
-  Eigen::VectorXd off(const Eigen::VectorXd& b) const { return b - q_ * (q_.transpose() * b); }
+  Eigen::MatrixXd off(const Eigen::MatrixXd& b) const { return b - q_ * (q_.transpose() * b); }
   const Fit& fit_;
   const Whitener& whitener_;
   Eigen::MatrixXd q_;
@@ -46,17 +47,57 @@ double DrawStatistics::largest_contrast() const {
   return contrasts.empty() ? 0.0 : *std::max_element(contrasts.begin(), contrasts.end());
 }
 
-DataSource::DataSource(const Observations& observations)
-    : parts_(observations.covariance_parts()), factor_(parts_.total({1.0, 1.0, 1.0}).llt().matrixL()) {
-  for (std::size_t t = 0; t < dof_.size(); ++t) dof_[t] = observations.scatter[t].dof;
+DataSource::DataSource(const Observations& observations) : to_combinations_(Eigen::MatrixXd::Zero(observations.size(), observations.size())), scatter_share_(observations.size()) {
+  const CovarianceParts parts = observations.covariance_parts();
+  const Eigen::MatrixXd total = parts.total({1.0, 1.0, 1.0});
+  Eigen::Index next = 0;
+  for (std::size_t t = 0; t < dof_.size(); ++t) {
+    dof_[t] = observations.scatter[t].dof;
+    std::vector<Eigen::Index> rows;
+    for (int i = 0; i < observations.size(); ++i)
+      if (static_cast<std::size_t>(observations.rows[static_cast<std::size_t>(i)].test) == t) rows.push_back(i);
+    if (rows.empty()) continue;
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    const Whitener whitener(total(rows, rows));
+    // Whitened from both sides, the scatter is symmetric again, its eigenvalues the shares.
+    const Eigen::MatrixXd half = whitener(parts.scatter[t](rows, rows));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shares(whitener(half.transpose()));
+    to_combinations_(Eigen::seqN(next, count), rows) = shares.eigenvectors().transpose() * whitener(Eigen::MatrixXd::Identity(count, count));
+    scatter_share_.segment(next, count) = shares.eigenvalues();
+    test_.insert(test_.end(), rows.size(), t);
+    next += count;
+  }
+}
+
+Fit DataSource::combined(Fit fit) const {
+  fit.predicted = combined(Eigen::MatrixXd(fit.predicted));
+  fit.jacobian = combined(fit.jacobian);
+  return fit;
+}
+
+Anchor DataSource::combined(Anchor anchor) const {
+  anchor.fit = combined(std::move(anchor.fit));
+  for (Signature& signature : anchor.signatures) signature.changes = combined(signature.changes);
+  for (ContrastDirection& direction : anchor.directions) direction.values = combined(Eigen::MatrixXd(direction.values));
+  return anchor;
+}
+
+ScatterFactors DataSource::draw_factors(RandomStream& random) const {
+  ScatterFactors factors;
+  for (std::size_t t = 0; t < dof_.size(); ++t) factors[t] = dof_[t] > 0 ? chi_square(dof_[t], random) / dof_[t] : 1.0;
+  return factors;
+}
+
+Eigen::VectorXd DataSource::variances(const ScatterFactors& factors) const {
+  Eigen::VectorXd variances(scatter_share_.size());
+  for (Eigen::Index i = 0; i < variances.size(); ++i) variances[i] = 1.0 + (factors[test_[static_cast<std::size_t>(i)]] - 1.0) * scatter_share_[i];
+  return variances;
 }
 
 NoisyData DataSource::draw(const Eigen::VectorXd& truth, RandomStream& random) const {
-  Eigen::VectorXd noise(truth.size());
-  for (double& value : noise) value = random.normal();
-  ScatterFactors factors;
-  for (std::size_t t = 0; t < dof_.size(); ++t) factors[t] = dof_[t] > 0 ? chi_square(dof_[t], random) / dof_[t] : 1.0;
-  return {truth + factor_ * noise, Whitener(parts_.total(factors))};
+  Eigen::VectorXd values = truth;
+  for (double& value : values) value += random.normal();
+  return {std::move(values), Whitener::independent(variances(draw_factors(random)).cwiseSqrt())};
 }
 
 DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
@@ -65,22 +106,24 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   DrawStatistics statistics;
   statistics.chi2 = residual.squaredNorm();
   for (const Signature& signature : anchor.signatures) {
+    const Eigen::MatrixXd g = projector.projected(signature.changes);
     double best = 0.0;
-    for (const Eigen::VectorXd& change : signature.changes) {
-      const Eigen::VectorXd g = projector.projected(change);
-      const double length = g.squaredNorm(), along = g.dot(residual);
+    for (const auto& column : g.colwise()) {
+      const double length = column.squaredNorm(), along = column.dot(residual);
       if (length < 1e-12 || (signature.one_sided && along < 0.0)) continue;
       best = std::max(best, along * along / length);
     }
     statistics.drops.push_back(best);
   }
-  for (const ContrastDirection& direction : anchor.directions) {
-    // The direction is given in the features' own units; whitened and projected it is the contrast that noise scatters with unit variance.
-    const Eigen::VectorXd g = projector.projected(direction.values);
-    const double length = g.norm();
+  // Directions are given in the features' own units; whitened and projected they are contrasts that noise scatters with unit variance.
+  Eigen::MatrixXd directions(data.values.size(), static_cast<Eigen::Index>(anchor.directions.size()));
+  for (Eigen::Index k = 0; k < directions.cols(); ++k) directions.col(k) = anchor.directions[static_cast<std::size_t>(k)].values;
+  const Eigen::MatrixXd whitened = projector.whitened(directions), g = projector.projected(directions);
+  for (Eigen::Index k = 0; k < directions.cols(); ++k) {
+    const double length = g.col(k).norm();
     // What the anchor imitates almost entirely says nothing about it.
-    const bool visible = length > 0.1 * projector.whitened(direction.values).norm();
-    statistics.contrasts.push_back(visible ? std::abs(g.dot(residual)) / length : 0.0);
+    const bool visible = length > 0.1 * whitened.col(k).norm();
+    statistics.contrasts.push_back(visible ? std::abs(g.col(k).dot(residual)) / length : 0.0);
   }
   return statistics;
 }
@@ -88,9 +131,10 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
 std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count, std::uint64_t seed) {
   std::vector<DrawStatistics> draws(static_cast<std::size_t>(count));
   const DataSource source(observations);
+  const Anchor combined = source.combined(anchor);
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "anchor/" + std::to_string(i));
-    draws[static_cast<std::size_t>(i)] = anchor_statistics(anchor, source.draw(anchor.fit.predicted, random));
+    draws[static_cast<std::size_t>(i)] = anchor_statistics(combined, source.draw(combined.fit.predicted, random));
   });
   return draws;
 }
@@ -99,13 +143,15 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
                                 std::uint64_t seed) {
   RivalStatistics statistics{std::vector<double>(static_cast<std::size_t>(count)), std::vector<double>(static_cast<std::size_t>(count))};
   const DataSource source(observations);
+  std::vector<Fit> combined;
+  for (const Fit& rival : rivals) combined.push_back(source.combined(rival));
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "rival/" + std::to_string(truth) + "/" + std::to_string(i));
-    const NoisyData data = source.draw(rivals[truth].predicted, random);
-    const double own = linear_refit(rivals[truth], data.values, data.whitener);
+    const NoisyData data = source.draw(combined[truth].predicted, random);
+    const double own = linear_refit(combined[truth], data.values, data.whitener);
     double best_other = own;
-    for (std::size_t k = 0; k < rivals.size(); ++k) {
-      if (k != truth) best_other = std::min(best_other, linear_refit(rivals[k], data.values, data.whitener));
+    for (std::size_t k = 0; k < combined.size(); ++k) {
+      if (k != truth) best_other = std::min(best_other, linear_refit(combined[k], data.values, data.whitener));
     }
     statistics.chi2[static_cast<std::size_t>(i)] = own;
     statistics.lead_of_best_other[static_cast<std::size_t>(i)] = own - best_other;
@@ -123,11 +169,6 @@ SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, c
   return {projector.whitened(change).norm(), projector.projected(change).norm()};
 }
 
-Eigen::MatrixXd projected_signatures(const Fit& anchor, const std::vector<Eigen::VectorXd>& changes, const Whitener& whitener) {
-  const Projector projector(anchor, whitener);
-  Eigen::MatrixXd columns(anchor.predicted.size() + anchor.base_count, static_cast<Eigen::Index>(changes.size()));
-  for (std::size_t k = 0; k < changes.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = projector.projected(changes[k]);
-  return columns;
-}
+Eigen::MatrixXd projected_signatures(const Fit& anchor, const Eigen::MatrixXd& changes, const Whitener& whitener) { return Projector(anchor, whitener).projected(changes); }
 
 }  // namespace nacre::diagnosis

@@ -16,8 +16,8 @@ namespace nacre::diagnosis {
 /// What adding one effect to an anchor model would change, at several sizes of the effect.
 struct Signature {
   std::string effect;
-  std::vector<Eigen::VectorXd> changes;  ///< one vector over the rows for each size
-  bool one_sided = false;                ///< the parameter cannot be negative
+  Eigen::MatrixXd changes;  ///< rows x sizes
+  bool one_sided = false;   ///< the parameter cannot be negative
 };
 
 /// Statistics of one data set against an anchor model.
@@ -42,16 +42,28 @@ struct NoisyData {
   Whitener whitener;
 };
 
-/// Draws data sets of the actual design as if a truth were exact.
+/// Draws data sets of the actual design as if a truth were exact, in combinations of rows that stay independent whatever scatter the replicates of a
+/// draw suggest: those that diagonalise scatter and total covariance at once. A draw costs O(rows), where the rows themselves would need a Cholesky
+/// factorisation each.
 class DataSource {
  public:
   explicit DataSource(const Observations& observations);
+  /// Columns over the rows, as columns over the combinations.
+  Eigen::MatrixXd combined(const Eigen::MatrixXd& columns) const { return to_combinations_ * columns; }
+  Fit combined(Fit fit) const;
+  Anchor combined(Anchor anchor) const;
+  /// Variances of the combinations where replicates scatter by these factors; 1 where all factors are 1.
+  Eigen::VectorXd variances(const ScatterFactors& factors) const;
+  /// What as many replicates may come to say of their scatter.
+  ScatterFactors draw_factors(RandomStream& random) const;
+  /// `truth` over the combinations.
   NoisyData draw(const Eigen::VectorXd& truth, RandomStream& random) const;
 
  private:
-  CovarianceParts parts_;
-  Eigen::MatrixXd factor_;  ///< of the whole covariance
-  std::array<int, 3> dof_;  ///< of the replicate scatter, by TestKind
+  Eigen::MatrixXd to_combinations_;  ///< makes the covariance the identity and every scatter diagonal
+  Eigen::VectorXd scatter_share_;    ///< of a combination's variance that is replicate scatter
+  std::vector<std::size_t> test_;    ///< of a combination, TestKind
+  std::array<int, 3> dof_;           ///< of the replicate scatter, by TestKind
 };
 
 /// Statistics of data against the anchor, by linear refits.
@@ -80,6 +92,6 @@ struct SignatureSize {
 };
 SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener);
 /// Signatures as columns, whitened and projected off the anchor's tangent space.
-Eigen::MatrixXd projected_signatures(const Fit& anchor, const std::vector<Eigen::VectorXd>& changes, const Whitener& whitener);
+Eigen::MatrixXd projected_signatures(const Fit& anchor, const Eigen::MatrixXd& changes, const Whitener& whitener);
 
 }  // namespace nacre::diagnosis

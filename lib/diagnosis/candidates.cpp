@@ -19,15 +19,15 @@ bool holds(const std::vector<Fit>& fits, const std::string& effect) {
 /// The change between base and the joint fit, in what the base cannot imitate; a typical one where the fit found nothing.
 Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed) {
   const Eigen::VectorXd fitted = evidence.singles[k].predicted - evidence.base.fit.predicted;
-  return noticed ? fitted : evidence.base.signatures[k].changes[kTypicalSize];
+  return noticed ? fitted : evidence.base.signatures[k].changes.col(kTypicalSize);
 }
 
 }  // namespace
 
 std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision) {
   const Whitener whitener(evidence.observations.covariance());
-  std::vector<Eigen::VectorXd> changes;
-  for (std::size_t k = 0; k < evidence.effects.size(); ++k) changes.push_back(change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level));
+  Eigen::MatrixXd changes(evidence.observations.size(), static_cast<Eigen::Index>(evidence.effects.size()));
+  for (std::size_t k = 0; k < evidence.effects.size(); ++k) changes.col(static_cast<Eigen::Index>(k)) = change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level);
   const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
   std::vector<Candidate> candidates;
   for (const material::Effect& effect : material::effect_library()) {
@@ -41,7 +41,7 @@ std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& d
     }
     const auto k = static_cast<std::size_t>(found - evidence.effects.begin());
     const Fit& single = evidence.singles[k];
-    const SignatureSize typical = signature_size(evidence.base.fit, evidence.base.signatures[k].changes[kTypicalSize], whitener);
+    const SignatureSize typical = signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(kTypicalSize), whitener);
     candidate.statistic = evidence.base.fit.chi2 - single.chi2;
     candidate.p_family_wise = decision.p_family_wise[k];
     candidate.p_fit = decision.p_fit[k];

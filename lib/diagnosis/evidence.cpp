@@ -42,7 +42,7 @@ Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
   const std::vector<double> sizes = signed_sizes(signature.one_sided);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     Fit shifted = evidence.base.fit;
-    shifted.predicted += signature.changes[i];
+    shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
     Eigen::VectorXd step;
     const double chi2 = linear_refit(shifted, evidence.observations.values, whitener, &step);
     if (chi2 >= least) continue;
@@ -134,8 +134,7 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
       points.push_back(widened_start(anchor, map));
       points.back()[own] = std::clamp(size, map.lower(own), map.upper(own));
     }
-    const Eigen::MatrixXd predicted = model.predict(map, points);
-    for (Eigen::Index i = 0; i < predicted.cols(); ++i) signature.changes.emplace_back(predicted.col(i) - anchor.predicted);
+    signature.changes = model.predict(map, points).colwise() - anchor.predicted;
     signatures.push_back(std::move(signature));
   }
   return signatures;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kPoints = 128;
 constexpr double kDropOffset = 0.05;
+constexpr double kCarriedShare = 0.8;  // of its largest stress: a coupon that carries less is parting
 
 struct Names {
   std::string_view name, words;
@@ -125,19 +126,24 @@ FeatureValues fracture_features(const tester::Curve& curve) {
 
 FeatureValues tensile_features(const tester::Curve& curve) {
   FeatureValues values;
-  const std::optional<Rise> rise = rise_of(measurement::forward_part(curve));
+  const tester::Curve forward = measurement::forward_part(curve);
+  const std::optional<Rise> rise = rise_of(forward);
   if (!rise) return values;
   put_rise(values, *rise);
   value_of(values, Feature::log_peak_strain).reset();
+  if (const double energy = tester::area_under(forward); energy > 0.0) value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
   put_unloading(values, curve);
   return values;
 }
 
-std::optional<double> strain_at_peak(const tester::Curve& curve) {
+std::optional<double> carried_strain(const tester::Curve& curve) {
   if (curve.empty()) return std::nullopt;
-  const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) - curve.stress_pa.begin();
   const bool unloaded = std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
-  return unloaded ? std::nullopt : std::optional(curve.strain[static_cast<std::size_t>(peak)]);
+  if (unloaded) return std::nullopt;
+  const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
+  if (*peak <= 0.0) return std::nullopt;
+  const auto parted = std::find_if(peak, curve.stress_pa.end(), [&](double stress) { return stress < kCarriedShare * *peak; });
+  return curve.strain[static_cast<std::size_t>(std::prev(parted) - curve.stress_pa.begin())];
 }
 
 tester::Curve truncated(const tester::Curve& curve, double strain) {

@@ -43,12 +43,13 @@ inline const std::optional<double>& value_of(const FeatureValues& values, Featur
 /// are read alike. Nothing at all when the stress never rises.
 FeatureValues fracture_features(const tester::Curve& curve);
 
-/// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee, and of the
-/// first unloading where there is one. Its strain is not among them: it is where the test was stopped.
+/// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee (over all of the curve: a
+/// plateau behind the peak bends it too), and of the first unloading where there is one. Its strain is not among them: it is where the test was stopped.
 FeatureValues tensile_features(const tester::Curve& curve);
 
-/// Where a tensile curve is to be read to: the strain at its largest stress; nothing when it was unloaded on the way (then all of it).
-std::optional<double> strain_at_peak(const tester::Curve& curve);
+/// Where a tensile curve is to be read to: the strain up to which it carries four fifths of its largest stress, so that a material that flows is read
+/// while it flows, and none while it parts; nothing when it was unloaded on the way (then all of it).
+std::optional<double> carried_strain(const tester::Curve& curve);
 /// The curve as far as `strain`, its last point interpolated.
 tester::Curve truncated(const tester::Curve& curve, double strain);
 

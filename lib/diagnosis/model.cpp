@@ -17,7 +17,7 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
   const auto pulled = tester::test_tensile({group.design, set, group.conditions, fidelity_}, group.curve.strain);
   if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
   const tester::Curve shown = measurement::observe_curve(*pulled, set.extensions, {.batch_step = group.batch_step});
-  const auto end = strain_at_peak(group.curve);
+  const auto end = carried_strain(group.curve);
   return end ? truncated(shown, *end) : shown;
 }
 

@@ -66,7 +66,7 @@ bool belongs(const SpecimenRecord& specimen, bool homogeneous_moduli) {
 void read_to_common_strain(std::vector<Measured>& replicates) {
   std::optional<double> common;
   for (const Measured& each : replicates) {
-    const auto strain = strain_at_peak(each.specimen->curve);
+    const auto strain = carried_strain(each.specimen->curve);
     if (!strain) return;
     common = std::min(common.value_or(*strain), *strain);
   }
@@ -102,7 +102,7 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   if (group.test == TestKind::tensile && !group.curve.empty()) {
     std::optional<double> common;
     for (const Measured* each : with_curve) {
-      const auto strain = strain_at_peak(each->specimen->curve);
+      const auto strain = carried_strain(each->specimen->curve);
       common = strain ? std::optional(std::min(common.value_or(*strain), *strain)) : std::nullopt;
       if (!strain) break;
     }
@@ -117,6 +117,12 @@ double rigid_position(const Observation& group) { return (group.design.rigid_fra
 
 Whitener::Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {
   if (!covariance.allFinite() || factor_.info() != Eigen::Success) throw std::runtime_error("the covariance of the data is not positive definite");
+}
+
+Whitener Whitener::independent(const Eigen::VectorXd& standard_deviations) {
+  Whitener whitener;
+  whitener.scale_ = standard_deviations.cwiseInverse();
+  return whitener;
 }
 
 std::string Observation::material() const { return design.layout() ? "layout" : design.name(); }

@@ -46,13 +46,19 @@ class Whitener {
  public:
   /// Throws std::runtime_error when the matrix is not finite and positive definite: no statement about such data would mean anything.
   explicit Whitener(const Eigen::MatrixXd& covariance);
-  Eigen::MatrixXd operator()(const Eigen::MatrixXd& differences) const { return factor_.matrixL().solve(differences); }
+  /// Of rows that are independent, with these standard deviations.
+  static Whitener independent(const Eigen::VectorXd& standard_deviations);
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& differences) const {
+    if (scale_.size() > 0) return scale_.asDiagonal() * differences;
+    return factor_.matrixL().solve(differences);
+  }
   /// The squared length of the whitened vector.
-  double chi2(const Eigen::VectorXd& differences) const { return factor_.matrixL().solve(differences).squaredNorm(); }
-  Eigen::MatrixXd covariance() const { return factor_.reconstructedMatrix(); }
+  double chi2(const Eigen::VectorXd& differences) const { return (*this)(differences).squaredNorm(); }
 
  private:
+  Whitener() = default;
   Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd scale_;  ///< inverse standard deviations of independent rows; empty: the factor counts
 };
 
 /// How replicates of one test scatter: pooled over its groups, correlations shrunk towards none.
@@ -64,7 +70,7 @@ struct ReplicateScatter {
 /// Factors on the replicate variances of the three tests, in the order of TestKind.
 using ScatterFactors = std::array<double, 3>;
 
-/// The covariance of the rows, taken apart: what scatters between replicates of each test, and the rest.
+/// The covariance of the rows, taken apart: what scatters between replicates of each test, and the rest. Rows of different tests are independent in all parts.
 struct CovarianceParts {
   Eigen::MatrixXd fixed;
   std::array<Eigen::MatrixXd, 3> scatter;

@@ -38,8 +38,8 @@ struct Marginal {
   Eigen::MatrixXd covariance;  ///< noise and what the base can move
 };
 
-Marginal marginal(const Fit& base, const NoisyData& data) {
-  Marginal result{data.values - base.predicted, data.whitener.covariance()};
+Marginal marginal(const Fit& base, const Eigen::VectorXd& values, const Eigen::VectorXd& variances) {
+  Marginal result{values - base.predicted, variances.asDiagonal()};
   for (const int i : base.free) {
     if (i >= base.base_count) continue;
     const Eigen::VectorXd column = base.jacobian.col(i);
@@ -71,8 +71,9 @@ double best_chi2(const Marginal& data, const std::vector<Signature>& signatures,
     double best = 0.0;
     Eigen::VectorXd along_best;
     for (const Signature& signature : signatures) {
-      for (const Eigen::VectorXd& change : signature.changes) {
-        Eigen::VectorXd g = factor.matrixL().solve(change);
+      const Eigen::MatrixXd whitened = factor.matrixL().solve(signature.changes);
+      for (Eigen::Index i = 0; i < whitened.cols(); ++i) {
+        Eigen::VectorXd g = whitened.col(i);
         for (const Eigen::VectorXd& other : taken) g -= other * other.dot(g);
         const double length = g.norm(), along = length > 1e-6 ? g.dot(residual) / length : 0.0;
         if ((signature.one_sided && along < 0.0) || along * along <= best) continue;
@@ -104,20 +105,24 @@ Eigen::MatrixXd outsider_covariance(const Observations& observations, const std:
 
 Outsider outsider_against(const Evidence& evidence, double chi2, int count) {
   const Observations& observations = evidence.observations;
-  const Fit& base = evidence.base.fit;
-  const Eigen::MatrixXd noise = observations.covariance(), unit = outsider_covariance(observations, evidence.base.directions, noise);
-  const auto [deviance, amplitude] = most_probable(marginal(base, {observations.values, Whitener(noise)}), unit);
+  const DataSource source(observations);
+  const Anchor anchor = source.combined(evidence.base);
+  const Eigen::MatrixXd by_rows = source.combined(outsider_covariance(observations, evidence.base.directions, observations.covariance()));
+  const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
+  const Eigen::VectorXd own_variances = Eigen::VectorXd::Ones(observations.size());
+  const auto [deviance, amplitude] = most_probable(marginal(anchor.fit, source.combined(Eigen::MatrixXd(observations.values)), own_variances), unit);
   Outsider outsider{amplitude, deviance - chi2, 1.0};
   const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
   std::vector<double> leads(static_cast<std::size_t>(draws));
-  const DataSource source(observations);
   const Eigen::MatrixXd spread = amplitude * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) * Eigen::MatrixXd::Identity(unit.rows(), unit.cols())).llt().matrixL());
   parallel_for(draws, [&](int i) {
     RandomStream random(evidence.settings.seed + 4, "outsider/" + std::to_string(i));
     Eigen::VectorXd cause(observations.size());
     for (double& value : cause) value = random.normal();
-    const Marginal data = marginal(base, source.draw(base.predicted + spread * cause, random));
-    leads[static_cast<std::size_t>(i)] = most_probable(data, unit).first - best_chi2(data, evidence.base.signatures, count);
+    Eigen::VectorXd values = anchor.fit.predicted + spread * cause;
+    for (double& value : values) value += random.normal();
+    const Marginal data = marginal(anchor.fit, values, source.variances(source.draw_factors(random)));
+    leads[static_cast<std::size_t>(i)] = most_probable(data, unit).first - best_chi2(data, anchor.signatures, count);
   });
   outsider.p = exceedance(leads, outsider.lead);
   return outsider;

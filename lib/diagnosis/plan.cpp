@@ -134,14 +134,13 @@ std::optional<double> smallest(const std::vector<double>& judged, double wanted)
 std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
   const Fit base = restricted(sheet.base, rows);
   const Whitener whitener(sheet.covariance(rows, rows));
-  constexpr std::size_t kCount = std::size(kSizes);
+  constexpr auto kCount = static_cast<Eigen::Index>(std::size(kSizes));
   std::vector<Eigen::MatrixXd> projected;
   std::vector<double> absorption;
   for (const Signature& signature : sheet.signatures) {
-    std::vector<Eigen::VectorXd> changes;
-    for (std::size_t i = 0; i < kCount; ++i) changes.emplace_back(signature.changes[i](rows));
+    const Eigen::MatrixXd changes = signature.changes(rows, Eigen::seqN(0, kCount));
     projected.push_back(projected_signatures(base, changes, whitener));
-    absorption.push_back(signature_size(base, changes[kTypicalSize], whitener).absorption());
+    absorption.push_back(signature_size(base, changes.col(kTypicalSize), whitener).absorption());
   }
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {

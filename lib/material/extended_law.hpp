@@ -6,7 +6,8 @@
 //   eigenstrain e      C_e = F^T F / (1 + e)^2
 //   J_m (Gent)         W = -mu J_m / 2 ln(1 - K / J_m) + lambda / 2 l^2,  K = I - 2 l; the base law for J_m ->
 //   infinity.
-//                      K is I_1 - 2 at constant area; with I_1 - 2 itself a compressible law would start stiffer
+//                      K is I_1 - 2 at constant area; with I_1 - 2 itself a compressible law would start stiffer.
+//                      Beyond K = 0.98 J_m, where a notched specimen has long parted, g stays at 50
 //   stress             S = mu g (G - C_e^-1) + lambda l C_e^-1,  g = 1 / (1 - K / J_m),  P = F S
 //   flow at Y          largest difference of principal Kirchhoff stresses <= Y: the in-plane deviator of C_e G is
 //   scaled

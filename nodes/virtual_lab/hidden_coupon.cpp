@@ -6,8 +6,8 @@
 namespace nacre::virtual_laboratory {
 namespace {
 
-/// Uniaxial response by true (logarithmic) strain: a spring with a yield stress, a Maxwell branch, stiffening chains
-/// and softening, in one dimension.
+/// Uniaxial response by true (logarithmic) strain: a spring with a yield stress, a Maxwell branch (of second
+/// Piola-Kirchhoff stress), stiffening chains and softening, in one dimension.
 class Strand {
  public:
   Strand(const Truth& truth, double rigid_fraction, const Making& making) : effects_(truth.effects) {
@@ -38,23 +38,37 @@ class Strand {
       kirchhoff = std::copysign(yield_pa_, kirchhoff);
     }
     work_ += 0.5 * (kirchhoff + last_) * (std::log1p(strain) - last_log_);
+    const double stretch = 1.0 + strain, second = kirchhoff / (stretch * stretch);
     if (overstress_ > 0.0) {
       const double kept = std::exp(-dt_s / relaxation_s_);
-      branch_ = kept * (branch_ + overstress_ * (kirchhoff - last_));
+      branch_ = kept * (branch_ + overstress_ * (second - last_second_));
     }
+    last_second_ = second;
     last_ = kirchhoff;
     last_log_ = std::log1p(strain);
     integrity_ = std::min(integrity_, left());
-    return integrity_ * (kirchhoff + branch_) / (1.0 + strain);
+    return integrity_ * stretch * (second + branch_);
   }
+  /// Energy taken up, of that which parts it.
+  double spent() const { return work_ / threshold_; }
 
  private:
   /// Kirchhoff stress of the law at a logarithmic strain with no sideways stress.
   double elastic_stress(double log_strain) const {
-    const double strain = std::expm1(log_strain);
-    const double base = material::uniaxial_stress(strain, lame_).nominal_stress_pa * (1.0 + strain);
-    const double filled = inverse_limit_ * (strain * (2.0 + strain) - 2.0 * log_strain);
-    return base / (1.0 - std::min(filled, 0.98));
+    constexpr int kHalvings = 60;
+    // The logarithmic strain sideways lies between none and that of constant area.
+    double wide = 0.0, narrow = -log_strain;
+    const auto stiffened = [&](double sideways) {
+      const double chains = std::expm1(2.0 * log_strain) + std::expm1(2.0 * sideways) - 2.0 * (log_strain + sideways);
+      return lame_.mu_pa / (1.0 - std::min(inverse_limit_ * chains, 0.98));
+    };
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (wide + narrow);
+      const double sideways_pa = stiffened(middle) * std::expm1(2.0 * middle) + lame_.lambda_pa * (log_strain + middle);
+      ((sideways_pa > 0.0) == (log_strain > 0.0) ? wide : narrow) = middle;
+    }
+    const double sideways = 0.5 * (wide + narrow);
+    return stiffened(sideways) * std::expm1(2.0 * log_strain) + lame_.lambda_pa * (log_strain + sideways);
   }
   double left() const {
     const double s = std::sqrt(std::max(0.0, work_) / threshold_), v = effects_.progressive_damage,
@@ -67,10 +81,21 @@ class Strand {
   const HiddenEffects& effects_;
   material::Lame lame_;
   double yield_pa_ = 1e30, inverse_limit_ = 0.0, overstress_ = 0.0, relaxation_s_ = 1.0, threshold_ = 1e30;
-  double flow_ = 0.0, branch_ = 0.0, last_ = 0.0, last_log_ = 0.0, work_ = 0.0, integrity_ = 1.0;
+  double flow_ = 0.0, branch_ = 0.0, last_second_ = 0.0, last_ = 0.0, last_log_ = 0.0, work_ = 0.0, integrity_ = 1.0;
 };
 
 }  // namespace
+
+double coupon_strain(const Truth& truth, double rigid_fraction, const Making& making, double share) {
+  constexpr double kStep = 2e-5, kMost = 2.0;
+  Strand strand(truth, rigid_fraction, making);
+  double strain = 0.0;
+  while (strain < kMost && strand.spent() < share) {
+    strain += kStep;
+    strand.pull(strain, kStep / making.strain_rate_per_s);
+  }
+  return strain;
+}
 
 tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making, double strain, int points) {
   constexpr int kSubsteps = 20;

@@ -24,7 +24,9 @@ using measurement::SpecimenRecord;
 using tester::TestKind;
 
 constexpr int kCurvePoints = 200;
-constexpr double kCouponStrain = 0.02;  // unnotched coupons are pulled to here, well before they break
+/// Unnotched coupons are pulled until they have taken up this share of the energy that parts them: six tenths of the
+/// strain at which an elastic one breaks.
+constexpr double kCouponEnergy = 0.36;
 
 Making making_of(const Question& question, int specimen = 0) {
   return {.orientation_deg = question.conditions.orientation_deg,
@@ -83,13 +85,14 @@ Result<Response> respond_tensile(const Truth& truth, const Question& question) {
   const pattern::Mixture* mixture = question.design.mixture();
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
   Response response;
+  const double end = coupon_strain(truth, mixture->rigid_fraction, making_of(question), kCouponEnergy);
   if (hides_a_curve(truth.effects)) {
-    response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(question), kCouponStrain, kCurvePoints);
+    response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(question), end, kCurvePoints);
     return response;
   }
   const material::Lame lame = homogeneous_lame(truth, mixture->rigid_fraction, making_of(question));
   for (int i = 0; i < kCurvePoints; ++i) {
-    const double strain = kCouponStrain * i / (kCurvePoints - 1);
+    const double strain = end * i / (kCurvePoints - 1);
     response.curve.strain.push_back(strain);
     response.curve.stress_pa.push_back(material::uniaxial_stress(strain, lame).nominal_stress_pa);
   }

@@ -114,6 +114,14 @@ TEST(CouponDiagnosis, SlackOfTheGripsIsNamedFromCurvesAlone) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 0.002, 0.0002);
 }
 
+// The curve is flat behind the yield point: reading it as far as its largest stress would leave out what the flow shows.
+TEST(CouponDiagnosis, AYieldPointIsNamedFromCurvesAlone) {
+  const Diagnosis diagnosis = diagnose_coupons("rigid_yield", {2.5e7});
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects[0].name, "rigid_yield");
+  EXPECT_NEAR(diagnosis.effects[0].parameter, 2.5e7, 2e6);
+}
+
 TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {
   SyntheticSet set;
   set.patterns = 3;

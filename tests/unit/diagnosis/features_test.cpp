@@ -56,9 +56,25 @@ TEST(Features, UnloadingShowsItsSlopeAndThePermanentSet) {
   EXPECT_NEAR(at(values, Feature::set_strain), 0.02 * 2.0 / 3.0, 1e-6);
 }
 
+/// Rises straight to 10 MPa at 1 % strain, flows until 3 %, falls to nothing at 3.1 %.
+tester::Curve plateau() { return {{0.0, 0.0025, 0.005, 0.0075, 0.01, 0.02, 0.03, 0.0305, 0.031}, {0.0, 2.5e6, 5e6, 7.5e6, 1e7, 9.9e6, 9.8e6, 4e6, 0.0}}; }
+
+TEST(Features, ACouponThatFlowsIsReadWhileItFlows) {
+  EXPECT_EQ(carried_strain(plateau()), 0.03);
+  const FeatureValues values = tensile_features(truncated(plateau(), *carried_strain(plateau())));
+  const double energy = 0.5 * 1e7 * 0.01 + 9.95e6 * 0.01 + 9.85e6 * 0.01;
+  EXPECT_NEAR(at(values, Feature::knee), std::log(energy / (0.5 * 1e7 * 0.03)), 1e-9);
+  EXPECT_NEAR(at(values, Feature::log_tangent_30), std::log(1e9), 1e-9);
+}
+
+TEST(Features, ACouponThatOnlyRisesIsReadToItsEnd) { EXPECT_EQ(carried_strain({{0.0, 0.01, 0.02}, {0.0, 1e6, 2e6}}), 0.02); }
+
+TEST(Features, ACouponUnloadedOnTheWayIsReadWhole) { EXPECT_FALSE(carried_strain({{0.0, 0.01, 0.005, 0.02}, {0.0, 1e6, 4e5, 2e6}}).has_value()); }
+
 TEST(Features, ACurveThatNeverRisesSaysNothing) {
   const FeatureValues values = fracture_features({{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, 0.0, 0.0, 0.0, 0.0}});
   for (const auto& value : values) EXPECT_FALSE(value.has_value());
+  EXPECT_FALSE(carried_strain({{0.0, 0.01}, {0.0, -1e6}}).has_value());
 }
 
 TEST(Features, NamesReadBack) {

@@ -1,0 +1,59 @@
+#include "diagnosis/bootstrap.hpp"
+
+#include <gtest/gtest.h>
+
+#include "material/extensions.hpp"
+#include "synthetic_set.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Moduli of layouts and pulled coupons, with a direction along which the numerics move all moduli.
+Observations two_tests() {
+  SyntheticSet set;
+  set.patterns = 8;
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens(set, synthetic_truth());
+  for (const auto& coupon : synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 3, 0.01, 5)) specimens.push_back(coupon);
+  Observations observations = observe(specimens, 0.003, {});
+  observations.numerics_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
+  for (int i = 0; i < observations.size(); ++i)
+    if (observations.rows[static_cast<std::size_t>(i)].test == tester::TestKind::modulus) observations.numerics_shared(i, 0) = 0.01 * (1 + i % 3);
+  return observations;
+}
+
+// Whatever scatter the replicates of a draw suggest, the combinations of rows are independent, and nothing of the rows is lost.
+TEST(DataSource, CombinationsWeighDataAsTheRowsDo) {
+  const Observations observations = two_tests();
+  ASSERT_TRUE(observations.has(tester::TestKind::modulus) && observations.has(tester::TestKind::tensile));
+  const DataSource source(observations);
+  RandomStream random(1, "test/combinations");
+  for (const ScatterFactors& factors : {ScatterFactors{1.0, 1.0, 1.0}, ScatterFactors{0.4, 1.0, 2.5}, ScatterFactors{3.0, 1.0, 0.2}}) {
+    Eigen::VectorXd y(observations.size());
+    for (double& value : y) value = 0.05 * random.normal();
+    const double by_rows = Whitener(observations.covariance_parts().total(factors)).chi2(y);
+    const double combined = Whitener::independent(source.variances(factors).cwiseSqrt()).chi2(source.combined(Eigen::MatrixXd(y)));
+    EXPECT_NEAR(combined, by_rows, 1e-6 * by_rows);
+  }
+}
+
+TEST(DataSource, DrawsScatterAsTheVariancesOfADrawSayOnAverage) {
+  const Observations observations = two_tests();
+  const DataSource source(observations);
+  const Eigen::VectorXd truth = Eigen::VectorXd::Constant(observations.size(), 2.0);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(observations.size());
+  constexpr int kDraws = 4000;
+  for (int i = 0; i < kDraws; ++i) {
+    RandomStream random(2, "test/draw/" + std::to_string(i));
+    const NoisyData data = source.draw(truth, random);
+    squares += (data.values - truth).cwiseAbs2() / kDraws;
+    // Data far from the truth weigh as much as their own scatter says: about one per row.
+    if (i == 0) {
+      EXPECT_NEAR(data.whitener.chi2(data.values - truth), observations.size(), 5.0 * std::sqrt(2.0 * observations.size()));
+    }
+  }
+  EXPECT_NEAR(squares.mean(), 1.0, 0.02);
+  EXPECT_LT((squares.array() - 1.0).abs().maxCoeff(), 0.15);  // sd of one entry 0.022
+}
+
+}  // namespace
+}  // namespace nacre::diagnosis
