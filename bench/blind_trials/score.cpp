@@ -57,7 +57,8 @@ Score score_trial(const Trial& trial, const std::filesystem::path& folder) {
     for (std::size_t k = 0; effects != nullptr && k < effects->size(); ++k) {
       const toml::table& hidden = *effects->get(k)->as_table();
       if (hidden["name"].value_or(std::string()) != named["name"].get<std::string>()) continue;
-      const double value = hidden["value"].value_or(0.0);
+      const toml::array* numbers = hidden["value"].as_array();
+      const double value = numbers != nullptr ? numbers->get(0)->value_or(0.0) : hidden["value"].value_or(0.0);
       score.parameter_error = std::abs(named["parameter"].get<double>() / value - 1.0);
       score.covered = named["interval90"][0].get<double>() <= value && value <= named["interval90"][1].get<double>();
     }

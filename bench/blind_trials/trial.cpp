@@ -82,7 +82,7 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
   settings.start.toughness = truth.toughness;
   settings.fidelity = options.fidelity;
   settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
-  diagnosis::PlannedScatter scatter{.modulus = truth.noise.modulus, .stress = truth.noise.toughness, .strain = truth.noise.strain};
+  diagnosis::PlannedScatter scatter{.modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
   const diagnosis::Plan plan = diagnosis::plan_diagnosis(specimens, settings, scatter, false);
   std::string text;
   for (const lab::EffectKind& kind : lab::effect_kinds()) {

@@ -49,22 +49,22 @@ double DrawStatistics::largest_contrast() const {
 
 DataSource::DataSource(const Observations& observations) : to_combinations_(Eigen::MatrixXd::Zero(observations.size(), observations.size())), scatter_share_(observations.size()) {
   const CovarianceParts parts = observations.covariance_parts();
-  const Eigen::MatrixXd total = parts.total({1.0, 1.0, 1.0});
+  const Eigen::MatrixXd total = parts.fixed + parts.scatter;
   Eigen::Index next = 0;
-  for (std::size_t t = 0; t < dof_.size(); ++t) {
-    dof_[t] = observations.scatter[t].dof;
+  for (std::size_t k = 0; k < observations.scatter.size(); ++k) {
+    dof_.push_back(observations.scatter[k].dof);
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i)
-      if (static_cast<std::size_t>(observations.rows[static_cast<std::size_t>(i)].test) == t) rows.push_back(i);
+      if (observations.rows[static_cast<std::size_t>(i)].scatter == k) rows.push_back(i);
     if (rows.empty()) continue;
     const auto count = static_cast<Eigen::Index>(rows.size());
     const Whitener whitener(total(rows, rows));
     // Whitened from both sides, the scatter is symmetric again, its eigenvalues the shares.
-    const Eigen::MatrixXd half = whitener(parts.scatter[t](rows, rows));
+    const Eigen::MatrixXd half = whitener(parts.scatter(rows, rows));
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shares(whitener(half.transpose()));
     to_combinations_(Eigen::seqN(next, count), rows) = shares.eigenvectors().transpose() * whitener(Eigen::MatrixXd::Identity(count, count));
     scatter_share_.segment(next, count) = shares.eigenvalues();
-    test_.insert(test_.end(), rows.size(), t);
+    scatter_.insert(scatter_.end(), rows.size(), k);
     next += count;
   }
 }
@@ -84,13 +84,13 @@ Anchor DataSource::combined(Anchor anchor) const {
 
 ScatterFactors DataSource::draw_factors(RandomStream& random) const {
   ScatterFactors factors;
-  for (std::size_t t = 0; t < dof_.size(); ++t) factors[t] = dof_[t] > 0 ? chi_square(dof_[t], random) / dof_[t] : 1.0;
+  for (const int dof : dof_) factors.push_back(dof > 0 ? chi_square(dof, random) / dof : 1.0);
   return factors;
 }
 
 Eigen::VectorXd DataSource::variances(const ScatterFactors& factors) const {
   Eigen::VectorXd variances(scatter_share_.size());
-  for (Eigen::Index i = 0; i < variances.size(); ++i) variances[i] = 1.0 + (factors[test_[static_cast<std::size_t>(i)]] - 1.0) * scatter_share_[i];
+  for (Eigen::Index i = 0; i < variances.size(); ++i) variances[i] = 1.0 + (factors[scatter_[static_cast<std::size_t>(i)]] - 1.0) * scatter_share_[i];
   return variances;
 }
 

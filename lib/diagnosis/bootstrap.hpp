@@ -60,10 +60,10 @@ class DataSource {
   NoisyData draw(const Eigen::VectorXd& truth, RandomStream& random) const;
 
  private:
-  Eigen::MatrixXd to_combinations_;  ///< makes the covariance the identity and every scatter diagonal
-  Eigen::VectorXd scatter_share_;    ///< of a combination's variance that is replicate scatter
-  std::vector<std::size_t> test_;    ///< of a combination, TestKind
-  std::array<int, 3> dof_;           ///< of the replicate scatter, by TestKind
+  Eigen::MatrixXd to_combinations_;   ///< makes the covariance the identity and every scatter diagonal
+  Eigen::VectorXd scatter_share_;     ///< of a combination's variance that is replicate scatter
+  std::vector<std::size_t> scatter_;  ///< of a combination: index in Observations::scatter
+  std::vector<int> dof_;              ///< of each scatter
 };
 
 /// Statistics of data against the anchor, by linear refits.

@@ -63,6 +63,20 @@ struct Stretch {
 
 Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
 
+/// Effects that explain much of a misfit are fitted once more from the constants where the search for the base began: a base that bent itself towards the
+/// data may stand behind a hill, with constants on their bounds.
+void start_again(Evidence& evidence) {
+  constexpr double kMuch = 60.0;
+  const CoordinateMap base = evidence.model.base_map();
+  const Eigen::VectorXd start = base.coordinates(evidence.settings.start);
+  for (Fit& single : evidence.singles) {
+    if (evidence.base.fit.chi2 - single.chi2 < kMuch) continue;
+    Eigen::VectorXd u = single.u;
+    u.head(start.size()) = start;
+    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, single.effects, u));
+  }
+}
+
 /// Base and every single effect, fitted to the observations of the evidence.
 void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
   const auto report = [&](double share, std::string_view phase) {
@@ -85,6 +99,7 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
     singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, found ? evidence.singles[k].u : best_start(evidence, k)));
   }
   evidence.singles = std::move(singles);
+  start_again(evidence);
 }
 
 /// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the material true: each

@@ -21,9 +21,8 @@ constexpr double kCouponStrain = 0.02;
 constexpr double kUsualSd = 0.03, kUsualStrainSd = 5e-4;
 
 double noise_sd(const Observations& observations, TestKind test, Feature feature, int replicates) {
-  const bool strain = feature == Feature::toe_strain || feature == Feature::set_strain;
   double sd = observations.has(test) ? observations.replicate_sd(feature, test) : 0.0;
-  if (!(sd > 0.0)) sd = strain ? kUsualStrainSd : kUsualSd;
+  if (!(sd > 0.0)) sd = feature == Feature::toe_strain ? kUsualStrainSd : kUsualSd;
   double variance = sd * sd / replicates;
   if (test == TestKind::modulus) variance += observations.numerics_sd * observations.numerics_sd;
   if (test == TestKind::toughness) variance += observations.fracture_numerics.covariance(feature, feature, 0.0, 0.0, true);

@@ -28,7 +28,8 @@ constexpr std::array<Names, kFeatureCount> kNames = {{{"log_modulus", "Young's m
                                                       {"drop", "fall after the peak"},
                                                       {"tail", "energy after the peak"},
                                                       {"log_unloading", "slope on unloading"},
-                                                      {"set_strain", "permanent set"}}};
+                                                      {"set_share", "permanent set"},
+                                                      {"toe_share", "offset of the toe"}}};
 
 /// The rising part of a curve, strain never decreasing, up to its largest stress.
 struct Rise {
@@ -92,7 +93,7 @@ void put_unloading(FeatureValues& values, const tester::Curve& curve) {
   if (!high || !low || *high <= *low) return;
   const double slope = 0.4 * top / (*high - *low);
   value_of(values, Feature::log_unloading) = std::log(slope);
-  value_of(values, Feature::set_strain) = *low - 0.5 * top / slope;
+  value_of(values, Feature::set_share) = (*low - 0.5 * top / slope) / curve.strain[turn];
 }
 
 }  // namespace
@@ -131,6 +132,8 @@ FeatureValues tensile_features(const tester::Curve& curve) {
   if (!rise) return values;
   put_rise(values, *rise);
   value_of(values, Feature::log_peak_strain).reset();
+  if (auto& toe = value_of(values, Feature::toe_strain)) value_of(values, Feature::toe_share) = *toe / rise->strain_at(0.3);
+  value_of(values, Feature::toe_strain).reset();
   if (const double energy = tester::area_under(forward); energy > 0.0) value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
   put_unloading(values, curve);
   return values;

@@ -14,7 +14,7 @@ namespace nacre::diagnosis {
 enum class Feature {
   log_modulus,      ///< Young's modulus, modulus test
   log_toughness,    ///< area under the curve
-  toe_strain,       ///< where the line through 20 and 40 % of the peak meets zero stress
+  toe_strain,       ///< where the line through 20 and 40 % of the peak meets zero stress (notched specimens)
   log_tangent_10,   ///< slope between 5 and 15 % of the peak
   log_tangent_30,   ///< between 20 and 40 %
   log_tangent_50,   ///< between 40 and 60 %
@@ -24,9 +24,10 @@ enum class Feature {
   drop,             ///< how much farther the strain goes until half the peak: log(0.05 + strain over peak strain)
   tail,             ///< share of the energy behind the peak
   log_unloading,    ///< slope of the first unloading, between 90 and 50 % of the stress where it begins
-  set_strain,       ///< where that line meets zero stress
+  set_share,        ///< where that line meets zero stress, over the strain where unloading begins
+  toe_share,        ///< toe_strain over the strain at 30 % of the peak (coupons: some are pulled a hundred times as far as others)
 };
-inline constexpr int kFeatureCount = 13;
+inline constexpr int kFeatureCount = 14;
 
 /// Name in files: `log_peak`.
 std::string_view to_string(Feature feature);

@@ -113,6 +113,27 @@ Observation mean_of(const std::vector<Measured>& replicates) {
 
 double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
 
+/// Scatter of every test, and of each material's coupons where their replicates say enough of it.
+void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
+  constexpr int kLeastDof = 5;
+  for (int t = 0; t < 3; ++t) observations.scatter[static_cast<std::size_t>(t)] = pooled_scatter(groups, static_cast<TestKind>(t), observations.batches);
+  std::map<std::string, std::size_t> own;
+  for (Row& row : observations.rows) {
+    row.scatter = static_cast<std::size_t>(row.test);
+    if (row.group < 0 || row.test != TestKind::tensile) continue;
+    const std::string material = observations.groups[static_cast<std::size_t>(row.group)].material();
+    const auto [place, unknown] = own.emplace(material, row.scatter);
+    if (unknown) {
+      ReplicateScatter scatter = pooled_scatter(groups, row.test, observations.batches, material);
+      if (scatter.dof >= kLeastDof) {
+        place->second = observations.scatter.size();
+        observations.scatter.push_back(std::move(scatter));
+      }
+    }
+    row.scatter = place->second;
+  }
+}
+
 }  // namespace
 
 Whitener::Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {
@@ -147,14 +168,13 @@ double Observations::replicate_sd(Feature feature, TestKind test) const {
 
 CovarianceParts Observations::covariance_parts() const {
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size(), size());
-  CovarianceParts parts{none, {none, none, none}};
+  CovarianceParts parts{none, none};
   for (int i = 0; i < size(); ++i) {
     const Row& a = rows[static_cast<std::size_t>(i)];
     for (int j = 0; j <= i; ++j) {
       const Row& b = rows[static_cast<std::size_t>(j)];
       if (a.test != b.test || a.probe != b.probe) continue;
-      const auto test = static_cast<std::size_t>(a.test);
-      if (a.group == b.group) parts.scatter[test](i, j) = parts.scatter[test](j, i) = a.weight * scatter[test].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
+      if (a.group == b.group) parts.scatter(i, j) = parts.scatter(j, i) = a.weight * scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
       if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) continue;
       const bool same = group_of(i).design == group_of(j).design;
       double numerics = 0.0;
@@ -212,11 +232,11 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
       values.push_back(*group.features[f]);
     }
   }
-  for (int t = 0; t < 3; ++t) observations.scatter[static_cast<std::size_t>(t)] = pooled_scatter(groups, static_cast<TestKind>(t), observations.batches);
   for (const HistoryRow& history : history_rows(groups)) {
     observations.rows.push_back(history.row);
     values.push_back(history.value);
   }
+  put_scatter(observations, groups);
   observations.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return observations;
 }

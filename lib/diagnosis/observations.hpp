@@ -39,6 +39,7 @@ struct Row {
   Probe probe = Probe::mean;
   tester::TestKind test = tester::TestKind::modulus;
   double weight = 1.0;  ///< variance of the row over that of a single specimen: 1/replicates of a mean
+  std::size_t scatter = 0;  ///< how its replicates scatter: index in Observations::scatter
 };
 
 /// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
@@ -61,20 +62,19 @@ class Whitener {
   Eigen::VectorXd scale_;  ///< inverse standard deviations of independent rows; empty: the factor counts
 };
 
-/// How replicates of one test scatter: pooled over its groups, correlations shrunk towards none.
+/// How replicates of one kind scatter: pooled over its groups, correlations shrunk towards none.
 struct ReplicateScatter {
   Eigen::MatrixXd covariance;  ///< features x features
   int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
 };
 
-/// Factors on the replicate variances of the three tests, in the order of TestKind.
-using ScatterFactors = std::array<double, 3>;
+/// Factors on the replicate variances, in the order of Observations::scatter.
+using ScatterFactors = std::vector<double>;
 
-/// The covariance of the rows, taken apart: what scatters between replicates of each test, and the rest. Rows of different tests are independent in all parts.
+/// The covariance of the rows, taken apart: what scatters between replicates, and the rest. Rows of different scatter are independent in both parts.
 struct CovarianceParts {
   Eigen::MatrixXd fixed;
-  std::array<Eigen::MatrixXd, 3> scatter;
-  Eigen::MatrixXd total(const ScatterFactors& factors) const { return fixed + factors[0] * scatter[0] + factors[1] * scatter[1] + factors[2] * scatter[2]; }
+  Eigen::MatrixXd scatter;
 };
 
 /// The data of a measurement set: groups sorted by test, design and conditions; rows by group and feature, then those of history.
@@ -82,7 +82,8 @@ struct Observations {
   std::vector<Observation> groups;
   std::vector<Row> rows;
   Eigen::VectorXd values;                    ///< per row
-  std::array<ReplicateScatter, 3> scatter;   ///< by TestKind
+  /// By TestKind, and behind them coupons of one material each: soft ones are pulled farther than rigid ones, and scatter otherwise.
+  std::vector<ReplicateScatter> scatter = std::vector<ReplicateScatter>(3);
   double numerics_sd = 0.0;                  ///< per layout, of log E, independent between layouts
   FractureNumerics fracture_numerics;        ///< the same of the features of a fracture test
   Eigen::MatrixXd numerics_shared;           ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
@@ -97,7 +98,10 @@ struct Observations {
   /// Covariance of the rows. What two numerics differ by is the same for all specimens of one layout under one test: rotated twins share
   /// it. Along the shared directions all rows go together.
   CovarianceParts covariance_parts() const;
-  Eigen::MatrixXd covariance() const { return covariance_parts().total({1.0, 1.0, 1.0}); }
+  Eigen::MatrixXd covariance() const {
+    const CovarianceParts parts = covariance_parts();
+    return parts.fixed + parts.scatter;
+  }
   /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given these
   /// residuals at `rows`; for all rows.
   Eigen::VectorXd shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& rows) const;

@@ -49,17 +49,29 @@ Marginal marginal(const Fit& base, const Eigen::VectorXd& values, const Eigen::V
   return result;
 }
 
-/// -2 log likelihood at the most probable amplitude, less the logarithmic determinant of the base's covariance; that amplitude.
-std::pair<double, double> most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
-  double least = 0.0, at = 0.0, reference = 0.0;
-  for (const double amplitude : kAmplitudes) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + amplitude * amplitude * unit);
-    const double determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-    if (amplitude == 0.0) reference = determinant;
-    const double deviance = factor.matrixL().solve(data.residual).squaredNorm() + determinant - reference;
-    if (amplitude == 0.0 || deviance < least) least = deviance, at = amplitude;
+struct Amplitude {
+  std::size_t index = 0;  ///< in kAmplitudes
+  double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without outsider
+};
+
+/// The most probable amplitude. The likelihood has one hill over it, so that the way up from `start` ends where a search of all amplitudes would.
+Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit, std::size_t start) {
+  const auto determinant_of = [](const Eigen::LLT<Eigen::MatrixXd>& factor) { return 2.0 * factor.matrixLLT().diagonal().array().log().sum(); };
+  const double reference = determinant_of(Eigen::LLT<Eigen::MatrixXd>(data.covariance));
+  const auto deviance_at = [&](std::size_t index) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + kAmplitudes[index] * kAmplitudes[index] * unit);
+    return factor.matrixL().solve(data.residual).squaredNorm() + determinant_of(factor) - reference;
+  };
+  Amplitude best{start, deviance_at(start)};
+  for (const int step : {1, -1}) {
+    for (std::size_t next = start + static_cast<std::size_t>(step); next < kAmplitudes.size(); next += static_cast<std::size_t>(step)) {
+      const double deviance = deviance_at(next);
+      if (deviance >= best.deviance) break;
+      best = {next, deviance};
+    }
+    if (best.index != start) break;
   }
-  return {least, at};
+  return best;
 }
 
 /// The least chi2 that `count` effects reach on these data, added one by one along their signatures.
@@ -110,8 +122,9 @@ Outsider outsider_against(const Evidence& evidence, double chi2, int count) {
   const Eigen::MatrixXd by_rows = source.combined(outsider_covariance(observations, evidence.base.directions, observations.covariance()));
   const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
   const Eigen::VectorXd own_variances = Eigen::VectorXd::Ones(observations.size());
-  const auto [deviance, amplitude] = most_probable(marginal(anchor.fit, source.combined(Eigen::MatrixXd(observations.values)), own_variances), unit);
-  Outsider outsider{amplitude, deviance - chi2, 1.0};
+  const Amplitude own = most_probable(marginal(anchor.fit, source.combined(Eigen::MatrixXd(observations.values)), own_variances), unit, kAmplitudes.size() / 2);
+  const double amplitude = kAmplitudes[own.index];
+  Outsider outsider{amplitude, own.deviance - chi2, 1.0};
   const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
   std::vector<double> leads(static_cast<std::size_t>(draws));
   const Eigen::MatrixXd spread = amplitude * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) * Eigen::MatrixXd::Identity(unit.rows(), unit.cols())).llt().matrixL());
@@ -122,7 +135,7 @@ Outsider outsider_against(const Evidence& evidence, double chi2, int count) {
     Eigen::VectorXd values = anchor.fit.predicted + spread * cause;
     for (double& value : values) value += random.normal();
     const Marginal data = marginal(anchor.fit, values, source.variances(source.draw_factors(random)));
-    leads[static_cast<std::size_t>(i)] = most_probable(data, unit).first - best_chi2(data, anchor.signatures, count);
+    leads[static_cast<std::size_t>(i)] = most_probable(data, unit, own.index).deviance - best_chi2(data, anchor.signatures, count);
   });
   outsider.p = exceedance(leads, outsider.lead);
   return outsider;

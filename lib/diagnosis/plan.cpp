@@ -88,9 +88,8 @@ void assume_scatter(Observations& observations, const PlannedScatter& scatter) {
     covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
     for (int i = 0; i < kFeatureCount; ++i) {
       const auto feature = static_cast<Feature>(i);
-      const bool strain = feature == Feature::toe_strain || feature == Feature::set_strain;
-      double sd = feature == Feature::log_modulus ? scatter.modulus : strain ? scatter.toe_strain : feature == Feature::log_peak_strain ? scatter.strain : scatter.stress;
-      if (feature == Feature::knee) sd = scatter.strain;
+      const bool of_strain = feature == Feature::log_peak_strain || feature == Feature::knee || feature == Feature::set_share || feature == Feature::toe_share;
+      const double sd = feature == Feature::log_modulus ? scatter.modulus : feature == Feature::toe_strain ? scatter.toe_strain : of_strain ? scatter.strain : scatter.stress;
       covariance(i, i) = sd * sd;
     }
     // Stresses of one specimen go together: a thicker print is stiffer from the first strain to the last.

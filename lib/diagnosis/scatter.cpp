@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace nacre::diagnosis {
 namespace {
@@ -13,10 +14,9 @@ constexpr double kAssumedSd = 0.02;
 /// covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and ISO 9513). Strains: as a strain.
 constexpr double kLeastSd = 1e-4, kLeastCurveSd = 2e-3, kLeastStrainSd = 2e-5;
 
-bool is_strain(Feature feature) { return feature == Feature::toe_strain || feature == Feature::set_strain; }
 double least_sd(std::size_t f) {
   const auto feature = static_cast<Feature>(f);
-  return is_strain(feature) ? kLeastStrainSd : feature == Feature::log_modulus ? kLeastSd : kLeastCurveSd;
+  return feature == Feature::toe_strain ? kLeastStrainSd : feature == Feature::log_modulus ? kLeastSd : kLeastCurveSd;
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
   return deviations;
 }
 
-ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches) {
+ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches, const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
   std::map<int, int> group_sizes;
   for (const Deviation& d : deviations) ++group_sizes[d.group];
@@ -65,6 +65,13 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   }
   ReplicateScatter scatter;
   scatter.dof = within - (by_batch ? batches - 1 : 0);
+  if (!design.empty()) {
+    std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
+    std::set<int> own_groups;
+    for (const Deviation& d : deviations) own_groups.insert(d.group);
+    // The means of batches are everybody's: each bears its share of what they cost.
+    scatter.dof = within > 0 ? static_cast<int>(deviations.size() - own_groups.size()) * scatter.dof / within : 0;
+  }
   scatter.covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
   if (scatter.dof <= 0) scatter.dof = 0;
   int features = 0;
@@ -83,7 +90,7 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   for (Eigen::Index f = 0; f < kFeatureCount; ++f) {
     for (Eigen::Index g = 0; g < kFeatureCount; ++g)
       if (f != g) scatter.covariance(f, g) *= keep;
-    const double assumed = is_strain(static_cast<Feature>(f)) ? 0.02 * kAssumedSd : kAssumedSd;
+    const double assumed = static_cast<Feature>(f) == Feature::toe_strain ? 0.02 * kAssumedSd : kAssumedSd;
     const double sd = scatter.dof > 0 ? std::sqrt(scatter.covariance(f, f)) : assumed;
     scatter.covariance(f, f) = std::pow(std::max(sd, least_sd(static_cast<std::size_t>(f))), 2);
   }

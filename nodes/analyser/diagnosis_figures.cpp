@@ -15,8 +15,10 @@ using diagnosis::Diagnosis;
 using diagnosis::Feature;
 using diagnosis::ResidualRow;
 
-bool is_strain(Feature f) { return f == Feature::toe_strain || f == Feature::set_strain; }
-bool is_logarithm(Feature f) { return !is_strain(f) && f != Feature::knee && f != Feature::tail && f != Feature::drop; }
+bool is_strain(Feature f) { return f == Feature::toe_strain; }
+bool is_logarithm(Feature f) {
+  return !is_strain(f) && f != Feature::knee && f != Feature::tail && f != Feature::drop && f != Feature::set_share && f != Feature::toe_share;
+}
 
 /// Per cent for logarithms and strains, else as it is.
 double shown(Feature feature, double residual) { return is_logarithm(feature) ? 100.0 * std::expm1(residual) : 100.0 * residual; }
@@ -110,7 +112,7 @@ std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
 
 std::vector<std::string> residual_figures(const Diagnosis& d, std::size_t most) {
   std::vector<View> views;
-  for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak, Feature::log_tangent_30, Feature::toe_strain}) {
+  for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak, Feature::log_tangent_30, Feature::toe_strain, Feature::toe_share}) {
     const auto rows = rows_of(d, feature);
     if (rows.size() < 3) continue;
     for (std::size_t k = 0; k < d.descriptors.size(); ++k) {

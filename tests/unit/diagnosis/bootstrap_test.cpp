@@ -13,7 +13,7 @@ Observations two_tests() {
   SyntheticSet set;
   set.patterns = 8;
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens(set, synthetic_truth());
-  for (const auto& coupon : synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 3, 0.01, 5)) specimens.push_back(coupon);
+  for (const auto& coupon : synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 5, 0.01, 5)) specimens.push_back(coupon);
   Observations observations = observe(specimens, 0.003, {});
   observations.numerics_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
   for (int i = 0; i < observations.size(); ++i)
@@ -27,10 +27,17 @@ TEST(DataSource, CombinationsWeighDataAsTheRowsDo) {
   ASSERT_TRUE(observations.has(tester::TestKind::modulus) && observations.has(tester::TestKind::tensile));
   const DataSource source(observations);
   RandomStream random(1, "test/combinations");
-  for (const ScatterFactors& factors : {ScatterFactors{1.0, 1.0, 1.0}, ScatterFactors{0.4, 1.0, 2.5}, ScatterFactors{3.0, 1.0, 0.2}}) {
+  const CovarianceParts parts = observations.covariance_parts();
+  ASSERT_GT(observations.scatter.size(), 3u) << "coupons of one material scatter in their own way";
+  for (const double spread : {0.0, 0.8, -0.8}) {
+    ScatterFactors factors;
+    for (std::size_t k = 0; k < observations.scatter.size(); ++k) factors.push_back(std::exp(spread * (static_cast<double>(k % 3) - 0.7)));
+    Eigen::MatrixXd covariance = parts.fixed;
+    for (int i = 0; i < observations.size(); ++i)
+      for (int j = 0; j < observations.size(); ++j) covariance(i, j) += factors[observations.rows[static_cast<std::size_t>(i)].scatter] * parts.scatter(i, j);
     Eigen::VectorXd y(observations.size());
     for (double& value : y) value = 0.05 * random.normal();
-    const double by_rows = Whitener(observations.covariance_parts().total(factors)).chi2(y);
+    const double by_rows = Whitener(covariance).chi2(y);
     const double combined = Whitener::independent(source.variances(factors).cwiseSqrt()).chi2(source.combined(Eigen::MatrixXd(y)));
     EXPECT_NEAR(combined, by_rows, 1e-6 * by_rows);
   }

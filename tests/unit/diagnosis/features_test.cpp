@@ -53,7 +53,8 @@ TEST(Features, UnloadingShowsItsSlopeAndThePermanentSet) {
   for (int i = 1; i <= 20; ++i) curve.strain.push_back(0.02 - 0.001 * i / 3.0), curve.stress_pa.push_back(2e7 - 1e6 * i);
   const FeatureValues values = tensile_features(curve);
   EXPECT_NEAR(at(values, Feature::log_unloading), std::log(3e9), 1e-6);
-  EXPECT_NEAR(at(values, Feature::set_strain), 0.02 * 2.0 / 3.0, 1e-6);
+  EXPECT_NEAR(at(values, Feature::set_share), 2.0 / 3.0, 1e-4);
+  EXPECT_NEAR(at(values, Feature::toe_share), 0.0, 1e-9);
 }
 
 /// Rises straight to 10 MPa at 1 % strain, flows until 3 %, falls to nothing at 3.1 %.
