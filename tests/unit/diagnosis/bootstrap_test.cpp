@@ -48,17 +48,18 @@ TEST(DataSource, DrawsScatterAsTheVariancesOfADrawSayOnAverage) {
   const DataSource source(observations);
   const Eigen::VectorXd truth = Eigen::VectorXd::Constant(observations.size(), 2.0);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(observations.size());
+  double weight = 0.0;
   constexpr int kDraws = 4000;
   for (int i = 0; i < kDraws; ++i) {
     RandomStream random(2, "test/draw/" + std::to_string(i));
     const NoisyData data = source.draw(truth, random);
     squares += (data.values - truth).cwiseAbs2() / kDraws;
-    // Data far from the truth weigh as much as their own scatter says: about one per row.
-    if (i == 0) {
-      EXPECT_NEAR(data.whitener.chi2(data.values - truth), observations.size(), 5.0 * std::sqrt(2.0 * observations.size()));
-    }
+    weight += data.whitener.chi2(data.values - truth) / observations.size() / kDraws;
   }
   EXPECT_NEAR(squares.mean(), 1.0, 0.02);
+  // A draw weighs its data by the scatter that its own replicates suggest: more than one per row, as Fisher's F has n / (n - 2) with n degrees of freedom.
+  EXPECT_GT(weight, 1.05);
+  EXPECT_LT(weight, 1.6);
   EXPECT_LT((squares.array() - 1.0).abs().maxCoeff(), 0.15);  // sd of one entry 0.022
 }
 
