@@ -34,14 +34,14 @@ std::span<const int> searched_eta() { return kSearchedEta; }
 
 CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects) : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
   centre_.extensions.clear();
-  const auto add_moduli = [&](Block block, material::FitTarget target, int count) {
-    for (int i = 0; i < count; ++i) {
+  const auto add_moduli = [&](Block block, material::FitTarget target) {
+    for (int i = 0; i < 6; ++i) {
       const bool logarithmic = i < 3;
       const Bounds b = widened(material::modulus_ranges(target)[static_cast<std::size_t>(i)], logarithmic);
       base_.push_back({block, i, b.low, b.high, logarithmic, kWidePrior});
     }
   };
-  if (basis.modulus) add_moduli(Block::modulus, material::FitTarget::microstructures, 6);
+  if (basis.modulus) add_moduli(Block::modulus, material::FitTarget::microstructures);
   if (basis.toughness) {
     const material::ToughnessVector eta = to_vector(centre_.toughness);
     for (const int i : kSearchedEta) {
@@ -49,7 +49,8 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
       base_.push_back({Block::toughness, i, middle - kEtaReach, middle + kEtaReach, true, kEtaSd / (2.0 * kEtaReach)});
     }
   }
-  if (basis.coupon) add_moduli(Block::coupon, material::FitTarget::base, 3);
+  // Poisson's ratios too: they bend the curves of coupons pulled far.
+  if (basis.coupon) add_moduli(Block::coupon, material::FitTarget::base);
   for (const std::string& name : effects_) {
     const material::Effect* effect = material::find_effect(name);
     assert(effect != nullptr);
