@@ -83,7 +83,9 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
-  const Eigen::VectorXd variances = observations.covariance().diagonal();
+  // What numerics share among rows is in the predictions, as far as these residuals tell it.
+  Eigen::VectorXd variances = observations.covariance().diagonal();
+  if (observations.numerics_shared.rows() == observations.size()) variances -= observations.numerics_shared.rowwise().squaredNorm();
   const auto with_numerics = [&](const Fit& fit) -> Eigen::VectorXd {
     std::vector<Eigen::Index> all(static_cast<std::size_t>(observations.size()));
     std::iota(all.begin(), all.end(), 0);

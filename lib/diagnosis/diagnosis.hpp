@@ -88,7 +88,7 @@ struct ResidualRow {
   int group = 0;
   double measured = 0.0;               ///< in the feature's own unit: logarithms of Pa, strains
   double base = 0.0, extended = 0.0;   ///< with what numerics are found to leave along the shared directions
-  double standard_error = 0.0;         ///< replicates, numerics and emulator together
+  double standard_error = 0.0;         ///< replicates, numerics and emulator, but for what numerics share among rows: the predictions hold that
   std::vector<double> descriptors;     ///< of the group, in the order of Diagnosis::descriptors
 };
 

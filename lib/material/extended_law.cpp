@@ -8,8 +8,8 @@
 namespace nacre::material {
 namespace {
 
-/// Share of J_m from which chains stretch on at this stiffness: a law without end would have no state for a coupon that was
-/// pulled farther than some J_m allows.
+/// Share of J_m from which chains stretch on at this stiffness: a law without end would have no state for a coupon that
+/// was pulled farther than some J_m allows.
 constexpr double kFullChains = 0.98;
 
 /// Symmetric tensors by components 11, 22, 12.
@@ -140,7 +140,9 @@ PointResponse respond(const Eigen::Matrix2d& h, double dt_s, const ExtendedLaw& 
   const double shear = law.lame.mu_pa / (1.0 - filled), pressure = law.lame.lambda_pa * e.log_j;
   Symmetric s = scaled_sum(shear, e.plastic, pressure - shear, e.inverse);
   for (const std::size_t i : {0u, 1u}) s[i] += shear;
-  const double chains = law.inverse_limit > 0.0 ? -std::log1p(-filled) / law.inverse_limit + (k - filled / law.inverse_limit) / (1.0 - filled) : k;
+  const double chains = law.inverse_limit > 0.0 ? -std::log1p(-filled) / law.inverse_limit +
+                                                      (k - filled / law.inverse_limit) / (1.0 - filled)
+                                                : k;
   double energy = 0.5 * (law.lame.mu_pa * chains + pressure * e.log_j) + history.plastic_work_j_per_m3;
   if (law.tension_only > 0.0) energy -= law.tension_only * compressive_energy(law.lame, e);
   if (law.overstress > 0.0) {

@@ -5,8 +5,8 @@
 
 namespace nacre::virtual_laboratory {
 
-/// Strain at which an unnotched homogeneous coupon, pulled at the machine's rate, has taken up `share` of the energy that
-/// parts it (per volume), with what the truth hides in its material; at most 2.
+/// Strain at which an unnotched homogeneous coupon, pulled at the machine's rate, has taken up `share` of the energy
+/// that parts it (per volume), with what the truth hides in its material; at most 2.
 double coupon_strain(const Truth& truth, double rigid_fraction, const Making& making, double share);
 
 /// Curve of an unnotched homogeneous coupon at the machine's rate, in `points` equally spaced strains up to `strain`,

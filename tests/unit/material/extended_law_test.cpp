@@ -85,7 +85,8 @@ TEST(Gent, RisesLateAndStartsAlike) {
   EXPECT_GT(gent.pull(0.4, 1.0) / base.pull(0.4, 1.0), 1.2);
 }
 
-// A coupon may have been pulled farther than the limit that a fit tries: it has a stress there all the same, and the work done on it is its energy.
+// A coupon may have been pulled farther than the limit that a fit tries: it has a stress there all the same, and the
+// work done on it is its energy.
 TEST(Gent, HasAStateBeyondItsChains) {
   PulledBar bar({.lame = kLame, .inverse_limit = 1.0 / 0.2});
   double work = 0.0, last = 0.0;
