@@ -1,12 +1,12 @@
 // Blind trials of the diagnosis (docs/METHODS.md, "Diagnosis"): the virtual laboratory hides effects, nacre diagnose sees the measurements alone, the answers
-// are opened for scoring. A folder per trial; what is finished is not done again.
+// are opened for scoring. A folder per trial and a line in the study's table; what has a line is not done again.
 
 #include <fmt/format.h>
 #include <chrono>
 
-#include "base/files.hpp"
 #include "score.hpp"
 #include "study/study_command.hpp"
+#include "study/text_table.hpp"
 
 namespace {
 
@@ -16,34 +16,41 @@ namespace fs = std::filesystem;
 
 struct Options {
   TrialOptions trials;
-  std::string fidelity = "full", work = "blind_trials", only, commit;
+  std::string fidelity = "full", work = "blind_trials", table, only, commit, report;
   double seconds = 1e9;
 };
 
 /// Seeds of a report follow from the commit under test, so that nobody chooses them.
 std::uint64_t report_seed(const std::string& commit) { return 1'000'000 + std::stoull(commit.substr(0, 7), nullptr, 16) * 1000; }
 
+/// Hides, prints, measures, asks; a trial that was asked before and has no line yet is opened only.
+Answer play(const Trial& trial, const Options& options) {
+  const fs::path folder = fs::path(options.work) / trial.name;
+  if (!fs::exists(folder / "diagnosis.json")) {
+    generate(trial, options.trials, folder);
+    diagnose(options.trials, folder);
+  }
+  return open_answer(trial, options.commit, folder);
+}
+
 void run(Options options) {
   options.trials.fidelity = *tester::fidelity_from_string(options.fidelity);
-  if (!options.commit.empty()) options.trials.first_seed = report_seed(options.commit);
+  if (!options.report.empty()) options.trials.first_seed = report_seed(options.report);
   const auto began = std::chrono::steady_clock::now();
+  study::TextTable table(options.table.empty() ? options.work + ".csv" : options.table, answer_columns());
   std::vector<Score> scores;
   int waiting = 0;
   for (const Trial& trial : all_trials(options.trials)) {
     if (!options.only.empty() && trial.name.find(options.only) == std::string::npos) continue;
-    const fs::path folder = fs::path(options.work) / trial.name;
-    const bool finished = fs::exists(folder / "diagnosis.json");
+    const bool finished = table.find(trial.name).has_value();
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!finished && spent > options.seconds) {
       ++waiting;
       continue;
     }
-    if (!finished) {
-      generate(trial, options.trials, folder);
-      diagnose(options.trials, folder);
-    }
-    scores.push_back(score_trial(trial, folder));
-    if (!finished) fmt::print(stderr, "{}: {} {}\n", trial.name, scores.back().verdict, scores.back().right_name ? "(right)" : "");
+    if (!finished) table.add(trial.name, to_cells(play(trial, options)));
+    scores.push_back(score_of(trial, answer_from_cells(*table.find(trial.name))));
+    if (!finished) fmt::print(stderr, "{}: {} {}\n", trial.name, scores.back().answer.verdict, scores.back().right_name ? "(right)" : "");
   }
   if (waiting > 0) fmt::print(stderr, "{} trials are still waiting: run it again\n", waiting);
   fmt::print("{}", report_of(scores));
@@ -65,7 +72,9 @@ int main(int argc, char** argv) {
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();
   app.add_option("--seeds", options.trials.seeds_per_effect, "Trials of each effect, size and scatter")->capture_default_str();
   app.add_option("--first-seed", options.trials.first_seed, "Tuning seeds begin here")->check(CLI::Range(1, 999'999))->capture_default_str();
-  app.add_option("--report", options.commit, "Commit under test, hexadecimal: a report, with seeds of its own")->excludes("--first-seed");
+  app.add_option("--table", options.table, "CSV of finished trials, read and continued; default: the folder of the trials, .csv");
+  app.add_option("--commit", options.commit, "Commit under test, for the table")->required();
+  app.add_option("--report", options.report, "Commit under test, hexadecimal: a report, with seeds of its own")->excludes("--first-seed");
   app.add_option("--only", options.only, "Trials whose name contains this");
   app.add_option("--seconds", options.seconds, "Begins nothing new after so long");
   CLI11_PARSE(app, argc, argv);

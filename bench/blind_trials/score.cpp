@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
-
-#include "base/files.hpp"
 
 namespace nacre::blind_trials {
 namespace {
@@ -28,7 +24,21 @@ std::string rate(int good, int all) {
   return fmt::format("{} of {} ({:.0f} %; 95 %: {:.0f} to {:.0f} %)", good, all, 100 * p, 100 * (middle - half), 100 * (middle + half));
 }
 
-std::string answer_of(const Score& score) { return score.verdict == "named" ? fmt::format("{}", fmt::join(score.named, "+")) : score.verdict; }
+std::vector<std::string> names_of(const Answer& answer) {
+  std::vector<std::string> names;
+  for (const Named& named : answer.named) names.push_back(named.effect);
+  return names;
+}
+
+std::string answer_of(const Score& score) {
+  return score.answer.verdict == "named" ? fmt::format("{}", fmt::join(names_of(score.answer), "+")) : score.answer.verdict;
+}
+
+/// The hidden effect that is hardest to see.
+Hidden faintest(const Score& score) {
+  const auto& hidden = score.answer.hidden;
+  return hidden.empty() ? Hidden{} : *std::min_element(hidden.begin(), hidden.end(), [](const Hidden& a, const Hidden& b) { return a.s < b.s; });
+}
 
 template <class Wanted, class Good>
 std::string rate_over(const std::vector<Score>& scores, Wanted wanted, Good good) {
@@ -40,53 +50,44 @@ std::string rate_over(const std::vector<Score>& scores, Wanted wanted, Good good
 
 }  // namespace
 
-Score score_trial(const Trial& trial, const std::filesystem::path& folder) {
-  const auto diagnosis = nlohmann::json::parse(read_file(folder / "diagnosis.json"));
-  const toml::table truth = toml::parse(read_file(folder / "set.truth.toml"));
-  Score score{trial, diagnosis["verdict"], {}, diagnosis["possible"], false, false, -1.0, false, 0.0, 0.0, 0.0, 0.0};
-  for (const auto& effect : diagnosis["effects"]) score.named.push_back(effect["name"]);
-  score.right_name = score.verdict == "named" && same(score.named, trial.hidden);
-  score.in_set = std::any_of(score.possible.begin(), score.possible.end(), [&](const auto& model) { return same(model, trial.hidden); });
-  if (const toml::array* signals = truth["signal"].as_array(); signals != nullptr && !signals->empty()) {
-    const toml::table& first = *signals->get(0)->as_table();
-    score.s = first["s"].value_or(0.0), score.rho = first["rho"].value_or(0.0), score.ceiling = first["ceiling"].value_or(0.0);
-  }
-  if (score.right_name && !trial.hidden.empty()) {
-    const toml::array* effects = truth["effect"].as_array();
-    const auto& named = diagnosis["effects"][0];
-    for (std::size_t k = 0; effects != nullptr && k < effects->size(); ++k) {
-      const toml::table& hidden = *effects->get(k)->as_table();
-      if (hidden["name"].value_or(std::string()) != named["name"].get<std::string>()) continue;
-      const toml::array* numbers = hidden["value"].as_array();
-      const double value = numbers != nullptr ? numbers->get(0)->value_or(0.0) : hidden["value"].value_or(0.0);
-      score.parameter_error = std::abs(named["parameter"].get<double>() / value - 1.0);
-      score.covered = named["interval90"][0].get<double>() <= value && value <= named["interval90"][1].get<double>();
-    }
-  }
-  if (diagnosis["gain"].is_object()) score.gain = diagnosis["gain"]["relative_reduction"];
+Score score_of(const Trial& trial, const Answer& answer) {
+  Score score{trial, answer, false, false, -1.0, false};
+  score.right_name = answer.verdict == "named" && same(names_of(answer), trial.hidden);
+  score.in_set = std::any_of(answer.possible.begin(), answer.possible.end(), [&](const auto& model) { return same(model, trial.hidden); });
+  if (!score.right_name || trial.hidden.empty()) return score;
+  const Named& named = *std::find_if(answer.named.begin(), answer.named.end(), [&](const Named& n) { return n.effect == trial.hidden.front(); });
+  const double size = answer.hidden.front().size;
+  score.parameter_error = std::abs(named.size / size - 1.0);
+  score.covered = named.low90 <= size && size <= named.high90;
   return score;
 }
 
 std::string report_of(const std::vector<Score>& scores) {
   const auto kind = [](const char* name) { return [name](const Score& s) { return s.trial.kind == name; }; };
-  const auto fair = [](const Score& s) { return s.trial.kind == "effect" && s.s >= 8.0 && s.s * std::sqrt((1.0 - s.rho) / 2.0) >= 2.2; };
-  const auto visible = [](const Score& s) { return s.trial.kind == "effect" && s.s >= 8.0; };
+  const auto fair = [](const Score& s) { return s.trial.kind == "effect" && faintest(s).s >= 8.0 && faintest(s).s * std::sqrt((1.0 - faintest(s).rho) / 2.0) >= 2.2; };
+  const auto visible = [](const Score& s) { return s.trial.kind == "effect" && faintest(s).s >= 8.0; };
+  const auto wrong_name = [](const Score& s) {
+    const auto names = names_of(s.answer);
+    return s.answer.verdict == "named" && std::any_of(names.begin(), names.end(), [&](const auto& name) { return std::find(s.trial.hidden.begin(), s.trial.hidden.end(), name) == s.trial.hidden.end(); });
+  };
   std::string text = "| score | reached | aim |\n| --- | --- | --- |\n";
-  text += fmt::format("| nulls: base sufficient | {} | >= 97 % |\n", rate_over(scores, kind("null"), [](const Score& s) { return s.verdict == "base_sufficient"; }));
-  text += fmt::format("| nulls: any name | {} | <= 2 % at the upper bound |\n", rate_over(scores, kind("null"), [](const Score& s) { return s.verdict == "named"; }));
+  text += fmt::format("| nulls: base sufficient | {} | >= 97 % |\n", rate_over(scores, kind("null"), [](const Score& s) { return s.answer.verdict == "base_sufficient"; }));
+  text += fmt::format("| nulls: any name | {} | <= 2 % at the upper bound |\n", rate_over(scores, kind("null"), [](const Score& s) { return s.answer.verdict == "named"; }));
   text += fmt::format("| right single name, s >= 8 and distance >= 2.2 | {} | >= 95 % |\n", rate_over(scores, fair, [](const Score& s) { return s.right_name; }));
   text += fmt::format("| true cause within the set, s >= 8 | {} | >= 99 % |\n", rate_over(scores, visible, [](const Score& s) { return s.in_set; }));
-  text += fmt::format("| confident wrong name, all effects | {} | |\n", rate_over(scores, kind("effect"), [](const Score& s) { return s.verdict == "named" && !s.right_name; }));
-  text += fmt::format("| out of library: unexplained | {} | >= 90 % |\n", rate_over(scores, kind("outside"), [](const Score& s) { return s.verdict == "unexplained"; }));
-  text += fmt::format("| out of library: a name | {} | <= 3 % |\n", rate_over(scores, kind("outside"), [](const Score& s) { return s.verdict == "named"; }));
-  text += fmt::format("| two at once: both named | {} | |\n", rate_over(scores, kind("double"), [](const Score& s) { return s.right_name; }));
-  text += fmt::format("| pair: reported as a set | {} | >= 95 % |\n", rate_over(scores, kind("pair"), [](const Score& s) { return s.verdict == "ambiguous" && s.in_set; }));
+  text += fmt::format("| confident wrong name, all effects | {} | |\n", rate_over(scores, kind("effect"), wrong_name));
+  text += fmt::format("| out of library: unexplained | {} | >= 90 % |\n", rate_over(scores, kind("outside"), [](const Score& s) { return s.answer.verdict == "unexplained"; }));
+  text += fmt::format("| out of library: a name | {} | <= 3 % |\n", rate_over(scores, kind("outside"), [](const Score& s) { return s.answer.verdict == "named"; }));
+  const auto both_visible = [](const Score& s) { return s.trial.kind == "double" && faintest(s).s >= 8.0; };
+  text += fmt::format("| two at once, both s >= 8: both named | {} | |\n", rate_over(scores, both_visible, [](const Score& s) { return s.right_name; }));
+  text += fmt::format("| two at once: a wrong name | {} | |\n", rate_over(scores, kind("double"), wrong_name));
+  text += fmt::format("| pair: reported as a set | {} | >= 95 % |\n", rate_over(scores, kind("pair"), [](const Score& s) { return s.answer.verdict == "ambiguous" && s.in_set; }));
   std::vector<double> errors;
   int covered = 0, sized = 0;
   for (const Score& s : scores) {
     if (s.parameter_error < 0.0) continue;
     ++sized, covered += s.covered;
-    if (s.s >= 16.0) errors.push_back(s.parameter_error);
+    if (faintest(s).s >= 16.0) errors.push_back(s.parameter_error);
   }
   std::sort(errors.begin(), errors.end());
   text += fmt::format("| size: median error, s >= 16 | {} | <= 5 % |\n", errors.empty() ? "none" : fmt::format("{:.1f} % of {}", 100 * errors[errors.size() / 2], errors.size()));
@@ -109,9 +110,10 @@ std::string report_of(const std::vector<Score>& scores) {
   }
   text += "\n\n| trial | s | rho | ceiling | answer | set | size error |\n| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Score& s : scores) {
+    const Hidden hidden = faintest(s);
     std::string set;
-    for (const auto& model : s.possible) set += (set.empty() ? "" : " / ") + fmt::format("{}", fmt::join(model, "+"));
-    text += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {} |\n", s.trial.name, s.s, s.rho, s.ceiling, answer_of(s), set, s.parameter_error < 0.0 ? "" : fmt::format("{:.0f} %", 100 * s.parameter_error));
+    for (const auto& model : s.answer.possible) set += (set.empty() ? "" : " / ") + fmt::format("{}", fmt::join(model, "+"));
+    text += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {} |\n", s.trial.name, hidden.s, hidden.rho, hidden.ceiling, answer_of(s), set, s.parameter_error < 0.0 ? "" : fmt::format("{:.0f} %", 100 * s.parameter_error));
   }
   return text;
 }

@@ -3,19 +3,18 @@
 // appended as it comes.
 
 #include <functional>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "study/text_table.hpp"
+
 namespace nacre::study {
 
-/// CSV file of a key (text without comma, quote or line break) and numbers, in any order of lines.
+/// A table of a key and numbers.
 class StudyTable {
  public:
-  /// Reads what the file holds; an incomplete last line is cut off. Throws InputError when another header stands there
-  /// or a line is faulty.
+  /// Reads what the file holds, as TextTable does; throws InputError also where a number is none.
   StudyTable(std::string path, std::vector<std::string> value_names);
   /// The values of `key`, or nothing.
   std::optional<std::vector<double>> find(const std::string& key) const;
@@ -23,12 +22,7 @@ class StudyTable {
   void add(const std::string& key, const std::vector<double>& values);
 
  private:
-  std::string header() const;
-  void append(const std::string& text) const;
-  std::string path_;
-  std::vector<std::string> value_names_;
-  mutable std::mutex mutex_;
-  std::map<std::string, std::vector<double>> rows_;
+  TextTable text_;
 };
 
 /// One line that a study wants.

@@ -3,7 +3,6 @@
 // scatter re-estimated in every draw, numerics floor), and everything is refitted on linearised models.
 
 #include <Eigen/Dense>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -54,12 +53,13 @@ class DataSource {
   Anchor combined(Anchor anchor) const;
   /// Variances of the combinations where replicates scatter by these factors; 1 where all factors are 1.
   Eigen::VectorXd variances(const ScatterFactors& factors) const;
-  /// What as many replicates may come to say of their scatter.
-  ScatterFactors draw_factors(RandomStream& random) const;
   /// `truth` over the combinations.
   NoisyData draw(const Eigen::VectorXd& truth, RandomStream& random) const;
 
  private:
+  /// What as many replicates may come to say of their scatter.
+  ScatterFactors draw_factors(RandomStream& random) const;
+
   Eigen::MatrixXd to_combinations_;   ///< makes the covariance the identity and every scatter diagonal
   Eigen::VectorXd scatter_share_;     ///< of a combination's variance that is replicate scatter
   std::vector<std::size_t> scatter_;  ///< of a combination: index in Observations::scatter

@@ -55,6 +55,10 @@ class Whitener {
   }
   /// The squared length of the whitened vector.
   double chi2(const Eigen::VectorXd& differences) const { return (*this)(differences).squaredNorm(); }
+  Eigen::MatrixXd covariance() const {
+    if (scale_.size() > 0) return scale_.cwiseAbs2().cwiseInverse().asDiagonal();
+    return factor_.reconstructedMatrix();
+  }
 
  private:
   Whitener() = default;

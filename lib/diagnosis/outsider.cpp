@@ -38,8 +38,8 @@ struct Marginal {
   Eigen::MatrixXd covariance;  ///< noise and what the base can move
 };
 
-Marginal marginal(const Fit& base, const Eigen::VectorXd& values, const Eigen::VectorXd& variances) {
-  Marginal result{values - base.predicted, variances.asDiagonal()};
+Marginal marginal(const Fit& base, const NoisyData& data) {
+  Marginal result{data.values - base.predicted, data.whitener.covariance()};
   for (const int i : base.free) {
     if (i >= base.base_count) continue;
     const Eigen::VectorXd column = base.jacobian.col(i);
@@ -50,26 +50,20 @@ Marginal marginal(const Fit& base, const Eigen::VectorXd& values, const Eigen::V
 }
 
 struct Amplitude {
-  std::size_t index = 0;  ///< in kAmplitudes
+  double value = 0.0;
   double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without outsider
 };
 
-/// The most probable amplitude. The likelihood has one hill over it, so that the way up from `start` ends where a search of all amplitudes would.
-Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit, std::size_t start) {
-  const auto determinant_of = [](const Eigen::LLT<Eigen::MatrixXd>& factor) { return 2.0 * factor.matrixLLT().diagonal().array().log().sum(); };
-  const double reference = determinant_of(Eigen::LLT<Eigen::MatrixXd>(data.covariance));
-  const auto deviance_at = [&](std::size_t index) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + kAmplitudes[index] * kAmplitudes[index] * unit);
-    return factor.matrixL().solve(data.residual).squaredNorm() + determinant_of(factor) - reference;
-  };
-  Amplitude best{start, deviance_at(start)};
-  for (const int step : {1, -1}) {
-    for (std::size_t next = start + static_cast<std::size_t>(step); next < kAmplitudes.size(); next += static_cast<std::size_t>(step)) {
-      const double deviance = deviance_at(next);
-      if (deviance >= best.deviance) break;
-      best = {next, deviance};
-    }
-    if (best.index != start) break;
+/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have more than one hill.
+Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
+  Amplitude best;
+  double reference = 0.0;
+  for (const double amplitude : kAmplitudes) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + amplitude * amplitude * unit);
+    const double determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    if (amplitude == 0.0) reference = determinant;
+    const double deviance = factor.matrixL().solve(data.residual).squaredNorm() + determinant - reference;
+    if (amplitude == 0.0 || deviance < best.deviance) best = {amplitude, deviance};
   }
   return best;
 }
@@ -121,21 +115,18 @@ Outsider outsider_against(const Evidence& evidence, double chi2, int count) {
   const Anchor anchor = source.combined(evidence.base);
   const Eigen::MatrixXd by_rows = source.combined(outsider_covariance(observations, evidence.base.directions, observations.covariance()));
   const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
-  const Eigen::VectorXd own_variances = Eigen::VectorXd::Ones(observations.size());
-  const Amplitude own = most_probable(marginal(anchor.fit, source.combined(Eigen::MatrixXd(observations.values)), own_variances), unit, kAmplitudes.size() / 2);
-  const double amplitude = kAmplitudes[own.index];
-  Outsider outsider{amplitude, own.deviance - chi2, 1.0};
+  const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)), Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};
+  const Amplitude own = most_probable(marginal(anchor.fit, data), unit);
+  Outsider outsider{own.value, own.deviance - chi2, 1.0};
   const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
   std::vector<double> leads(static_cast<std::size_t>(draws));
-  const Eigen::MatrixXd spread = amplitude * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) * Eigen::MatrixXd::Identity(unit.rows(), unit.cols())).llt().matrixL());
+  const Eigen::MatrixXd spread = own.value * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) * Eigen::MatrixXd::Identity(unit.rows(), unit.cols())).llt().matrixL());
   parallel_for(draws, [&](int i) {
     RandomStream random(evidence.settings.seed + 4, "outsider/" + std::to_string(i));
     Eigen::VectorXd cause(observations.size());
     for (double& value : cause) value = random.normal();
-    Eigen::VectorXd values = anchor.fit.predicted + spread * cause;
-    for (double& value : values) value += random.normal();
-    const Marginal data = marginal(anchor.fit, values, source.variances(source.draw_factors(random)));
-    leads[static_cast<std::size_t>(i)] = most_probable(data, unit, own.index).deviance - best_chi2(data, anchor.signatures, count);
+    const Marginal drawn = marginal(anchor.fit, source.draw(anchor.fit.predicted + spread * cause, random));
+    leads[static_cast<std::size_t>(i)] = most_probable(drawn, unit).deviance - best_chi2(drawn, anchor.signatures, count);
   });
   outsider.p = exceedance(leads, outsider.lead);
   return outsider;

@@ -92,21 +92,26 @@ std::vector<Replicates> measured_designs(int count) {
   return measured;
 }
 
-/// Answers everything wanted, the batch's answers in the given order.
-template <class AnyCalibration>
-Calibrated finish(AnyCalibration& calibration, const std::vector<Replicates>& measured, bool backwards = false) {
+/// Answers everything wanted with `tester(design, parameters, modulus)`, the batch's answers in the given order.
+template <class AnyCalibration, class Tester>
+Calibrated finish_by(AnyCalibration& calibration, const std::vector<Replicates>& measured, const Tester& tester,
+                     bool backwards = false) {
   while (!calibration.finished()) {
     const std::vector<WantedEvaluation> wanted = calibration.wanted();
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const std::size_t index = backwards ? wanted.size() - 1 - k : k;
       std::vector<Prediction> predictions;
       for (const std::size_t item : wanted[index].items) {
-        predictions.push_back(answer(measured[item], wanted[index].parameters, wanted[index].modulus));
+        predictions.push_back(tester(measured[item], wanted[index].parameters, wanted[index].modulus));
       }
       calibration.tell(index, predictions);
     }
   }
   return calibration.result();
+}
+
+Calibrated finish(Calibration& calibration, const std::vector<Replicates>& measured, bool backwards = false) {
+  return finish_by(calibration, measured, answer, backwards);
 }
 
 CalibrationSettings settings() {
@@ -191,18 +196,10 @@ TEST(Calibration, FailedSimulationsDoNotStopIt) {
   const std::vector<Replicates> measured = measured_designs(5);
   Calibration calibration(measured, settings());
   int told = 0;
-  while (!calibration.finished()) {
-    const std::vector<WantedEvaluation> wanted = calibration.wanted();
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      std::vector<Prediction> predictions;
-      for (const std::size_t item : wanted[k].items) {
-        const bool fails = ++told % 3 == 0;
-        predictions.push_back(fails ? Prediction{} : answer(measured[item], wanted[k].parameters, wanted[k].modulus));
-      }
-      calibration.tell(k, predictions);
-    }
-  }
-  const Calibrated& result = calibration.result();
+  const Calibrated result =
+      finish_by(calibration, measured, [&](const Replicates& design, const ParameterSet& parameters, bool modulus) {
+        return ++told % 3 == 0 ? Prediction{} : answer(design, parameters, modulus);
+      });
   EXPECT_LT(result.toughness_objective_after, result.toughness_objective_before);
   EXPECT_EQ(material::parameter_fault(result.parameters), "");
 }
@@ -250,19 +247,9 @@ TEST(Calibration, ParametersWithoutEffectAreNotDetermined) {
 Calibrated finish_breaking(const std::vector<Replicates>& measured, const CalibrationSettings& with,
                            Prediction (*fracture)(const pattern::Design&, const material::ToughnessParameters&)) {
   Calibration calibration(measured, with);
-  while (!calibration.finished()) {
-    const std::vector<WantedEvaluation> wanted = calibration.wanted();
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      std::vector<Prediction> predictions;
-      for (const std::size_t item : wanted[k].items) {
-        const bool modulus = wanted[k].modulus;
-        predictions.push_back(modulus ? answer(measured[item], wanted[k].parameters, true)
-                                      : fracture(measured[item].design, wanted[k].parameters.toughness));
-      }
-      calibration.tell(k, predictions);
-    }
-  }
-  return calibration.result();
+  return finish_by(calibration, measured, [&](const Replicates& design, const ParameterSet& parameters, bool modulus) {
+    return modulus ? answer(design, parameters, true) : fracture(design.design, parameters.toughness);
+  });
 }
 
 /// The stand-in as a tester whose toughness goes with the damping.
@@ -492,17 +479,7 @@ TEST(BaseCalibration, MeetsEveryMaterialByItself) {
   CalibrationSettings base = settings();
   base.target = material::FitTarget::base;
   BaseCalibration calibration(measured, base);
-  while (!calibration.finished()) {
-    const std::vector<WantedEvaluation> wanted = calibration.wanted();
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      std::vector<Prediction> predictions;
-      for (const std::size_t item : wanted[k].items) {
-        predictions.push_back(base_answer(measured[item], wanted[k].parameters, wanted[k].modulus));
-      }
-      calibration.tell(k, predictions);
-    }
-  }
-  const Calibrated& result = calibration.result();
+  const Calibrated result = finish_by(calibration, measured, base_answer);
   EXPECT_EQ(result.after.modulus_count, 3);
   EXPECT_LT(result.after.modulus_max, 3e-4);
   EXPECT_EQ(result.after.toughness_count, 3);

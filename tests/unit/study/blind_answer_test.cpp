@@ -1,0 +1,63 @@
+// What a blind trial came to survives the way through the study's table.
+
+#include <gtest/gtest.h>
+
+#include "base/result.hpp"
+#include "blind_trials/score.hpp"
+
+namespace nacre::blind_trials {
+namespace {
+
+Trial trial_hiding(std::vector<std::string> hidden) { return {"double-a+b-large-7", "double", 7, true, false, std::move(hidden)}; }
+
+Answer two_effects() {
+  return {.commit = "abc1234",
+          .verdict = "named",
+          .hidden = {{3.33e-10, 29.4, 0.33, 1.0}, {-0.464, 12.0, 0.09, 0.99}},
+          .named = {{"interface_anisotropy", -0.47, -0.5, -0.44}, {"machine_compliance", 3.26e-10, 3.11e-10, 3.40e-10}},
+          .possible = {{"interface_anisotropy", "machine_compliance"}, {"droplet_mixing"}},
+          .gain = 0.57,
+          .p_misfit = 0.001};
+}
+
+TEST(BlindAnswer, GoesThroughItsCells) {
+  const Answer before = two_effects(), after = answer_from_cells(to_cells(before));
+  EXPECT_EQ(to_cells(before).size() + 1, answer_columns().size());
+  EXPECT_EQ(to_cells(after), to_cells(before));
+  EXPECT_EQ(after.possible, before.possible);
+  ASSERT_EQ(after.hidden.size(), 2U);
+  EXPECT_EQ(after.hidden[1].size, -0.464);
+  EXPECT_EQ(after.named[1].low90, 3.11e-10);
+  Answer nothing;
+  nothing.verdict = "base_sufficient";
+  const Answer null = answer_from_cells(to_cells(nothing));
+  EXPECT_TRUE(null.hidden.empty() && null.named.empty() && null.possible.empty());
+  EXPECT_EQ(null.p_misfit, 1.0);
+}
+
+TEST(BlindAnswer, ACellThatIsNoNumberIsRefused) {
+  std::vector<std::string> cells = to_cells(two_effects());
+  cells[1] = "large;small";
+  EXPECT_THROW(answer_from_cells(cells), InputError);
+  cells[1] = "0.1";
+  EXPECT_THROW(answer_from_cells(cells), InputError);
+}
+
+TEST(BlindScore, TheSizeIsThatOfTheFirstHiddenEffectWhereverItIsNamed) {
+  const Score score = score_of(trial_hiding({"machine_compliance", "interface_anisotropy"}), two_effects());
+  EXPECT_TRUE(score.right_name);
+  EXPECT_TRUE(score.in_set);
+  EXPECT_NEAR(score.parameter_error, 1.0 - 3.26 / 3.33, 1e-12);
+  EXPECT_TRUE(score.covered);
+}
+
+TEST(BlindScore, AnotherNameIsWrong) {
+  const Score score = score_of(trial_hiding({"toe_slack", "interface_anisotropy"}), two_effects());
+  EXPECT_FALSE(score.right_name);
+  EXPECT_FALSE(score.in_set);
+  EXPECT_LT(score.parameter_error, 0.0);
+  EXPECT_NE(report_of({score}).find("| two at once: a wrong name | 1 of 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nacre::blind_trials
