@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "fem/explicit_state.hpp"
@@ -16,20 +15,20 @@ template <class Real>
 class ExplicitStorage {
  public:
   ExplicitStorage(int columns, int rows, bool with_ledger);
+  ExplicitStorage(ExplicitStorage&&) noexcept = default;
+  ExplicitStorage& operator=(ExplicitStorage&&) noexcept = default;
 
   /// The state of a grid of that size, with its pointers into this block; everything else zero.
   ExplicitState<Real> state() const { return state_; }
   std::size_t bytes() const;
 
  private:
-  struct Release {
-    void operator()(Real* block) const;
-  };
   Real* take(std::size_t count, std::size_t front);
 
   ExplicitState<Real> state_{};
   std::size_t size_ = 0, used_ = 0;
-  std::unique_ptr<Real[], Release> block_;
+  std::vector<Real> memory_;
+  Real* block_ = nullptr;  ///< in memory_
   std::vector<std::int32_t> failed_;
 };
 

@@ -160,6 +160,7 @@ Scenario read_scenario(const std::filesystem::path& path) {
   Scenario scenario = parse_scenario(read_file(path), path.string());
   resolve_file(path.string(), "benchmark_file", path, scenario.benchmark_file);
   resolve_file(path.string(), "base_materials_file", path, scenario.base_materials_file);
+  resolve_file(path.string(), "model_file", path, scenario.model_file);
   resolve_file(path.string(), "numerics_floor_file", path, scenario.numerics_floor_file);
   resolve_file(path.string(), "laboratory.file", path, scenario.laboratory.file);
   return scenario;

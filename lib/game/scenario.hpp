@@ -73,7 +73,8 @@ struct Scenario {
   int port = 0;                                        ///< UDP port of the run; 0 lets the launcher choose a free one
   int farm_threads = 0;                                ///< 0 all allowed cores
   std::string benchmark_file;                          ///< homogeneous benchmark for l1 when mixtures are not measured
-  std::string base_materials_file = "data/thesis/base_materials.csv";  ///< real measurements of round 0
+  std::string base_materials_file = "data/thesis/base_materials.csv";  ///< real measurements that round 0 is fitted to; empty: not fitted
+  std::string model_file;                              ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
   std::string numerics_floor_file = "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
   FarmSettings farm;
   ProposalSettings proposal;

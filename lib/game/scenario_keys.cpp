@@ -217,8 +217,10 @@ std::vector<ScenarioKey> make_top_level_keys() {
                         at(&Scenario::farm_threads)),
       file_name("", "benchmark_file", "measured homogeneous line for the selection when no mixtures are measured",
                 at(&Scenario::benchmark_file)),
-      file_name("", "base_materials_file", "measured base materials that round 0 is fitted to",
+      file_name("", "base_materials_file", "measured base materials that round 0 is fitted to; \"\": taken as it begins",
                 at(&Scenario::base_materials_file)),
+      file_name("", "model_file", "parameters that round 0 begins with, extensions included; \"\": the built-in ones",
+                at(&Scenario::model_file)),
       file_name("", "numerics_floor_file", "how far two numerics of one truth differ: the floor of every diagnosis",
                 at(&Scenario::numerics_floor_file)),
   };

@@ -127,7 +127,7 @@ struct GoodnessOfFit {
 
 /// Where parameters come from and how far they can be trusted: what goes out with them.
 struct Provenance {
-  std::string search;                                         ///< `base_materials`, or how eta was searched
+  std::string search;                                         ///< `base_materials`, `begun_with` (nothing was fitted), or how eta was searched
   double modulus_objective = 0.0, toughness_objective = 0.0;  ///< (2.8) of these parameters on their calibration set
   GoodnessOfFit modulus_fit, toughness_fit;
   std::vector<ParameterEstimate> estimates;

@@ -80,17 +80,6 @@ Beginning beginning_of_set(const Options& options) {
           .staged = {}};
 }
 
-/// The model that the validation agent adopted last.
-material::ParameterSet adopted_parameters(const RunAccess& run) {
-  const std::vector<std::string> sent = sent_by_validation_agent(run, "PARAMETERS");
-  for (auto payload = sent.rbegin(); payload != sent.rend(); ++payload) {
-    const auto message = wire::decode_safe<parameters_t>(*payload);
-    if (!message) continue;
-    if (const auto model = wire::from_wire(*message)) return model->parameters;
-  }
-  throw InputError::format("{}: no model has been adopted yet", run.folder.string());
-}
-
 std::vector<StagedFamily> staged_families(const RunAccess& run) {
   std::map<int, StagedFamily> families;
   const auto take_family = [&](const std::string& payload) {
@@ -121,9 +110,11 @@ const StagedFamily* staged(const Family& family, const Beginning& beginning) {
 
 Beginning beginning_of_run(const Options& options) {
   const RunAccess run = open_run(options.run);
+  const auto adopted = adopted_parameters(run);
+  if (!adopted) throw InputError::format("{}: no model has been adopted yet", run.folder.string());
   const bool same_question = options.params.empty() && options.fidelity.empty();
   return {.measured = game::patterns_with_both(view_laboratory(run).facts.book.specimens()),
-          .parameters = adopted_parameters(run),
+          .parameters = *adopted,
           .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
           .staged = same_question ? staged_families(run) : std::vector<StagedFamily>{}};
 }

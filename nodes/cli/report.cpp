@@ -37,6 +37,7 @@ int report(const Options& options) {
   const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
   analyser::write_paper(folder, analyser::read_paper_source(run.folder, run.manifest.run_id,
                                                             std::filesystem::exists(thesis) ? thesis : ""));
+  if (const auto model = adopted_parameters(run)) write_file_atomically(folder / "parameters.toml", material::to_toml(*model));
   if (std::filesystem::exists(page)) fmt::print("{}\n", page.string());
   fmt::print("{}\n", (folder / "index.html").string());
   return 0;

@@ -6,6 +6,8 @@
 
 #include "base/result.hpp"
 #include "output.hpp"
+#include "wire/codec.hpp"
+#include "wire/convert.hpp"
 #include "wire/header.hpp"
 
 namespace nacre::cli {
@@ -94,6 +96,16 @@ std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const st
   std::vector<std::string> payloads;
   read_validation_agent(run, {}, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}});
   return payloads;
+}
+
+std::optional<material::ParameterSet> adopted_parameters(const RunAccess& run) {
+  const std::vector<std::string> sent = sent_by_validation_agent(run, "PARAMETERS");
+  for (auto payload = sent.rbegin(); payload != sent.rend(); ++payload) {
+    const auto message = wire::decode_safe<parameters_t>(*payload);
+    if (!message) continue;
+    if (const auto model = wire::from_wire(*message)) return model->parameters;
+  }
+  return std::nullopt;
 }
 
 }  // namespace nacre::cli

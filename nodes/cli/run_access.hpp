@@ -5,12 +5,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "game/scenario.hpp"
+#include "material/parameters.hpp"
 #include "runtime/endpoint.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/run_folder.hpp"
@@ -55,5 +57,8 @@ std::vector<std::string> received_by_validation_agent(const RunAccess& run, cons
 
 /// The same for what it has sent.
 std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const std::string& channel);
+
+/// The model that the validation agent adopted last; nothing before the first.
+std::optional<material::ParameterSet> adopted_parameters(const RunAccess& run);
 
 }  // namespace nacre::cli

@@ -13,8 +13,8 @@ namespace nacre::validation_agent {
 
 using runtime::LogLevel;
 
-ValidationCore::ValidationCore(const game::Scenario& scenario, StartingTables tables)
-    : scenario_(scenario), tables_(std::move(tables)), desk_(scenario), model_(material::default_parameters()) {}
+ValidationCore::ValidationCore(const game::Scenario& scenario, StartingPoint start)
+    : scenario_(scenario), start_(std::move(start)), desk_(scenario), model_(start_.model) {}
 
 runtime::Outputs ValidationCore::step(const runtime::Input& input) {
   outputs_ = {};
@@ -216,13 +216,14 @@ runtime::Status ValidationCore::status() const {
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
-  StartingTables tables;
-  tables.base_materials = game::read_base_materials(scenario.base_materials_file);
-  if (!scenario.benchmark_file.empty()) tables.benchmark = game::read_benchmark_line(scenario.benchmark_file);
-  tables.floor = scenario.numerics_floor_file.empty()
+  StartingPoint start;
+  if (!scenario.model_file.empty()) start.model = material::read_parameters(scenario.model_file, start.model);
+  if (!scenario.base_materials_file.empty()) start.base_materials = game::read_base_materials(scenario.base_materials_file);
+  if (!scenario.benchmark_file.empty()) start.benchmark = game::read_benchmark_line(scenario.benchmark_file);
+  start.floor = scenario.numerics_floor_file.empty()
                      ? sysid::NumericsFloor{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}
                      : sysid::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity);
-  return std::make_unique<ValidationCore>(scenario, std::move(tables));
+  return std::make_unique<ValidationCore>(scenario, std::move(start));
 }
 
 }  // namespace nacre::validation_agent

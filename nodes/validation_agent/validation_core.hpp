@@ -23,9 +23,10 @@
 
 namespace nacre::validation_agent {
 
-/// The measured tables that a game starts from, read before it begins.
-struct StartingTables {
-  std::vector<measurement::Replicates> base_materials;
+/// What a game starts from, read before it begins.
+struct StartingPoint {
+  material::ParameterSet model = material::default_parameters();
+  std::vector<measurement::Replicates> base_materials;  ///< that round 0 is fitted to; empty: the model is taken as it is
   std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
   sysid::NumericsFloor floor;                    ///< at the scenario's fidelity
 };
@@ -38,7 +39,7 @@ struct StartingTables {
 /// once it is still named and has foretold designs better (game::gain_is_established).
 class ValidationCore : public runtime::NodeCore {
  public:
-  ValidationCore(const game::Scenario& scenario, StartingTables tables);
+  ValidationCore(const game::Scenario& scenario, StartingPoint start);
   runtime::Outputs step(const runtime::Input& input) override;
   runtime::Status status() const override;
 
@@ -80,6 +81,7 @@ class ValidationCore : public runtime::NodeCore {
   void begin_round(int round);
   void foretell();
   void finish_foretelling();
+  void begin_unfitted();
   void order();
   void measure_on();
   void predict_held_out();
@@ -114,7 +116,7 @@ class ValidationCore : public runtime::NodeCore {
   void send_orders(const std::vector<game::Order>& orders);
 
   game::Scenario scenario_;
-  StartingTables tables_;
+  StartingPoint start_;
   Phase phase_ = Phase::waiting_for_run;
   int round_ = 0;
   runtime::Outputs outputs_;  // of the present step

@@ -35,11 +35,19 @@ void ValidationCore::begin_round(int round) {
   before_ = after_ = held_out_ = {};
   simulations_ = 0;
   if (round == 0) {
-    calibration_set_ = tables_.base_materials;
+    calibration_set_ = start_.base_materials;
+    if (calibration_set_.empty()) return begin_unfitted();
     return begin_calibration(model_);
   }
   if (trial_ && !proposals_.at(round - 1).designs.empty()) return foretell();
   order();
+}
+
+void ValidationCore::begin_unfitted() {
+  provenance_ = {};
+  provenance_.search = "begun_with";
+  say(LogLevel::info, "round 0: no base materials to fit, the model is taken as it begins");
+  publish_model();
 }
 
 void ValidationCore::order() {
@@ -122,7 +130,7 @@ void ValidationCore::begin_calibration(const material::ParameterSet& start) {
   settings.modulus_budget = scenario_.validation.modulus_evaluations;
   settings.toughness_budget = scenario_.validation.calibration_evaluations;
   settings.batch = scenario_.validation.calibration_batch;
-  settings.floor = tables_.floor;
+  settings.floor = start_.floor;
   settings.seed = RandomStream(scenario_.seed, fmt::format("calibration of round {}", round_)).bits();
   fitting_.emplace(calibration_set_, settings);
   phase_ = Phase::calibrating;
@@ -196,7 +204,7 @@ void ValidationCore::publish_model() {
 
 std::vector<optimize::Performance> ValidationCore::benchmark() const {
   const std::vector<optimize::Performance> measured = game::benchmark_line(specimens_);
-  return measured.empty() ? tables_.benchmark : measured;
+  return measured.empty() ? start_.benchmark : measured;
 }
 
 std::set<pattern::Pattern> ValidationCore::settled_patterns() const {
@@ -247,7 +255,7 @@ StageBeginning ValidationCore::stage_beginning() const {
           .measured = game::patterns_with_both(specimens_),
           .benchmark = benchmark(),
           .settled = {settled.begin(), settled.end()},
-          .floor = tables_.floor};
+          .floor = start_.floor};
 }
 
 void ValidationCore::measure_families_when_chosen() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../instrumented.hpp"
+#include "base/files.hpp"
 #include "in_process_game.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "simulator_farm/farm_core.hpp"
@@ -69,6 +70,46 @@ TEST(Game, CalibrationBringsTheModelNearerToTheLaboratory) {
   EXPECT_LT(rounds[1].after.modulus_mean, 0.5 * rounds[1].before.modulus_mean);
   EXPECT_LT(rounds[1].after.toughness_mean, rounds[1].before.toughness_mean);
   EXPECT_LT(rounds[2].held_out.modulus_mean, rounds[1].held_out.modulus_mean);
+}
+
+/// A scenario whose game begins with constants of its own and an extension.
+game::Scenario beginning_with_a_model(material::ParameterSet& model) {
+  model = material::default_parameters();
+  model.modulus.e_if_pa = 7e8;
+  model.toughness.w_if_j_per_m3 = 2.5e6;
+  model.extensions["droplet_mixing"] = {0.4};
+  game::Scenario scenario = small_scenario();
+  scenario.model_file = testing::TempDir() + "model_of_an_earlier_game.toml";
+  write_file_atomically(scenario.model_file, material::to_toml(model));
+  return scenario;
+}
+
+TEST(Game, BeginsWithTheModelOfAnEarlierOne) {
+  material::ParameterSet model;
+  game::Scenario scenario = beginning_with_a_model(model);
+  scenario.base_materials_file.clear();
+  InProcessGame game;
+  add_players(game, scenario);
+  play_whole(game, scenario);
+  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
+  ASSERT_THAT(models, SizeIs(3));
+  EXPECT_EQ(models[0].parameters, model);
+  EXPECT_EQ(models[0].provenance.search, "begun_with");
+  EXPECT_EQ(models[2].parameters.extensions, model.extensions);
+  EXPECT_NE(models[2].parameters.modulus, model.modulus);
+}
+
+TEST(Game, BaseMaterialsAreFittedFromTheModelThatItBeginsWith) {
+  material::ParameterSet model;
+  const game::Scenario scenario = beginning_with_a_model(model);
+  InProcessGame game;
+  add_players(game, scenario);
+  play_whole(game, scenario);
+  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
+  ASSERT_THAT(models, SizeIs(3));
+  EXPECT_EQ(models[0].parameters.extensions, model.extensions);
+  EXPECT_NE(models[0].parameters.modulus, model.modulus);
+  EXPECT_EQ(models[0].provenance.search, "base_materials");
 }
 
 TEST(Game, EveryQuestionIsComputedOnce) {

@@ -4,6 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "../instrumented.hpp"
 #include "fem/explicit_storage.hpp"
 #include "tester/fracture_test.hpp"
 
@@ -38,6 +45,29 @@ TEST(Memory, ThousandSpecimensTakeThatOfOne) {
   const std::size_t before = bytes_in_use();
   batch(1000);
   EXPECT_LT(bytes_in_use(), before + 4096);
+}
+
+// A search keeps a little of every specimen, which may come to lie where the next one would have fitted: the heap as taken from the system, holes and all,
+// stays that of one.
+TEST(Memory, WhatIsKeptOfASpecimenLeavesNoHole) {
+  if (test::kIsInstrumented) GTEST_SKIP() << "sanitizers bring a heap of their own";
+  const tester::Simulation simulation = specimen();
+  const auto taken_from_system = [] {
+    const struct mallinfo2 heap = mallinfo2();
+    return heap.arena + heap.hblkhd;
+  };
+  std::map<std::string, std::vector<std::string>> kept;
+  const auto batch = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      ASSERT_TRUE(tester::test_modulus(simulation));
+      ASSERT_TRUE(tester::test_toughness(simulation));
+      kept[fmt::format("design {}", kept.size())] = {"a modulus of some digits", "a toughness of a few more digits"};
+    }
+  };
+  batch(5);
+  const std::size_t before = taken_from_system();
+  batch(30);
+  EXPECT_LT(taken_from_system(), before + 500'000);
 }
 
 // What one full toughness specimen needs, as docs/studies/speed.md states it.
