@@ -62,15 +62,15 @@ bool belongs(const SpecimenRecord& specimen, bool homogeneous_moduli) {
   return false;
 }
 
-/// Coupons of one group are stopped at different strains: all are read as far as the first that stops.
-void read_to_common_strain(std::vector<Measured>& replicates) {
+/// Coupons of one group are stopped at different strains: all are read as far as the first that stops. Nothing when one has no curve that can be cut.
+std::optional<double> common_strain(const std::vector<Measured>& replicates) {
   std::optional<double> common;
   for (const Measured& each : replicates) {
     const auto strain = carried_strain(each.specimen->curve);
-    if (!strain) return;
+    if (!strain) return std::nullopt;
     common = std::min(common.value_or(*strain), *strain);
   }
-  for (Measured& each : replicates) each.features = tensile_features(truncated(each.specimen->curve, *common));
+  return common;
 }
 
 Observation mean_of(const std::vector<Measured>& replicates) {
@@ -99,15 +99,6 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   const auto peak = [](const Measured* m) { return value_of(m->features, Feature::log_peak).value_or(0.0); };
   std::stable_sort(with_curve.begin(), with_curve.end(), [&](const Measured* a, const Measured* b) { return peak(a) < peak(b); });
   if (!with_curve.empty()) group.curve = with_curve[with_curve.size() / 2]->specimen->curve;
-  if (group.test == TestKind::tensile && !group.curve.empty()) {
-    std::optional<double> common;
-    for (const Measured* each : with_curve) {
-      const auto strain = carried_strain(each->specimen->curve);
-      common = strain ? std::optional(std::min(common.value_or(*strain), *strain)) : std::nullopt;
-      if (!strain) break;
-    }
-    if (common) group.curve = truncated(group.curve, *common);
-  }
   return group;
 }
 
@@ -220,8 +211,12 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     for (auto& [name, measured] : named) {
       groups.back().push_back(measured);
     }
-    if (groups.back().front().specimen->test == TestKind::tensile) read_to_common_strain(groups.back());
+    const bool coupons = groups.back().front().specimen->test == TestKind::tensile;
+    const auto common = coupons ? common_strain(groups.back()) : std::nullopt;
+    if (common)
+      for (Measured& each : groups.back()) each.features = tensile_features(truncated(each.specimen->curve, *common));
     observations.groups.push_back(mean_of(groups.back()));
+    if (common) observations.groups.back().curve = truncated(observations.groups.back().curve, *common);
   }
   std::vector<double> values;
   for (std::size_t g = 0; g < groups.size(); ++g) {
