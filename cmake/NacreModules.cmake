@@ -1,5 +1,5 @@
 # The modules of lib/, lowest first: a module may include only modules that stand before it in this list.
-set(NACRE_MODULES base thesis pattern material fem tester crack film animation measurement optimize surrogate sysid explore select diagnosis families fabricate game wire
+set(NACRE_MODULES base thesis pattern material fem tester gpu crack film animation measurement optimize surrogate sysid explore select diagnosis families fabricate game wire
                   store runtime dashboard)
 
 add_library(nacre_flags INTERFACE)

@@ -1,6 +1,6 @@
 #pragma once
-// The table of a study that may be stopped at any moment and goes on where it was: every finished simulation is one line,
-// appended as it comes.
+// The table of a study that may be stopped at any moment and goes on where it was: every finished simulation is one
+// line, appended as it comes.
 
 #include <functional>
 #include <optional>

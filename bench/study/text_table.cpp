@@ -11,7 +11,8 @@
 
 namespace nacre::study {
 
-TextTable::TextTable(std::string path, std::vector<std::string> columns) : path_(std::move(path)), columns_(std::move(columns)) {
+TextTable::TextTable(std::string path, std::vector<std::string> columns)
+    : path_(std::move(path)), columns_(std::move(columns)) {
   if (!std::filesystem::exists(path_)) {
     append(columns_);
     return;
@@ -28,7 +29,8 @@ TextTable::TextTable(std::string path, std::vector<std::string> columns) : path_
   CsvRow row;
   reader.next(row);
   while (reader.next(row)) {
-    if (!row.fault.empty() || row.cells.size() != columns_.size()) throw InputError::format("{}:{}: expected {} cells", path_, row.line, columns_.size());
+    if (!row.fault.empty() || row.cells.size() != columns_.size())
+      throw InputError::format("{}:{}: expected {} cells", path_, row.line, columns_.size());
     Row& kept = rows_[row.cells[0].text];
     kept = {row.line, {}};
     for (std::size_t i = 1; i < row.cells.size(); ++i) kept.cells.push_back(row.cells[i].text);

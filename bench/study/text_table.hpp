@@ -1,5 +1,6 @@
 #pragma once
-// A CSV file that grows by whole lines, each under a key of its own: what a program finished before it was stopped is there when it goes on.
+// A CSV file that grows by whole lines, each under a key of its own: what a program finished before it was stopped is
+// there when it goes on.
 
 #include <map>
 #include <mutex>
@@ -17,8 +18,8 @@ class TextTable {
     std::vector<std::string> cells;  ///< without the key
   };
 
-  /// Reads what the file holds; an incomplete last line is cut off. `columns` begins with the key's. Throws InputError when another
-  /// header stands there or a line is faulty.
+  /// Reads what the file holds; an incomplete last line is cut off. `columns` begins with the key's. Throws InputError
+  /// when another header stands there or a line is faulty.
   TextTable(std::string path, std::vector<std::string> columns);
   const std::string& path() const { return path_; }
   /// What was read, by key.

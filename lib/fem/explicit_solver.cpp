@@ -126,6 +126,12 @@ void ExplicitSolver<Real>::fill_elements() {
 }
 
 template <class Real>
+double ExplicitSolver<Real>::stress_unit_pa() const {
+  const double h = grid_.element_size_m, dt = settings_.time_step_s;
+  return settings_.density_kg_per_m3 * h * h / (dt * dt) / grid_.columns;
+}
+
+template <class Real>
 Result<StepReport> ExplicitSolver<Real>::step() {
   state_.strain = static_cast<Real>(strain());
   if (extended_) {
@@ -136,10 +142,9 @@ Result<StepReport> ExplicitSolver<Real>::step() {
     kernel_->advance(state_);
   }
   const double h = grid_.element_size_m, dt = settings_.time_step_s;
-  const double force_pa = settings_.density_kg_per_m3 * h * h / (dt * dt) / grid_.columns;
   const StepReport report{.strain = strain(),
-                          .top_stress_pa = state_.top_force * force_pa,
-                          .bottom_stress_pa = state_.bottom_force * force_pa,
+                          .top_stress_pa = state_.top_force * stress_unit_pa(),
+                          .bottom_stress_pa = state_.bottom_force * stress_unit_pa(),
                           .failed = state_.failed_count};
   if (settings_.keep_ledger) {
     const double width = grid_.columns * h, height = grid_.rows * h;

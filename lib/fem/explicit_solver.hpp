@@ -78,6 +78,13 @@ class ExplicitSolver {
   /// Looks for blow-up now, as step() does every 16 steps.
   Result<void> check() const;
 
+  /// What the kernel works on, for whoever runs it elsewhere: the pointers are into this solver. With an extended law
+  /// the pointers of its parts are set.
+  const ExtendedState<Real>& state() const { return state_; }
+  bool has_extended_law() const { return extended_ != nullptr; }
+  /// Stress, Pa, of a grip whose vertical reaction is 1 in the state's unit.
+  double stress_unit_pa() const;
+
   std::int64_t steps() const { return steps_; }
   /// Nominal strain of the grips now.
   double strain() const;

@@ -27,7 +27,8 @@ ExplicitStorage<Real>::ExplicitStorage(int columns, int rows, bool with_ledger)
   const std::size_t elements = static_cast<std::size_t>(rows) * static_cast<std::size_t>(s.element_stride);
   const std::size_t fields = with_ledger ? 6 : 4, work_rows = kWorkRows + (with_ledger ? kLedgerRows : 0);
   size_ = fields * (nodes + front) + 3 * elements + work_rows * (row + front);
-  // Not by an aligned new: before glibc 2.38 every such block of a specimen leaves a hole that the next does not fill (its bug 14581), a megabyte a fracture.
+  // Not by an aligned new: before glibc 2.38 every such block of a specimen leaves a hole that the next does not fill
+  // (its bug 14581), a megabyte a fracture.
   memory_.resize(size_ + kAlignment / sizeof(Real));
   void* start = memory_.data();
   std::size_t space = memory_.size() * sizeof(Real);

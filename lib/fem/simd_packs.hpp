@@ -52,11 +52,24 @@ NACRE_INLINE Pack<Real> broadcast(Real value) {
   return value - Pack<Real>{};
 }
 
+/// The bits of a pack, a pack of bits, and whole numbers as numbers.
+template <class Real>
+NACRE_INLINE Bits<Real> bits_of(Pack<Real> pack) {
+  return (Bits<Real>)pack;
+}
+template <class Real>
+NACRE_INLINE Pack<Real> pack_of(Bits<Real> bits) {
+  return (Pack<Real>)bits;
+}
+template <class Real>
+NACRE_INLINE Pack<Real> converted(Bits<Real> bits) {
+  return __builtin_convertvector(bits, Pack<Real>);
+}
+
 /// Absolute value.
 template <class Real>
 NACRE_INLINE Pack<Real> magnitude(Pack<Real> pack) {
-  const Bits<Real> sign = (Bits<Real>)(-Pack<Real>{});
-  return (Pack<Real>)((Bits<Real>)pack & ~sign);
+  return pack_of<Real>(bits_of<Real>(pack) & ~bits_of<Real>(-Pack<Real>{}));
 }
 
 /// Lanes seen so far in which a comparison failed. shifted(): the last lane of the pack before, then the others but the

@@ -1,5 +1,6 @@
 #pragma once
-// A scenario: everything a run is configured by, one documented struct, validated, written back in full beside the logs.
+// A scenario: everything a run is configured by, one documented struct, validated, written back in full beside the
+// logs.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,19 +21,21 @@ struct ProposalSettings {
 };
 
 struct ValidationSettings {
-  int random_patterns = 6;          ///< stratified random designs measured in round 1 (Table 3.2)
-  int replicates = 3;               ///< specimens per design and test
-  int enough_valid = 0;             ///< an order is also complete with this many valid specimens; 0 means all replicates
-  int calibration_evaluations = 25; ///< evaluations of the toughness calibration set per round
-  int modulus_evaluations = 120;    ///< evaluations of the modulus calibration set per round
-  int calibration_batch = 3;        ///< evaluations asked for at once
-  std::vector<double> mixtures = {0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9};  ///< homogeneous benchmark, measured in round 1
-  bool approval = false;            ///< proposals wait for a person's yes
+  int random_patterns = 6;  ///< stratified random designs measured in round 1 (Table 3.2)
+  int replicates = 3;       ///< specimens per design and test
+  int enough_valid = 0;     ///< an order is also complete with this many valid specimens; 0 means all replicates
+  int calibration_evaluations = 25;  ///< evaluations of the toughness calibration set per round
+  int modulus_evaluations = 120;     ///< evaluations of the modulus calibration set per round
+  int calibration_batch = 3;         ///< evaluations asked for at once
+  std::vector<double> mixtures = {0.5,  0.6, 0.65, 0.7,
+                                  0.75, 0.8, 0.85, 0.9};  ///< homogeneous benchmark, measured in round 1
+  bool approval = false;                                  ///< proposals wait for a person's yes
   bool operator==(const ValidationSettings&) const = default;
 };
 
 struct FarmSettings {
-  std::string executor = "local";          ///< local: threads of the farm's machine; slurm: tasks of a cluster
+  std::string executor =
+      "local";  ///< local: threads of the farm's machine; slurm: tasks of a cluster; cuda: fracture tests on a GPU
   std::vector<std::string> slurm_options;  ///< further options of sbatch, e.g. "--partition=short"
   int batch_s = 20;                        ///< work that one task is given, in seconds of one core
   bool operator==(const FarmSettings&) const = default;
@@ -47,7 +50,7 @@ struct DiagnosisSettings {
 
 struct LaboratorySettings {
   bool virtual_lab = true;  ///< false: a person measures, `nacre inject` brings the results
-  std::string file;         ///< LAB.toml of the virtual laboratory, relative to the scenario; empty: drawn from the seed
+  std::string file;  ///< LAB.toml of the virtual laboratory, relative to the scenario; empty: drawn from the seed
   bool operator==(const LaboratorySettings&) const = default;
 };
 
@@ -66,16 +69,18 @@ struct FamilySettings {
 struct Scenario {
   std::string name = "unnamed";
   std::uint64_t seed = 1;
-  int rounds = 3;                                      ///< last round number
+  int rounds = 3;  ///< last round number
   tester::Fidelity fidelity = tester::Fidelity::preview;
   bool stop_at_equilibrium = true;
-  std::string hosts = "local";                         ///< local (ttl 0) or lan (ttl 1)
-  int port = 0;                                        ///< UDP port of the run; 0 lets the launcher choose a free one
-  int farm_threads = 0;                                ///< 0 all allowed cores
-  std::string benchmark_file;                          ///< homogeneous benchmark for l1 when mixtures are not measured
-  std::string base_materials_file = "data/thesis/base_materials.csv";  ///< real measurements that round 0 is fitted to; empty: not fitted
-  std::string model_file;                              ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
-  std::string numerics_floor_file = "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
+  std::string hosts = "local";  ///< local (ttl 0) or lan (ttl 1)
+  int port = 0;                 ///< UDP port of the run; 0 lets the launcher choose a free one
+  int farm_threads = 0;         ///< 0 all allowed cores
+  std::string benchmark_file;   ///< homogeneous benchmark for l1 when mixtures are not measured
+  std::string base_materials_file =
+      "data/thesis/base_materials.csv";  ///< real measurements that round 0 is fitted to; empty: not fitted
+  std::string model_file;  ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
+  std::string numerics_floor_file =
+      "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
   FarmSettings farm;
   ProposalSettings proposal;
   ValidationSettings validation;
@@ -87,9 +92,10 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
-/// Reads and validates a scenario. Unknown keys and values out of range throw InputError with file, line, key, value, range.
-/// Files that it names are looked for beside the scenario, in the folders above it, in the working folder and in the folders
-/// above it and above the program, in this order; the result holds the paths found. A file that is nowhere is an InputError.
+/// Reads and validates a scenario. Unknown keys and values out of range throw InputError with file, line, key, value,
+/// range. Files that it names are looked for beside the scenario, in the folders above it, in the working folder and in
+/// the folders above it and above the program, in this order; the result holds the paths found. A file that is nowhere
+/// is an InputError.
 Scenario read_scenario(const std::filesystem::path& path);
 
 /// The same from text, with file names left as written; `source` names the place in errors.

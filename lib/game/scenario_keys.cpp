@@ -217,7 +217,8 @@ std::vector<ScenarioKey> make_top_level_keys() {
                         at(&Scenario::farm_threads)),
       file_name("", "benchmark_file", "measured homogeneous line for the selection when no mixtures are measured",
                 at(&Scenario::benchmark_file)),
-      file_name("", "base_materials_file", "measured base materials that round 0 is fitted to; \"\": taken as it begins",
+      file_name("", "base_materials_file",
+                "measured base materials that round 0 is fitted to; \"\": taken as it begins",
                 at(&Scenario::base_materials_file)),
       file_name("", "model_file", "parameters that round 0 begins with, extensions included; \"\": the built-in ones",
                 at(&Scenario::model_file)),
@@ -229,8 +230,9 @@ std::vector<ScenarioKey> make_top_level_keys() {
 std::vector<ScenarioKey> make_farm_keys() {
   constexpr auto table = &Scenario::farm;
   return {
-      choice("farm", "executor", "who simulates: threads of the farm's machine, or tasks of a Slurm cluster",
-             {"local", "slurm"}, at(table, &FarmSettings::executor)),
+      choice("farm", "executor",
+             "who simulates: threads of the farm's machine, tasks of a Slurm cluster, or a GPU beside threads",
+             {"local", "slurm", "cuda"}, at(table, &FarmSettings::executor)),
       cluster_options_key(),
       whole_number<int>("farm", "batch_s", "work that a task of the cluster is given, in seconds of one core", 1, 3600,
                         at(table, &FarmSettings::batch_s)),
@@ -241,7 +243,8 @@ std::vector<ScenarioKey> make_proposal_keys() {
   constexpr auto table = &Scenario::proposal;
   return {
       choice("proposal", "algorithm", "how the gamut is searched",
-             {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo"}, at(table, &ProposalSettings::algorithm)),
+             {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo"},
+             at(table, &ProposalSettings::algorithm)),
       whole_number<int>("proposal", "samples", "simulations per gamut, all searches together", 1, 1'000'000,
                         at(table, &ProposalSettings::samples)),
       whole_number<int>("proposal", "seeds", "independent searches merged into one gamut", 1, 64,
@@ -303,8 +306,8 @@ std::vector<ScenarioKey> make_family_keys() {
                         at(table, &FamilySettings::samples)),
       whole_number<int>("families", "designs", "variants of a family chosen for the laboratory", 1, 100,
                         at(table, &FamilySettings::designs)),
-      whole_number<int>("families", "calibration_evaluations", "evaluations of the toughness set for a family's model", 0,
-                        100'000, at(table, &FamilySettings::calibration_evaluations)),
+      whole_number<int>("families", "calibration_evaluations", "evaluations of the toughness set for a family's model",
+                        0, 100'000, at(table, &FamilySettings::calibration_evaluations)),
       whole_number<int>("families", "modulus_evaluations", "evaluations of the modulus set for a family's model", 0,
                         100'000, at(table, &FamilySettings::modulus_evaluations)),
   };
@@ -312,7 +315,8 @@ std::vector<ScenarioKey> make_family_keys() {
 
 std::vector<ScenarioKey> make_keys() {
   std::vector<ScenarioKey> keys = make_top_level_keys();
-  for (auto part : {make_farm_keys(), make_proposal_keys(), make_validation_keys(), make_family_keys(), make_remaining_keys()}) {
+  for (auto part :
+       {make_farm_keys(), make_proposal_keys(), make_validation_keys(), make_family_keys(), make_remaining_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;

@@ -21,6 +21,21 @@ struct FractureTest {
 /// The specimen of a simulation, ready to be pulled. The simulation must be usable (simulation_fault empty).
 FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics = {});
 
+/// A specimen in the grips, which carry no force, and the strain at which they do so.
+template <class Real>
+struct MountedSpecimen {
+  fem::ExplicitSolver<Real> solver;
+  double rest_strain = 0.0;
+  /// Strain of the grips as the machine counts it.
+  double shown(double strain) const { return (strain - rest_strain) / (1.0 + rest_strain); }
+};
+
+/// Mounts the specimen of a test; one whose material shrank has come to rest before. Error: what the solver refuses.
+template <class Real>
+Result<MountedSpecimen<Real>> mount(const FractureTest& test);
+extern template Result<MountedSpecimen<float>> mount<float>(const FractureTest&);
+extern template Result<MountedSpecimen<double>> mount<double>(const FractureTest&);
+
 /// Pulls the specimen to separation. Real is float in the tester, double for comparison. Error: see test_toughness.
 template <class Real>
 Result<ToughnessResult> run_fracture_test(const FractureTest& test);

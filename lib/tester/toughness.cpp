@@ -6,8 +6,8 @@
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
 #include "tester/film_strains.hpp"
-#include "tester/fracture_record.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/fracture_watch.hpp"
 #include "tester/notch.hpp"
 #include "tester/strength_scatter.hpp"
 #include "tester/usable.hpp"
@@ -25,24 +25,6 @@ constexpr double kStabilityShare = 0.8;
 constexpr double kLargestAlpha = 0.5;
 /// Strain between samples of the curve.
 constexpr double kSampleStrain = 1e-4;
-
-/// Young's modulus in the middle (geometric mean) of the Voigt and Reuss bounds of the specimen, Pa.
-double typical_modulus_pa(const fem::Grid& grid) {
-  double sum = 0.0, sum_of_inverses = 0.0;
-  for (int element = 0; element < grid.element_count(); ++element) {
-    if (grid.phase[element] == fem::Phase::empty) continue;
-    sum += grid.young_pa[element];
-    sum_of_inverses += 1.0 / grid.young_pa[element];
-  }
-  return std::sqrt(sum / sum_of_inverses);
-}
-
-/// Steps in which an elastic wave runs once from grip to grip, through material of the typical modulus.
-int transit_steps(const FractureTest& test) {
-  const double wave_m_per_s = std::sqrt(typical_modulus_pa(test.grid) / test.settings.density_kg_per_m3);
-  const double height_m = test.grid.rows * test.grid.element_size_m;
-  return static_cast<int>(std::ceil(height_m / (wave_m_per_s * test.settings.time_step_s)));
-}
 
 /// The thesis' 2e-7 s, or less where waves or the filter demand it. Pure soft material, which is pulled much further,
 /// and the smaller fidelities take what both allow: it changes their T by about 1 % and halves their time.
@@ -74,79 +56,26 @@ FractureFrame frame_of(const fem::ExplicitSolver<Real>& solver, const fem::Grid&
   return frame;
 }
 
-void add_breaks(std::vector<int> elements, double strain, std::vector<Break>& breaks) {
-  std::sort(elements.begin(), elements.end());
-  for (const int element : elements) breaks.push_back({element, strain});
-}
-
-/// A specimen in the grips, which carry no force, and the strain at which they do so.
-template <class Real>
-struct Mounted {
-  fem::ExplicitSolver<Real> solver;
-  double rest_strain = 0.0;
-  /// Strain of the grips as the machine counts it.
-  double shown(double strain) const { return (strain - rest_strain) / (1.0 + rest_strain); }
-};
-
-/// A specimen whose material shrank has come to rest before it is mounted.
-template <class Real>
-Result<Mounted<Real>> mounted(const FractureTest& test) {
-  fem::ExplicitSettings settings = test.settings;
-  Result<fem::RestingSolution> rest = fem::RestingSolution{};
-  if (!test.grid.laws.eigenstrain.empty()) {
-    rest = fem::pull_from_rest(test.grid, 0.0);
-    if (!rest) return tl::unexpected(rest.error());
-    settings.initial_strain = rest->rest_strain;
-  }
-  Result<fem::ExplicitSolver<Real>> solver = fem::ExplicitSolver<Real>::create(test.grid, settings);
-  if (!solver) return tl::unexpected(solver.error());
-  for (std::size_t node = 0; 2 * node < rest->displacement.size(); ++node) {
-    const Eigen::Vector2d displacement(rest->displacement[2 * node], rest->displacement[2 * node + 1]);
-    const int at = static_cast<int>(node);
-    solver->set_node(at, displacement * test.grid.element_size_m, solver->velocity_m_per_s(at));
-  }
-  return Mounted<Real>{*std::move(solver), rest->rest_strain};
-}
-
 /// One pull; keeps a frame at the first step that reaches each of the given strains.
 template <class Real>
 Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>& frame_strains) {
-  Result<Mounted<Real>> specimen = mounted<Real>(test);
+  Result<MountedSpecimen<Real>> specimen = mount<Real>(test);
   if (!specimen) return fail("toughness tester: {}", specimen.error().message);
   fem::ExplicitSolver<Real>* const solver = &specimen->solver;
-  FractureRecord record({.strain_per_step = test.settings.strain_rate_per_s * test.settings.time_step_s,
-                         .steps_per_sample = test.steps_per_sample,
-                         .transit_steps = transit_steps(test),
-                         .strain_limit = test.strain_limit});
-  ToughnessResult result;
-  result.element_count = test.grid.element_count();
-  for (;;) {
-    while (result.frames.size() < frame_strains.size() &&
-           specimen->shown(solver->strain()) >= frame_strains[result.frames.size()])
-      result.frames.push_back(frame_of(*solver, test.grid, specimen->shown(solver->strain())));
+  FractureWatch watch(test);
+  std::vector<FractureFrame> frames;
+  for (bool over = false; !over;) {
+    while (frames.size() < frame_strains.size() && specimen->shown(solver->strain()) >= frame_strains[frames.size()])
+      frames.push_back(frame_of(*solver, test.grid, specimen->shown(solver->strain())));
     const Result<fem::StepReport> report = solver->step();
     if (!report) return fail("toughness tester: {}", report.error().message);
-    const double strain = specimen->shown(report->strain);
-    record.add(strain, report->stress_pa());
-    if (report->failed > 0) add_breaks(solver->last_failed(), strain, result.breaks);
-    if (record.separated()) {
-      result.end = EndReason::stress_drop;
-    } else if (strain >= test.strain_limit) {
-      result.end = test.limit_is_no_failure ? EndReason::no_failure : EndReason::strain_limit;
-    } else if (solver->steps() >= thesis::kStepLimit) {
-      result.end = EndReason::step_limit;
-    } else {
-      continue;
-    }
-    result.failure_strain = strain;
-    break;
+    over = watch.add(specimen->shown(report->strain), report->stress_pa(), solver->steps());
+    if (report->failed > 0) watch.add_breaks(solver->last_failed());
   }
   // A solution that just blew up may look like one that broke.
   if (const Result<void> sound = solver->check(); !sound) return fail("toughness tester: {}", sound.error().message);
-  result.steps = solver->steps();
-  result.toughness_pa = record.toughness_pa();
-  result.peak_stress_pa = record.peak_stress_pa();
-  result.curve = record.take_curve();
+  ToughnessResult result = watch.take();
+  result.frames = std::move(frames);
   return result;
 }
 
@@ -190,6 +119,25 @@ FractureTest fracture_test(const Simulation& simulation, const Numerics& numeric
 }
 
 template <class Real>
+Result<MountedSpecimen<Real>> mount(const FractureTest& test) {
+  fem::ExplicitSettings settings = test.settings;
+  Result<fem::RestingSolution> rest = fem::RestingSolution{};
+  if (!test.grid.laws.eigenstrain.empty()) {
+    rest = fem::pull_from_rest(test.grid, 0.0);
+    if (!rest) return tl::unexpected(rest.error());
+    settings.initial_strain = rest->rest_strain;
+  }
+  Result<fem::ExplicitSolver<Real>> solver = fem::ExplicitSolver<Real>::create(test.grid, settings);
+  if (!solver) return tl::unexpected(solver.error());
+  for (std::size_t node = 0; 2 * node < rest->displacement.size(); ++node) {
+    const Eigen::Vector2d displacement(rest->displacement[2 * node], rest->displacement[2 * node + 1]);
+    const int at = static_cast<int>(node);
+    solver->set_node(at, displacement * test.grid.element_size_m, solver->velocity_m_per_s(at));
+  }
+  return MountedSpecimen<Real>{*std::move(solver), rest->rest_strain};
+}
+
+template <class Real>
 Result<ToughnessResult> run_fracture_test(const FractureTest& test) {
   Result<ToughnessResult> result = pull<Real>(test, test.frame_strains);
   if (!result || test.frame_count == 0) return result;
@@ -197,6 +145,8 @@ Result<ToughnessResult> run_fracture_test(const FractureTest& test) {
   return pull<Real>(test, film_strains(*result, test.frame_count));
 }
 
+template Result<MountedSpecimen<float>> mount<float>(const FractureTest&);
+template Result<MountedSpecimen<double>> mount<double>(const FractureTest&);
 template Result<ToughnessResult> run_fracture_test<float>(const FractureTest&);
 template Result<ToughnessResult> run_fracture_test<double>(const FractureTest&);
 

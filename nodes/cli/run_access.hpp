@@ -48,8 +48,8 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
 /// Who takes a payload (with blank header), by channel.
 using Takers = std::map<std::string, std::function<void(const std::string& payload)>, std::less<>>;
 
-/// Hands out what the validation agent has received and sent so far on these channels, oldest first, in one reading of its
-/// journal; nothing before its first message and on machines that do not hold the run's folder.
+/// Hands out what the validation agent has received and sent so far on these channels, oldest first, in one reading of
+/// its journal; nothing before its first message and on machines that do not hold the run's folder.
 void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent);
 
 /// What it has received on `channel` alone.

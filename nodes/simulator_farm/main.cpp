@@ -8,10 +8,12 @@
 #include <CLI/CLI.hpp>
 
 #include "base/result.hpp"
+#include "gpu/cuda.hpp"
 #include "runtime/node_shell.hpp"
 #include "runtime/process.hpp"
 #include "simulator_farm/batch_task.hpp"
 #include "simulator_farm/farm_core.hpp"
+#include "simulator_farm/gpu_executor.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
 
@@ -32,7 +34,7 @@ void add_options(CLI::App& app, FarmOptions& options) {
   app.add_option("--cache", options.cache_file,
                  "Cache of simulations (default: simulations.db beside the run's folder)");
   app.add_option("--executor", options.executor, "Who simulates (default: farm.executor of the scenario)")
-      ->check(CLI::IsMember({"local", "slurm"}));
+      ->check(CLI::IsMember({"local", "slurm", "cuda"}));
   app.add_option("--slurm-poll-s", options.poll_s, "Seconds between two looks at Slurm's list")
       ->check(CLI::Range(0.1, 600.0));
   app.add_option("--slurm-listing-s", options.patience.listing_s,
@@ -46,14 +48,24 @@ void add_options(CLI::App& app, FarmOptions& options) {
 runtime::NodeProgram make_farm(const FarmOptions& options, const runtime::NodeOptions& node,
                                const game::Scenario& scenario) {
   const fs::path run = fs::absolute(node.run_dir).lexically_normal();
-  // Shared by all runs beside this one: the answers do not depend on the run.
-  const fs::path file = options.cache_file.empty() ? run / ".." / "simulations.db" : options.cache_file;
+  const std::string executor = options.executor.empty() ? scenario.farm.executor : options.executor;
+  // Shared by all runs beside this one: the answers do not depend on the run. A device rounds otherwise, so that it has
+  // a cache of its own.
+  const fs::path usual = run / ".." / (executor == "cuda" ? "simulations-cuda.db" : "simulations.db");
+  const fs::path file = options.cache_file.empty() ? usual : options.cache_file;
   const auto cache = std::make_shared<store::SimulationCache>(file.lexically_normal());
   runtime::NodeProgram program{.core = make_core(scenario),
                                .work = work_functions(cache, run / "films"),
                                .default_threads = scenario.farm_threads,
                                .executor = {}};
-  if ((options.executor.empty() ? scenario.farm.executor : options.executor) == "slurm") {
+  if (executor == "cuda") {
+    const GpuSettings settings{
+        .films = run / "films", .threads = scenario.farm_threads, .make_device = gpu::cuda_device};
+    program.executor = [cache, settings](std::function<void()> wake) {
+      return std::make_unique<GpuExecutor>(cache, settings, std::move(wake));
+    };
+  }
+  if (executor == "slurm") {
     const SlurmSettings settings{.spool = run / "slurm",
                                  .films = run / "films",
                                  .program = runtime::this_program(),

@@ -26,7 +26,8 @@ namespace nacre::validation_agent {
 /// What a game starts from, read before it begins.
 struct StartingPoint {
   material::ParameterSet model = material::default_parameters();
-  std::vector<measurement::Replicates> base_materials;  ///< that round 0 is fitted to; empty: the model is taken as it is
+  std::vector<measurement::Replicates>
+      base_materials;                            ///< that round 0 is fitted to; empty: the model is taken as it is
   std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
   sysid::NumericsFloor floor;                    ///< at the scenario's fidelity
 };
@@ -35,8 +36,8 @@ struct StartingPoint {
 /// Round n: TEST_ORDERs -> MEASUREMENTs -> held-out errors -> calibration -> DIAGNOSE, DIAGNOSIS -> PARAMETERS(n) ->
 /// GAMUT(n), PROPOSAL(n) -> ROUND(n). Where the scenario wants families, they follow the last ROUND, which is then said
 /// once more as the last (family_stage.hpp). An extension that the diagnosis names
-/// is calibrated beside the adopted model and put on trial: before TEST_ORDERs go out it says what it expects of the proposed designs. It is adopted
-/// once it is still named and has foretold designs better (game::gain_is_established).
+/// is calibrated beside the adopted model and put on trial: before TEST_ORDERs go out it says what it expects of the
+/// proposed designs. It is adopted once it is still named and has foretold designs better (game::gain_is_established).
 class ValidationCore : public runtime::NodeCore {
  public:
   ValidationCore(const game::Scenario& scenario, StartingPoint start);
@@ -58,10 +59,11 @@ class ValidationCore : public runtime::NodeCore {
 
   /// An extension that is named and not yet adopted.
   struct OnTrial {
-    std::vector<std::string> effects;                   ///< sorted
-    material::ParameterSet model;                       ///< the base refitted with them
-    std::map<std::string, sysid::Prediction> foretold;  ///< what it expects of the designs of this round, through the testing machine
-    game::TrialErrors errors;                           ///< of all rounds since it was first named
+    std::vector<std::string> effects;  ///< sorted
+    material::ParameterSet model;      ///< the base refitted with them
+    std::map<std::string, sysid::Prediction>
+        foretold;              ///< what it expects of the designs of this round, through the testing machine
+    game::TrialErrors errors;  ///< of all rounds since it was first named
   };
 
   // Inputs (validation_core.cpp).

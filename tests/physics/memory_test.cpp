@@ -47,8 +47,8 @@ TEST(Memory, ThousandSpecimensTakeThatOfOne) {
   EXPECT_LT(bytes_in_use(), before + 4096);
 }
 
-// A search keeps a little of every specimen, which may come to lie where the next one would have fitted: the heap as taken from the system, holes and all,
-// stays that of one.
+// A search keeps a little of every specimen, which may come to lie where the next one would have fitted: the heap as
+// taken from the system, holes and all, stays that of one.
 TEST(Memory, WhatIsKeptOfASpecimenLeavesNoHole) {
   if (test::kIsInstrumented) GTEST_SKIP() << "sanitizers bring a heap of their own";
   const tester::Simulation simulation = specimen();

@@ -1,0 +1,107 @@
+#include "gpu/batch_tester.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace nacre::gpu {
+
+PreparedTest::PreparedTest(const tester::FractureTest& test, const tester::MountedSpecimen<float>& specimen)
+    : image_(image_of(specimen.solver, test.settings.strain_rate_per_s * test.settings.time_step_s)),
+      watch_(test),
+      rest_strain_(specimen.rest_strain),
+      stress_unit_pa_(specimen.solver.stress_unit_pa()) {}
+
+Result<PreparedTest> PreparedTest::of(const tester::FractureTest& test) {
+  const Result<tester::MountedSpecimen<float>> specimen = tester::mount<float>(test);
+  if (!specimen) return fail("toughness tester: {}", specimen.error().message);
+  return PreparedTest(test, *specimen);
+}
+
+bool PreparedTest::follow(const Reactions& reactions) {
+  const Specimen& s = image_.specimen;
+  for (int k = 0; k < kChunkSteps; ++k) {
+    const double strain = s.initial_strain + s.strain_per_step * static_cast<double>(steps_);
+    const double shown = (strain - rest_strain_) / (1.0 + rest_strain_);
+    const double stress_pa = 0.5 * (reactions.top[k] + reactions.bottom[k]) * stress_unit_pa_;
+    if (watch_.add(shown, stress_pa, ++steps_)) return true;
+  }
+  return false;
+}
+
+Result<tester::ToughnessResult> PreparedTest::result(const std::vector<std::int32_t>& failed_at,
+                                                     std::int32_t inverted) {
+  if (inverted >= 0 && failed_at[static_cast<std::size_t>(inverted)] <= steps_) {
+    const int columns = image_.specimen.state.columns;
+    return fail("toughness tester: the solution blew up: J <= 0 in element row {} column {} at step {}",
+                inverted / columns, inverted % columns, failed_at[static_cast<std::size_t>(inverted)]);
+  }
+  tester::ToughnessResult result = watch_.take();
+  const Specimen& s = image_.specimen;
+  std::map<std::int32_t, std::vector<int>> by_step;
+  for (std::size_t element = 0; element < failed_at.size(); ++element) {
+    const std::int32_t step = failed_at[element];
+    if (step >= 0 && step < steps_) by_step[step].push_back(static_cast<int>(element));
+  }
+  for (const auto& [step, elements] : by_step) {
+    const double strain = s.initial_strain + s.strain_per_step * step;
+    for (const int element : elements)
+      result.breaks.push_back({element, (strain - rest_strain_) / (1.0 + rest_strain_)});
+  }
+  return result;
+}
+
+BatchTester::BatchTester(std::unique_ptr<Device> device, int places)
+    : device_(std::move(device)), places_(static_cast<std::size_t>(places)) {}
+
+int BatchTester::pending() const {
+  return static_cast<int>(waiting_.size()) +
+         static_cast<int>(
+             std::count_if(places_.begin(), places_.end(), [](const auto& place) { return place.has_value(); }));
+}
+
+void BatchTester::fill_places() {
+  for (std::size_t place = 0; place < places_.size() && !waiting_.empty(); ++place) {
+    if (places_[place]) continue;
+    places_[place] = std::move(waiting_.front());
+    waiting_.pop_front();
+    device_->load(static_cast<int>(place), places_[place]->test.image());
+  }
+}
+
+std::vector<NumberedResult> BatchTester::turn() {
+  fill_places();
+  device_->advance();
+  const std::vector<PlaceReport> reports = device_->reports();
+  std::vector<NumberedResult> over;
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    if (!places_[place]) continue;
+    PreparedTest& test = places_[place]->test;
+    const PlaceReport& report = reports[place];
+    if (!test.follow(report.reactions) && report.inverted < 0) continue;
+    over.push_back({places_[place]->number, test.result(device_->failed_at(static_cast<int>(place)), report.inverted)});
+    device_->unload(static_cast<int>(place));
+    places_[place].reset();
+  }
+  return over;
+}
+
+std::vector<int> BatchTester::take_back() {
+  std::vector<int> numbers;
+  for (auto& place : places_) {
+    if (place) numbers.push_back(place->number);
+    place.reset();
+  }
+  for (const NumberedTest& test : waiting_) numbers.push_back(test.number);
+  waiting_.clear();
+  return numbers;
+}
+
+int places_for(const Device& device, const SpecimenImage& typical, int most) {
+  constexpr double kShare = 0.8;  // a specimen with history takes more than one without
+  const std::size_t bytes = typical.device_numbers() * sizeof(float) + typical.elements * sizeof(std::int32_t);
+  return std::clamp(static_cast<int>(kShare * static_cast<double>(device.free_bytes()) / static_cast<double>(bytes)), 1,
+                    most);
+}
+
+}  // namespace nacre::gpu

@@ -1,0 +1,203 @@
+#include "simulator_farm/gpu_executor.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "simulator_farm/simulate_work.hpp"
+#include "store/kept_simulation.hpp"
+
+namespace nacre::simulator_farm {
+namespace {
+
+/// Specimens that wait mounted, so that a place does not stay empty.
+constexpr std::size_t kMostReady = 64;
+
+/// Whether the device has something to do for a question: the film of a broken specimen is made by threads.
+bool is_for_device(const AskedSimulation& asked) {
+  return asked.test == tester::TestKind::toughness && !asked.extras.film;
+}
+
+}  // namespace
+
+GpuExecutor::GpuExecutor(std::shared_ptr<store::SimulationCache> cache, GpuSettings settings,
+                         std::function<void()> wake)
+    : cache_(std::move(cache)),
+      settings_(std::move(settings)),
+      wake_(std::move(wake)),
+      threads_of_processor_(work_functions(cache_, settings_.films), settings_.threads, wake_),
+      preparer_([this] { prepare(); }),
+      puller_([this] { pull(); }) {}
+
+GpuExecutor::~GpuExecutor() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  preparer_.join();
+  puller_.join();
+}
+
+void GpuExecutor::start(runtime::Compute compute) {
+  {
+    const std::lock_guard lock(mutex_);
+    new_.push_back(std::move(compute));
+    ++pending_;
+  }
+  changed_.notify_all();
+}
+
+std::vector<runtime::FinishedWork> GpuExecutor::finished() {
+  std::vector<runtime::FinishedWork> all;
+  std::deque<runtime::Compute> for_threads;
+  {
+    const std::lock_guard lock(mutex_);
+    all = std::exchange(finished_, {});
+    for_threads = std::exchange(for_threads_, {});
+    pending_ -= static_cast<int>(all.size() + for_threads.size());
+  }
+  for (runtime::Compute& compute : for_threads) threads_of_processor_.start(std::move(compute));
+  for (runtime::FinishedWork& work : threads_of_processor_.finished()) all.push_back(std::move(work));
+  return all;
+}
+
+int GpuExecutor::pending() const {
+  const std::lock_guard lock(mutex_);
+  return pending_ + threads_of_processor_.pending();
+}
+
+std::vector<runtime::LogLine> GpuExecutor::take_log() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(log_, {});
+}
+
+std::string GpuExecutor::standing() const {
+  const std::lock_guard lock(mutex_);
+  return standing_;
+}
+
+void GpuExecutor::say(runtime::LogLevel level, std::string text) {
+  const std::lock_guard lock(mutex_);
+  log_.push_back({level, std::move(text)});
+}
+
+void GpuExecutor::give_to_threads(runtime::Compute compute) {
+  {
+    const std::lock_guard lock(mutex_);
+    for_threads_.push_back(std::move(compute));
+  }
+  wake_();
+}
+
+/// Sorts questions, and mounts specimens for the device a little ahead of it.
+void GpuExecutor::prepare() {
+  while (true) {
+    runtime::Compute compute;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return stopping_ || (!new_.empty() && (ready_.size() < kMostReady || !has_device_)); });
+      if (stopping_) return;
+      compute = std::move(new_.front());
+      new_.pop_front();
+      if (!has_device_) {
+        lock.unlock();
+        give_to_threads(std::move(compute));
+        continue;
+      }
+    }
+    try {
+      sort(compute);
+    } catch (const std::exception& problem) {
+      finish(std::move(compute), fail("{}", problem.what()));
+    }
+  }
+}
+
+void GpuExecutor::sort(const runtime::Compute& compute) {
+  const AskedSimulation asked = asked_in(compute.spec);
+  if (!is_for_device(asked) || is_known(*cache_, settings_.films, asked)) return give_to_threads(compute);
+  Result<gpu::PreparedTest> test = gpu::PreparedTest::of(tester::fracture_test(asked.simulation));
+  // What cannot be pulled is refused in the words of the tester.
+  if (!test) return give_to_threads(compute);
+  {
+    std::unique_lock lock(mutex_);
+    if (!has_device_) {  // lost meanwhile
+      lock.unlock();
+      return give_to_threads(compute);
+    }
+    ready_.push_back({compute, *std::move(test)});
+  }
+  changed_.notify_all();
+}
+
+/// The device's own thread.
+void GpuExecutor::pull() {
+  Result<std::unique_ptr<gpu::Device>> device = settings_.make_device(settings_.most_places);
+  if (!device) return give_up_device(device.error().message);
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return stopping_ || !ready_.empty() || !on_device_.empty(); });
+      if (stopping_) return;
+      for (; !ready_.empty(); ready_.pop_front()) {
+        Ready& next = ready_.front();
+        if (!batch_) {
+          const int places = gpu::places_for(**device, next.test.image(), settings_.most_places);
+          batch_ = std::make_unique<gpu::BatchTester>(*std::move(device), places);
+          log_.push_back({runtime::LogLevel::info, fmt::format("fracture tests run on {}, up to {} side by side",
+                                                               batch_->device().name(), places)});
+        }
+        on_device_.emplace(next_number_, std::move(next.compute));
+        batch_->add({next_number_++, std::move(next.test)});
+      }
+      standing_ = fmt::format("{} on the device", batch_->pending());
+    }
+    changed_.notify_all();  // there is room for more that is ready
+    try {
+      for (const gpu::NumberedResult& over : batch_->turn()) keep(over);
+    } catch (const gpu::DeviceLost& problem) {
+      return give_up_device(problem.what());
+    }
+  }
+}
+
+void GpuExecutor::keep(const gpu::NumberedResult& over) {
+  runtime::Compute compute = std::move(on_device_.extract(over.number).mapped());
+  try {
+    const AskedSimulation asked = asked_in(compute.spec);
+    cache_->insert(asked.key, store::kept(over.result));
+    if (over.result && asked.extras.fracture()) cache_->insert_breaks(asked.key, over.result->breaks);
+    // The answer is made of what is kept, as for threads; nothing is left to simulate.
+    std::string answer = simulate_work(*cache_, settings_.films, compute.spec);
+    finish(std::move(compute), std::move(answer));
+  } catch (const std::exception& problem) {
+    finish(std::move(compute), fail("{}", problem.what()));
+  }
+}
+
+void GpuExecutor::finish(runtime::Compute compute, Result<std::string> result) {
+  {
+    const std::lock_guard lock(mutex_);
+    finished_.push_back({std::move(compute), std::move(result)});
+  }
+  wake_();
+}
+
+void GpuExecutor::give_up_device(const std::string& reason) {
+  say(runtime::LogLevel::warning, fmt::format("the device cannot be used, threads of the processor go on: {}", reason));
+  {
+    const std::lock_guard lock(mutex_);
+    has_device_ = false;
+    standing_ = "without the device";
+    for (auto& [number, compute] : on_device_) for_threads_.push_back(std::move(compute));
+    for (Ready& each : ready_) for_threads_.push_back(std::move(each.compute));
+    ready_.clear();
+  }
+  on_device_.clear();
+  batch_.reset();
+  changed_.notify_all();
+  wake_();
+}
+
+}  // namespace nacre::simulator_farm

@@ -1,0 +1,84 @@
+#pragma once
+// The farm's executor with an accelerator: fracture tests go to the device by the batch, all else to threads. When the
+// device fails, threads do everything.
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gpu/batch_tester.hpp"
+#include "runtime/work_pool.hpp"
+#include "store/simulation_cache.hpp"
+
+namespace nacre::simulator_farm {
+
+/// Makes the device with so many places. Error: why there is none.
+using MakeDevice = std::function<Result<std::unique_ptr<gpu::Device>>(int places)>;
+
+struct GpuSettings {
+  std::filesystem::path films;  ///< RUN/films
+  int threads = 0;              ///< beside the device; 0: all allowed cores
+  int most_places = 512;        ///< specimens side by side, if the device's memory bears them
+  MakeDevice make_device;
+};
+
+/// Executor of the kind "simulate".
+class GpuExecutor : public runtime::Executor {
+ public:
+  GpuExecutor(std::shared_ptr<store::SimulationCache> cache, GpuSettings settings, std::function<void()> wake);
+  /// What is not over is left: it has no effects.
+  ~GpuExecutor() override;
+  bool knows(const std::string& kind) const override { return kind == "simulate"; }
+  void start(runtime::Compute compute) override;
+  std::vector<runtime::FinishedWork> finished() override;
+  int pending() const override;
+  std::vector<runtime::LogLine> take_log() override;
+  std::string standing() const override;
+
+ private:
+  struct Ready {
+    runtime::Compute compute;
+    gpu::PreparedTest test;
+  };
+
+  void prepare();
+  void sort(const runtime::Compute& compute);
+  void pull();
+  void keep(const gpu::NumberedResult& over);
+  void finish(runtime::Compute compute, Result<std::string> result);
+  void give_up_device(const std::string& reason);
+  void give_to_threads(runtime::Compute compute);
+  void say(runtime::LogLevel level, std::string text);
+
+  std::shared_ptr<store::SimulationCache> cache_;
+  GpuSettings settings_;
+  std::function<void()> wake_;
+  runtime::WorkPool threads_of_processor_;  ///< of the shell's thread alone
+
+  // Shared by the shell's thread, the preparer and the puller.
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<runtime::Compute> new_;
+  std::deque<Ready> ready_;
+  std::deque<runtime::Compute> for_threads_;  ///< until the shell's thread hands them over
+  std::vector<runtime::FinishedWork> finished_;
+  std::vector<runtime::LogLine> log_;
+  std::string standing_;
+  int pending_ = 0;  ///< in this executor's own hands
+  bool has_device_ = true, stopping_ = false;
+
+  // Of the puller.
+  std::unique_ptr<gpu::BatchTester> batch_;
+  std::map<int, runtime::Compute> on_device_;
+  int next_number_ = 0;
+
+  std::thread preparer_, puller_;
+};
+
+}  // namespace nacre::simulator_farm

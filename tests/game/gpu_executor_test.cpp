@@ -1,0 +1,144 @@
+// The farm's executor with a device: the device's steps are emulated, its failures made up.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+
+#include "simulator_farm/gpu_executor.hpp"
+#include "simulator_farm/simulate_work.hpp"
+#include "wire/schema.hpp"
+
+namespace nacre::simulator_farm {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+
+constexpr const char* kDesigns[] = {"577fffe9fffdef", "3ffdbefbf7efef"};
+
+runtime::Compute question(const std::string& design, bool modulus) {
+  wire::SimulateRequest request;
+  request.request_id = design + (modulus ? "/E" : "/T");
+  request.modulus = modulus;
+  request.toughness = !modulus;
+  request.fidelity = tester::Fidelity::tiny;
+  request.parameters = material::default_parameters();
+  request.curve_points = modulus ? 0 : 20;
+  request.designs = {pattern::design_from_name(design).value()};
+  return {request.request_id, "simulate", wire::write(request)};
+}
+
+/// A device that is lost after some chunks.
+class FailingDevice : public gpu::Device {
+ public:
+  explicit FailingDevice(int chunks) : device_(gpu::emulated_device(8)), left_(chunks) {}
+  std::string name() const override { return "a device that fails"; }
+  std::size_t free_bytes() const override { return device_->free_bytes(); }
+  void load(int place, const gpu::SpecimenImage& image) override { device_->load(place, image); }
+  void unload(int place) override { device_->unload(place); }
+  void advance() override {
+    if (left_-- == 0) throw gpu::DeviceLost("it fell off the bus");
+    device_->advance();
+  }
+  std::vector<gpu::PlaceReport> reports() override { return device_->reports(); }
+  std::vector<std::int32_t> failed_at(int place) override { return device_->failed_at(place); }
+
+ private:
+  std::unique_ptr<gpu::Device> device_;
+  int left_;
+};
+
+class GpuExecutorTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    cache_ = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
+  }
+
+  /// Asks for modulus and toughness of every design; answers by the questions' ids.
+  std::map<std::string, Answer> answers(MakeDevice make_device) {
+    GpuExecutor executor(cache_, {.films = folder_ / "films", .threads = 1, .make_device = std::move(make_device)},
+                         [this] {
+                           const std::lock_guard lock(mutex_);
+                           woken_ = true;
+                           changed_.notify_all();
+                         });
+    int expected = 0;
+    for (const char* design : kDesigns)
+      for (const bool modulus : {true, false}) executor.start(question(design, modulus)), ++expected;
+    EXPECT_EQ(executor.pending(), expected);
+    std::map<std::string, Answer> answers;
+    while (static_cast<int>(answers.size()) < expected) {
+      std::unique_lock lock(mutex_);
+      EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(120), [this] { return std::exchange(woken_, false); }))
+          << "nothing more comes";
+      lock.unlock();
+      for (runtime::FinishedWork& work : executor.finished()) {
+        EXPECT_TRUE(work.result) << work.result.error().message;
+        EXPECT_TRUE(answers.emplace(work.compute.id, read_answer(*work.result).value()).second)
+            << work.compute.id << " was answered twice";
+      }
+    }
+    EXPECT_EQ(executor.pending(), 0);
+    log_ = executor.take_log();
+    return answers;
+  }
+
+  std::filesystem::path folder_;
+  std::shared_ptr<store::SimulationCache> cache_;
+  std::vector<runtime::LogLine> log_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool woken_ = false;
+};
+
+void expect_like_the_processors(const std::map<std::string, Answer>& answers) {
+  for (const char* design : kDesigns) {
+    const tester::Simulation simulation{
+        pattern::design_from_name(design).value(), material::default_parameters(), {}, tester::Fidelity::tiny};
+    EXPECT_DOUBLE_EQ(answers.at(std::string(design) + "/E").design.modulus_pa,
+                     tester::test_modulus(simulation)->modulus_pa);
+    const Answer& fracture = answers.at(std::string(design) + "/T");
+    // Which way a crack takes may hinge on rounding.
+    EXPECT_NEAR(std::log(fracture.design.toughness_pa / tester::test_toughness(simulation)->toughness_pa), 0.0, 0.3)
+        << design;
+    EXPECT_FALSE(fracture.design.curve.empty());
+  }
+}
+
+TEST_F(GpuExecutorTest, FractureTestsGoToTheDeviceAndAllElseToThreads) {
+  expect_like_the_processors(
+      answers([](int places) -> Result<std::unique_ptr<gpu::Device>> { return gpu::emulated_device(places); }));
+  EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("fracture tests run on"))));
+}
+
+TEST_F(GpuExecutorTest, WithoutADeviceThreadsDoEverything) {
+  expect_like_the_processors(
+      answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return fail("there is none"); }));
+  EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("there is none"))));
+}
+
+TEST_F(GpuExecutorTest, ADeviceThatIsLostLosesNoQuestion) {
+  expect_like_the_processors(
+      answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(3); }));
+  EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("it fell off the bus"))));
+}
+
+TEST_F(GpuExecutorTest, WhatTheCacheKnowsIsNotPulledAgain) {
+  const auto first =
+      answers([](int places) -> Result<std::unique_ptr<gpu::Device>> { return gpu::emulated_device(places); });
+  const auto second =
+      answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(0); });
+  for (const auto& [id, answer] : first) EXPECT_EQ(second.at(id).design.toughness_pa, answer.design.toughness_pa) << id;
+  EXPECT_TRUE(log_.empty()) << "the device was asked for something";
+}
+
+}  // namespace
+}  // namespace nacre::simulator_farm
