@@ -160,7 +160,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
                              std::ceil(2.0 / settings.name_level));
   }
   Workbench workbench(specimens, settings);
-  const Evidence evidence = gather_evidence(workbench, settings);
+  Evidence evidence = gather_evidence(workbench, settings);
   const Observations& observations = evidence.observations;
   const Decision decision = decide(evidence);
 

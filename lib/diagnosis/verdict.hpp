@@ -42,7 +42,8 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
 /// Signatures of every effect on top of a fitted model, at several sizes each.
 std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor, const std::vector<std::string>& effects);
 
-/// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits.
-Decision decide(const Evidence& evidence);
+/// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits. A single effect that fits better from where a
+/// pair ended is replaced in the evidence.
+Decision decide(Evidence& evidence);
 
 }  // namespace nacre::diagnosis

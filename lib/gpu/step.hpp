@@ -17,9 +17,11 @@ namespace nacre::gpu {
 
 namespace scalar {
 using namespace nacre::fem;
+// clang-format off: the packs come first
+#include "fem/scalar_packs.hpp"
 #include "fem/explicit_law.ipp"
 #include "fem/extended_law.ipp"
-#include "fem/scalar_packs.hpp"
+// clang-format on
 }  // namespace scalar
 
 /// Nodes of a tile, and threads that work on it.
