@@ -109,9 +109,13 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
   return decision;
 }
 
-/// Signal-to-noise of what a model adds to the base, beyond what the base imitates.
+/// Signal-to-noise of what a model adds to the base, beyond what the base imitates, or would were its constants not on the bounds of their ranges: what
+/// an effect only repairs of a range is no trace of its own.
 double signal_of(const Evidence& evidence, const Fit& fit) {
-  return signature_size(evidence.base.fit, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance())).projected;
+  Fit base = evidence.base.fit;
+  base.free.resize(static_cast<std::size_t>(base.u.size()));
+  std::iota(base.free.begin(), base.free.end(), 0);
+  return signature_size(base, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance())).projected;
 }
 
 /// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.
