@@ -1,7 +1,6 @@
 #include "gpu/batch_tester.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace nacre::gpu {
@@ -18,13 +17,16 @@ Result<PreparedTest> PreparedTest::of(const tester::FractureTest& test) {
   return PreparedTest(test, *specimen);
 }
 
-bool PreparedTest::follow(const Reactions& reactions) {
+double PreparedTest::strain_at(std::int64_t step) const {
   const Specimen& s = image_.specimen;
+  return (s.initial_strain + s.strain_per_step * static_cast<double>(step) - rest_strain_) / (1.0 + rest_strain_);
+}
+
+bool PreparedTest::follow(const Reactions& reactions) {
   for (int k = 0; k < kChunkSteps; ++k) {
-    const double strain = s.initial_strain + s.strain_per_step * static_cast<double>(steps_);
-    const double shown = (strain - rest_strain_) / (1.0 + rest_strain_);
+    const double strain = strain_at(steps_);
     const double stress_pa = 0.5 * (reactions.top[k] + reactions.bottom[k]) * stress_unit_pa_;
-    if (watch_.add(shown, stress_pa, ++steps_)) return true;
+    if (watch_.add(strain, stress_pa, ++steps_)) return true;
   }
   return false;
 }
@@ -37,17 +39,13 @@ Result<tester::ToughnessResult> PreparedTest::result(const std::vector<std::int3
                 inverted / columns, inverted % columns, failed_at[static_cast<std::size_t>(inverted)]);
   }
   tester::ToughnessResult result = watch_.take();
-  const Specimen& s = image_.specimen;
-  std::map<std::int32_t, std::vector<int>> by_step;
   for (std::size_t element = 0; element < failed_at.size(); ++element) {
     const std::int32_t step = failed_at[element];
-    if (step >= 0 && step < steps_) by_step[step].push_back(static_cast<int>(element));
+    if (step >= 0 && step < steps_) result.breaks.push_back({static_cast<int>(element), strain_at(step)});
   }
-  for (const auto& [step, elements] : by_step) {
-    const double strain = s.initial_strain + s.strain_per_step * step;
-    for (const int element : elements)
-      result.breaks.push_back({element, (strain - rest_strain_) / (1.0 + rest_strain_)});
-  }
+  // In the order of failing; within one step they stay in that of the elements.
+  std::stable_sort(result.breaks.begin(), result.breaks.end(),
+                   [](const tester::Break& a, const tester::Break& b) { return a.strain < b.strain; });
   return result;
 }
 

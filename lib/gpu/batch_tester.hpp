@@ -27,6 +27,8 @@ class PreparedTest {
 
  private:
   PreparedTest(const tester::FractureTest& test, const tester::MountedSpecimen<float>& specimen);
+  /// Strain of the grips in a step, as the machine counts it.
+  double strain_at(std::int64_t step) const;
 
   SpecimenImage image_;
   tester::FractureWatch watch_;
