@@ -29,6 +29,10 @@ Answer play(const Trial& trial, const Options& options) {
   if (!fs::exists(folder / "diagnosis.json")) {
     generate(trial, options.trials, folder);
     diagnose(options.trials, folder);
+    if (trial.kind == "resolved") {
+      print_what_was_ordered(trial, options.trials, folder);
+      diagnose(options.trials, folder);
+    }
   }
   return open_answer(trial, options.commit, folder);
 }
@@ -69,6 +73,7 @@ int main(int argc, char** argv) {
   app.add_option("--nulls", options.trials.nulls)->capture_default_str();
   app.add_option("--outside", options.trials.outside)->capture_default_str();
   app.add_option("--doubles", options.trials.doubles)->capture_default_str();
+  app.add_option("--alike", options.trials.alike)->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();
   app.add_option("--seeds", options.trials.seeds_per_effect, "Trials of each effect, size and scatter")->capture_default_str();
   app.add_option("--first-seed", options.trials.first_seed, "Tuning seeds begin here")->check(CLI::Range(1, 999'999))->capture_default_str();

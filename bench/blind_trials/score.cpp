@@ -81,7 +81,9 @@ std::string report_of(const std::vector<Score>& scores) {
   const auto both_visible = [](const Score& s) { return s.trial.kind == "double" && faintest(s).s >= 8.0; };
   text += fmt::format("| two at once, both s >= 8: both named | {} | |\n", rate_over(scores, both_visible, [](const Score& s) { return s.right_name; }));
   text += fmt::format("| two at once: a wrong name | {} | |\n", rate_over(scores, kind("double"), wrong_name));
+  text += fmt::format("| alike: right single name | {} | |\n", rate_over(scores, kind("alike"), [](const Score& s) { return s.right_name; }));
   text += fmt::format("| pair: reported as a set | {} | >= 95 % |\n", rate_over(scores, kind("pair"), [](const Score& s) { return s.answer.verdict == "ambiguous" && s.in_set; }));
+  text += fmt::format("| pair: resolved by the tests it orders, four at most | {} | >= 80 % |\n", rate_over(scores, kind("resolved"), [](const Score& s) { return s.right_name; }));
   std::vector<double> errors;
   int covered = 0, sized = 0;
   for (const Score& s : scores) {

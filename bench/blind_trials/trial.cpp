@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
 #include "base/parallel.hpp"
@@ -19,12 +20,20 @@
 namespace nacre::blind_trials {
 namespace {
 
+namespace fs = std::filesystem;
 namespace lab = virtual_laboratory;
 using tester::TestKind;
 
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between leaves no trace in the shape of either curve.
+constexpr double kSlow = 1e-6, kFast = 10.0;
+constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cause of a pair may have
+constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
+
+/// Whether rate and batch change together: all fast coupons are of the second batch, all slow ones of the first.
+bool is_pair(const Trial& trial) { return trial.kind == "pair" || trial.kind == "resolved"; }
 
 lab::ReplicateNoise noise_of(const Trial& trial) {
   const double factor = trial.noisy ? 2.0 : 1.0;
@@ -34,6 +43,7 @@ lab::ReplicateNoise noise_of(const Trial& trial) {
 /// The size that a trial hides: in the lower or upper third of the logarithm of what the laboratory draws.
 double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
   RandomStream random(trial.seed, fmt::format("trial/{}/{}", trial.name, kind.name));
+  if (is_pair(trial)) return std::exp(random.uniform(std::log(kPairLeast), std::log(kPairMost)));
   const bool drawn = kind.drawn_maximum > 0.0;
   const double low = std::log(drawn ? kind.drawn_minimum : 0.02 * kind.maximum), high = std::log(drawn ? kind.drawn_maximum : 0.2 * kind.maximum);
   const double third = (high - low) / 3.0;
@@ -52,8 +62,26 @@ lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
   return truth;
 }
 
+/// Replicates come from batches of their own.
+std::string batch_of(const Trial& trial, const lab::Question& question, int replicate) {
+  return fmt::format("batch-{}", is_pair(trial) ? (question.conditions.strain_rate_per_s == kFast ? 2 : 1) : replicate);
+}
+
+/// Homogeneous coupons, each pulled with a curve at every rate.
+std::vector<lab::Question> pulled_coupons(const std::vector<double>& fractions, const std::vector<double>& rates_per_s, tester::Fidelity fidelity) {
+  std::vector<lab::Question> questions;
+  for (const double fraction : fractions) {
+    for (const double rate_per_s : rates_per_s) {
+      lab::Question coupon{.design = pattern::Mixture{fraction}, .test = TestKind::tensile, .conditions = {}, .fidelity = fidelity};
+      coupon.conditions.strain_rate_per_s = rate_per_s;
+      questions.push_back(coupon);
+    }
+  }
+  return questions;
+}
+
 /// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
-std::vector<measurement::SpecimenRecord> planned(const std::vector<lab::Question>& questions, const std::vector<Result<lab::Response>>& responses) {
+std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::vector<lab::Question>& questions, const std::vector<Result<lab::Response>>& responses) {
   std::vector<measurement::SpecimenRecord> records;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const lab::Question& q = questions[i];
@@ -64,7 +92,7 @@ std::vector<measurement::SpecimenRecord> planned(const std::vector<lab::Question
       record.test = q.test;
       record.conditions = q.conditions;
       if (q.test == TestKind::tensile && responses[i]) record.curve = responses[i]->curve;
-      record.batch = fmt::format("batch-{}", r + 1);
+      record.batch = batch_of(trial, q, r + 1);
       record.print_order = static_cast<int>(records.size()) + 1;
       records.push_back(record);
     }
@@ -121,11 +149,16 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
     const std::string &first = inside[static_cast<std::size_t>(a)], &second = inside[static_cast<std::size_t>(b)];
     add("double", first + "+" + second, {first, second}, true, false);
   }
-  for (int i = 0; i < options.pairs; ++i) add("pair", i % 2 == 0 ? "droplet_mixing" : "rigid_overprint", {i % 2 == 0 ? "droplet_mixing" : "rigid_overprint"}, true, false);
+  const auto add_turns = [&](const std::string& kind, int count, const std::string& even, const std::string& odd) {
+    for (int i = 0; i < count; ++i) add(kind, i % 2 == 0 ? even : odd, {i % 2 == 0 ? even : odd}, true, false);
+  };
+  add_turns("alike", options.alike, "droplet_mixing", "rigid_overprint");
+  for (const char* kind : {"pair", "resolved"}) add_turns(kind, options.pairs, "batch_drift", "rate_dependence");
   return trials;
 }
 
 std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& options) {
+  if (is_pair(trial)) return pulled_coupons({std::begin(kPairFractions), std::end(kPairFractions)}, {kSlow, kFast}, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);
@@ -137,7 +170,7 @@ std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& 
       questions.push_back({.design = layout, .test = test, .conditions = conditions, .fidelity = options.fidelity});
     };
     for (const pattern::Pattern& each : patterns) add(each, {});
-    if (trial.kind == "pair") continue;
+    if (trial.kind == "alike") continue;
     for (int i = 0; i < kTwins; ++i) add(patterns[static_cast<std::size_t>(i)], {.orientation_deg = 90.0});
     for (int i = kTwins; i < kTwins + 2; ++i) {
       tester::TestConditions faster, thinner;
@@ -148,23 +181,19 @@ std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& 
     }
     for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
   }
-  if (trial.kind == "pair") return questions;
-  for (const double fraction : kCouponFractions) {
-    for (const double factor : {1.0, kSecondRate}) {
-      lab::Question coupon{.design = pattern::Mixture{fraction}, .test = TestKind::tensile, .conditions = {}, .fidelity = options.fidelity};
-      coupon.conditions.strain_rate_per_s *= factor;
-      questions.push_back(coupon);
-    }
-  }
+  if (trial.kind == "alike") return questions;
+  const double rate_per_s = tester::TestConditions{}.strain_rate_per_s;
+  const std::vector<lab::Question> coupons = pulled_coupons({std::begin(kCouponFractions), std::end(kCouponFractions)}, {rate_per_s, kSecondRate * rate_per_s}, options.fidelity);
+  questions.insert(questions.end(), coupons.begin(), coupons.end());
   return questions;
 }
 
-void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder) {
+void generate(const Trial& trial, const TrialOptions& options, const fs::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Question> questions = questions_of(trial, options);
   std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
   parallel_for(static_cast<int>(questions.size()), [&](int i) { responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]); });
-  std::vector<measurement::SpecimenRecord> records = planned(questions, responses);
+  std::vector<measurement::SpecimenRecord> records = planned(trial, questions, responses);
   const std::string signals = sealed_signals(trial, options, truth, records);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
@@ -175,19 +204,37 @@ void generate(const Trial& trial, const TrialOptions& options, const std::filesy
     const std::size_t q = i / kReplicates;
     records[i] = lab::record_specimen(truth, questions[q], responses[q], {records[i].specimen, records[i].batch, order[i]});
   }
-  std::filesystem::create_directories(folder);
+  fs::create_directories(folder);
   measurement::write_measurement_set(folder / "set", records);
   write_file_atomically(folder / "set.truth.toml", lab::to_toml(truth) + signals);
 }
 
-void diagnose(const TrialOptions& options, const std::filesystem::path& folder) {
+void diagnose(const TrialOptions& options, const fs::path& folder) {
   const std::string answer = (folder / "diagnosis.json").string();
   const std::string command = fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program, (folder / "set").string(), tester::to_string(options.fidelity),
                                           options.fracture ? "--fracture" : "",
                                           (folder / "store").string(), answer, (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());
-  std::filesystem::rename(answer + ".part", answer);
+  fs::rename(answer + ".part", answer);
+}
+
+void print_what_was_ordered(const Trial& trial, const TrialOptions& options, const fs::path& folder) {
+  const fs::path kept = folder / "first_diagnosis.json";
+  fs::rename(folder / "diagnosis.json", kept);
+  const lab::Truth truth = truth_of(trial, options);
+  std::vector<measurement::SpecimenRecord> records = measurement::read_measurement_set(folder / "set").specimens;
+  const auto diagnosis = nlohmann::json::parse(read_file(kept));
+  for (const auto& ordered : diagnosis["next_experiments"]) {
+    lab::Question question{.design = *pattern::design_from_name(ordered["design"].get<std::string>()), .test = *tester::test_kind_from_string(ordered["test"].get<std::string>()), .conditions = {}, .fidelity = options.fidelity};
+    question.conditions = {.orientation_deg = ordered["orientation_deg"], .strain_rate_per_s = ordered["strain_rate_per_s"], .thickness_mm = ordered["thickness_mm"]};
+    const Result<lab::Response> response = lab::respond(truth, question);
+    for (int i = 0; i < ordered["replicates"]; ++i) {
+      const std::string number = std::to_string(records.size() + 1);
+      records.push_back(lab::record_specimen(truth, question, response, {"ordered-" + number, "batch-3", static_cast<int>(records.size()) + 1}));
+    }
+  }
+  measurement::write_measurement_set(folder / "set", records);
 }
 
 }  // namespace nacre::blind_trials
