@@ -24,8 +24,8 @@ GpuExecutor::GpuExecutor(std::shared_ptr<store::SimulationCache> cache, GpuSetti
                          std::function<void()> wake)
     : cache_(std::move(cache)),
       settings_(std::move(settings)),
-      wake_(std::move(wake)),
-      threads_of_processor_(work_functions(cache_, settings_.films), settings_.threads, wake_),
+      threads_of_processor_(work_functions(cache_, settings_.films), settings_.threads, wake),
+      outbox_(std::move(wake)),
       preparer_([this] { prepare(); }),
       puller_([this] { pull(); }) {}
 
@@ -40,46 +40,25 @@ GpuExecutor::~GpuExecutor() {
 }
 
 void GpuExecutor::start(runtime::Compute compute) {
+  outbox_.expect_one();
   {
     const std::lock_guard lock(mutex_);
     new_.push_back(std::move(compute));
-    ++pending_;
   }
   changed_.notify_all();
 }
 
 std::vector<runtime::FinishedWork> GpuExecutor::finished() {
-  std::vector<runtime::FinishedWork> all;
   std::deque<runtime::Compute> for_threads;
   {
     const std::lock_guard lock(mutex_);
-    all = std::exchange(finished_, {});
     for_threads = std::exchange(for_threads_, {});
-    pending_ -= static_cast<int>(all.size() + for_threads.size());
   }
+  outbox_.pass_on(static_cast<int>(for_threads.size()));
   for (runtime::Compute& compute : for_threads) threads_of_processor_.start(std::move(compute));
+  std::vector<runtime::FinishedWork> all = outbox_.finished();
   for (runtime::FinishedWork& work : threads_of_processor_.finished()) all.push_back(std::move(work));
   return all;
-}
-
-int GpuExecutor::pending() const {
-  const std::lock_guard lock(mutex_);
-  return pending_ + threads_of_processor_.pending();
-}
-
-std::vector<runtime::LogLine> GpuExecutor::take_log() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(log_, {});
-}
-
-std::string GpuExecutor::standing() const {
-  const std::lock_guard lock(mutex_);
-  return standing_;
-}
-
-void GpuExecutor::say(runtime::LogLevel level, std::string text) {
-  const std::lock_guard lock(mutex_);
-  log_.push_back({level, std::move(text)});
 }
 
 void GpuExecutor::give_to_threads(runtime::Compute compute) {
@@ -87,7 +66,7 @@ void GpuExecutor::give_to_threads(runtime::Compute compute) {
     const std::lock_guard lock(mutex_);
     for_threads_.push_back(std::move(compute));
   }
-  wake_();
+  outbox_.wake();
 }
 
 /// Sorts questions, and mounts specimens for the device a little ahead of it.
@@ -109,7 +88,7 @@ void GpuExecutor::prepare() {
     try {
       sort(compute);
     } catch (const std::exception& problem) {
-      finish(std::move(compute), fail("{}", problem.what()));
+      outbox_.finish(std::move(compute), fail("{}", problem.what()));
     }
   }
 }
@@ -145,14 +124,14 @@ void GpuExecutor::pull() {
         if (!batch_) {
           const int places = gpu::places_for(**device, next.test.image(), settings_.most_places);
           batch_ = std::make_unique<gpu::BatchTester>(*std::move(device), places);
-          log_.push_back({runtime::LogLevel::info, fmt::format("fracture tests run on {}, up to {} side by side",
-                                                               batch_->device().name(), places)});
+          outbox_.say(runtime::LogLevel::info,
+                      fmt::format("fracture tests run on {}, up to {} side by side", batch_->device().name(), places));
         }
         on_device_.emplace(next_number_, std::move(next.compute));
         batch_->add({next_number_++, std::move(next.test)});
       }
-      standing_ = fmt::format("{} on the device", batch_->pending());
     }
+    outbox_.set_standing(fmt::format("{} on the device", batch_->pending()));
     changed_.notify_all();  // there is room for more that is ready
     try {
       for (const gpu::NumberedResult& over : batch_->turn()) keep(over);
@@ -170,34 +149,27 @@ void GpuExecutor::keep(const gpu::NumberedResult& over) {
     if (over.result && asked.extras.fracture()) cache_->insert_breaks(asked.key, over.result->breaks);
     // The answer is made of what is kept, as for threads; nothing is left to simulate.
     std::string answer = simulate_work(*cache_, settings_.films, compute.spec);
-    finish(std::move(compute), std::move(answer));
+    outbox_.finish(std::move(compute), std::move(answer));
   } catch (const std::exception& problem) {
-    finish(std::move(compute), fail("{}", problem.what()));
+    outbox_.finish(std::move(compute), fail("{}", problem.what()));
   }
-}
-
-void GpuExecutor::finish(runtime::Compute compute, Result<std::string> result) {
-  {
-    const std::lock_guard lock(mutex_);
-    finished_.push_back({std::move(compute), std::move(result)});
-  }
-  wake_();
 }
 
 void GpuExecutor::give_up_device(const std::string& reason) {
-  say(runtime::LogLevel::warning, fmt::format("the device cannot be used, threads of the processor go on: {}", reason));
+  outbox_.say(runtime::LogLevel::warning,
+              fmt::format("the device cannot be used, threads of the processor go on: {}", reason));
   {
     const std::lock_guard lock(mutex_);
     has_device_ = false;
-    standing_ = "without the device";
     for (auto& [number, compute] : on_device_) for_threads_.push_back(std::move(compute));
     for (Ready& each : ready_) for_threads_.push_back(std::move(each.compute));
     ready_.clear();
   }
+  outbox_.set_standing("without the device");
   on_device_.clear();
   batch_.reset();
   changed_.notify_all();
-  wake_();
+  outbox_.wake();
 }
 
 }  // namespace nacre::simulator_farm

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gpu/batch_tester.hpp"
+#include "runtime/outbox.hpp"
 #include "runtime/work_pool.hpp"
 #include "store/simulation_cache.hpp"
 
@@ -37,9 +38,9 @@ class GpuExecutor : public runtime::Executor {
   bool knows(const std::string& kind) const override { return kind == "simulate"; }
   void start(runtime::Compute compute) override;
   std::vector<runtime::FinishedWork> finished() override;
-  int pending() const override;
-  std::vector<runtime::LogLine> take_log() override;
-  std::string standing() const override;
+  int pending() const override { return outbox_.pending() + threads_of_processor_.pending(); }
+  std::vector<runtime::LogLine> take_log() override { return outbox_.take_log(); }
+  std::string standing() const override { return outbox_.standing(); }
 
  private:
   struct Ready {
@@ -51,26 +52,20 @@ class GpuExecutor : public runtime::Executor {
   void sort(const runtime::Compute& compute);
   void pull();
   void keep(const gpu::NumberedResult& over);
-  void finish(runtime::Compute compute, Result<std::string> result);
   void give_up_device(const std::string& reason);
   void give_to_threads(runtime::Compute compute);
-  void say(runtime::LogLevel level, std::string text);
 
   std::shared_ptr<store::SimulationCache> cache_;
   GpuSettings settings_;
-  std::function<void()> wake_;
   runtime::WorkPool threads_of_processor_;  ///< of the shell's thread alone
+  runtime::Outbox outbox_;                  ///< of what is in this executor's own hands
 
   // Shared by the shell's thread, the preparer and the puller.
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<runtime::Compute> new_;
   std::deque<Ready> ready_;
   std::deque<runtime::Compute> for_threads_;  ///< until the shell's thread hands them over
-  std::vector<runtime::FinishedWork> finished_;
-  std::vector<runtime::LogLine> log_;
-  std::string standing_;
-  int pending_ = 0;  ///< in this executor's own hands
   bool has_device_ = true, stopping_ = false;
 
   // Of the puller.

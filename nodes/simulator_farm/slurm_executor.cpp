@@ -36,7 +36,7 @@ bool is_worth_a_line(int count) { return std::has_single_bit(static_cast<unsigne
 
 SlurmExecutor::SlurmExecutor(std::shared_ptr<store::SimulationCache> cache, SlurmSettings settings,
                              std::function<void()> wake)
-    : cache_(std::move(cache)), settings_(std::move(settings)), wake_(std::move(wake)), spool_(settings_.spool) {
+    : outbox_(std::move(wake)), cache_(std::move(cache)), settings_(std::move(settings)), spool_(settings_.spool) {
   // Names of jobs are how tasks are found again: no other run's, and never used twice.
   job_prefix_ =
       fmt::format("nacre-{}-{:x}-", content_hash(fs::weakly_canonical(settings_.spool).string()).substr(0, 10),
@@ -57,31 +57,10 @@ SlurmExecutor::~SlurmExecutor() {
 // ---- The shell's side ----
 
 void SlurmExecutor::start(runtime::Compute compute) {
+  outbox_.expect_one();
   const std::lock_guard lock(mutex_);
   new_.push_back(std::move(compute));
-  ++pending_;
   changed_.notify_all();
-}
-
-std::vector<runtime::FinishedWork> SlurmExecutor::finished() {
-  const std::lock_guard lock(mutex_);
-  pending_ -= static_cast<int>(finished_.size());
-  return std::exchange(finished_, {});
-}
-
-int SlurmExecutor::pending() const {
-  const std::lock_guard lock(mutex_);
-  return pending_;
-}
-
-std::vector<runtime::LogLine> SlurmExecutor::take_log() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(log_, {});
-}
-
-std::string SlurmExecutor::standing() const {
-  const std::lock_guard lock(mutex_);
-  return standing_;
 }
 
 // ---- The executor's own thread ----
@@ -90,25 +69,9 @@ double SlurmExecutor::now_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void SlurmExecutor::say(LogLevel level, std::string text) {
-  {
-    const std::lock_guard lock(mutex_);
-    log_.push_back({level, std::move(text)});
-  }
-  wake_();
-}
-
-void SlurmExecutor::finish(runtime::FinishedWork work) {
-  {
-    const std::lock_guard lock(mutex_);
-    finished_.push_back(std::move(work));
-  }
-  wake_();
-}
-
 /// The node cannot go on: any of the works that are open carries the reason.
 void SlurmExecutor::give_up(const std::string& reason) {
-  finish({.compute = {.id = "slurm", .kind = "simulate", .spec = ""}, .result = fail("{}", reason)});
+  outbox_.finish({.id = "slurm", .kind = "simulate", .spec = ""}, fail("{}", reason));
 }
 
 void SlurmExecutor::run() {
@@ -121,9 +84,10 @@ void SlurmExecutor::run() {
       give_up(problem.what());
       return;
     }
+    outbox_.set_standing(
+        fmt::format("slurm: {} questions wait, {} batches are out; {} tasks so far, {} lost, {} duplicates",
+                    waiting_.size(), in_flight_.size(), counters_.tasks, counters_.lost, counters_.duplicates));
     lock.lock();
-    standing_ = fmt::format("slurm: {} questions wait, {} batches are out; {} tasks so far, {} lost, {} duplicates",
-                            waiting_.size(), in_flight_.size(), counters_.tasks, counters_.lost, counters_.duplicates);
     if (new_.empty() && !stopping_) changed_.wait_for(lock, kTurn);
   }
 }
@@ -156,7 +120,8 @@ void SlurmExecutor::adopt_spool() {
     if (entry.tasks.empty()) to_submit_.push_back(name);
   }
   if (!in_flight_.empty()) {
-    say(LogLevel::info, fmt::format("{} batches that were given to Slurm before are waited for", in_flight_.size()));
+    outbox_.say(LogLevel::info,
+                fmt::format("{} batches that were given to Slurm before are waited for", in_flight_.size()));
   }
 }
 
@@ -191,7 +156,7 @@ void SlurmExecutor::sort_question(Question question) {
 }
 
 void SlurmExecutor::answer(const runtime::Compute& compute) {
-  finish({.compute = compute, .result = simulate_work(*cache_, settings_.films, compute.spec)});
+  outbox_.finish(compute, simulate_work(*cache_, settings_.films, compute.spec));
 }
 
 void SlurmExecutor::take_results() {
@@ -209,8 +174,8 @@ void SlurmExecutor::take_result(const std::string& name) {
   const auto records = read_batch_result(read_file(spool_.result(name)), name);
   if (!records) {
     ++counters_.damaged;
-    say(LogLevel::warning,
-        fmt::format("{}: {}; it is asked for again", spool_.result(name).string(), records.error().message));
+    outbox_.say(LogLevel::warning,
+                fmt::format("{}: {}; it is asked for again", spool_.result(name).string(), records.error().message));
     fs::remove(spool_.result(name));
     return give_again(name);
   }
@@ -245,8 +210,8 @@ void SlurmExecutor::look_at_slurm() {
       return take_listing(read_listing(said->output));
     }
     if (is_worth_a_line(++silent_listings_)) {
-      say(LogLevel::warning,
-          fmt::format("Slurm does not tell how the tasks stand ({}); results are waited for", last_line(said->output)));
+      outbox_.say(LogLevel::warning, fmt::format("Slurm does not tell how the tasks stand ({}); results are waited for",
+                                                 last_line(said->output)));
     }
     return;
   }
@@ -282,8 +247,9 @@ void SlurmExecutor::take_listing(const Listing& tasks) {
     if (fs::exists(spool_.result(name))) continue;  // it came meanwhile
     ++counters_.lost;
     if (is_worth_a_line(counters_.lost)) {
-      say(LogLevel::warning, fmt::format("a task of batch {} gave no result (it last said: {}); it is given out again",
-                                         name, spool_.last_words(in_flight_.at(name).tasks)));
+      outbox_.say(LogLevel::warning,
+                  fmt::format("a task of batch {} gave no result (it last said: {}); it is given out again", name,
+                              spool_.last_words(in_flight_.at(name).tasks)));
     }
     give_again(name);
   }
@@ -388,8 +354,8 @@ void SlurmExecutor::take_submission(const runtime::ProgramAnswer& said) {
   next_submission_s_ = now_s() + back_off_s(++refusals_);
   to_submit_.insert(to_submit_.end(), given.batches.begin(), given.batches.end());
   if (is_worth_a_line(refusals_)) {
-    say(LogLevel::warning, fmt::format("Slurm does not take tasks ({}, {}); it is asked again in {:.0f} s",
-                                       said.end.in_words(), last_line(said.output), back_off_s(refusals_)));
+    outbox_.say(LogLevel::warning, fmt::format("Slurm does not take tasks ({}, {}); it is asked again in {:.0f} s",
+                                               said.end.in_words(), last_line(said.output), back_off_s(refusals_)));
   }
 }
 

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/executor.hpp"
+#include "runtime/outbox.hpp"
 #include "simulator_farm/batch_plan.hpp"
 #include "simulator_farm/slurm.hpp"
 #include "simulator_farm/spool.hpp"
@@ -52,10 +52,10 @@ class SlurmExecutor : public runtime::Executor {
   ~SlurmExecutor() override;
   bool knows(const std::string& kind) const override { return kind == "simulate"; }
   void start(runtime::Compute compute) override;
-  std::vector<runtime::FinishedWork> finished() override;
-  int pending() const override;
-  std::vector<runtime::LogLine> take_log() override;
-  std::string standing() const override;
+  std::vector<runtime::FinishedWork> finished() override { return outbox_.finished(); }
+  int pending() const override { return outbox_.pending(); }
+  std::vector<runtime::LogLine> take_log() override { return outbox_.take_log(); }
+  std::string standing() const override { return outbox_.standing(); }
 
  private:
   /// A question with everybody who waits for it (after a restart: nobody yet).
@@ -90,25 +90,20 @@ class SlurmExecutor : public runtime::Executor {
   void put_batch(std::vector<Question> questions);
   void submit();
   void take_submission(const runtime::ProgramAnswer& answer);
-  void say(runtime::LogLevel level, std::string text);
-  void finish(runtime::FinishedWork work);
   void give_up(const std::string& reason);
   double now_s() const;
 
+  runtime::Outbox outbox_;
+
   // Shared with the shell's thread.
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<runtime::Compute> new_;
-  std::vector<runtime::FinishedWork> finished_;
-  std::vector<runtime::LogLine> log_;
-  std::string standing_;
-  int pending_ = 0;
   bool stopping_ = false;
 
   // Of the executor's own thread.
   std::shared_ptr<store::SimulationCache> cache_;
   SlurmSettings settings_;
-  std::function<void()> wake_;
   Spool spool_;
   std::string job_prefix_;
   CostEstimate costs_;

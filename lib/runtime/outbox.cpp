@@ -1,0 +1,59 @@
+#include "runtime/outbox.hpp"
+
+#include <utility>
+
+namespace nacre::runtime {
+
+void Outbox::expect_one() {
+  const std::lock_guard lock(mutex_);
+  ++pending_;
+}
+
+void Outbox::pass_on(int count) {
+  const std::lock_guard lock(mutex_);
+  pending_ -= count;
+}
+
+void Outbox::finish(Compute compute, Result<std::string> result) {
+  {
+    const std::lock_guard lock(mutex_);
+    finished_.push_back({std::move(compute), std::move(result)});
+  }
+  wake_();
+}
+
+void Outbox::say(LogLevel level, std::string text) {
+  {
+    const std::lock_guard lock(mutex_);
+    log_.push_back({level, std::move(text)});
+  }
+  wake_();
+}
+
+void Outbox::set_standing(std::string standing) {
+  const std::lock_guard lock(mutex_);
+  standing_ = std::move(standing);
+}
+
+std::vector<FinishedWork> Outbox::finished() {
+  const std::lock_guard lock(mutex_);
+  pending_ -= static_cast<int>(finished_.size());
+  return std::exchange(finished_, {});
+}
+
+int Outbox::pending() const {
+  const std::lock_guard lock(mutex_);
+  return pending_;
+}
+
+std::vector<LogLine> Outbox::take_log() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(log_, {});
+}
+
+std::string Outbox::standing() const {
+  const std::lock_guard lock(mutex_);
+  return standing_;
+}
+
+}  // namespace nacre::runtime
