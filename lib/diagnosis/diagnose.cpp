@@ -10,6 +10,7 @@
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
 #include "diagnosis/verdict.hpp"
+#include "material/effect_words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -38,9 +39,14 @@ std::string names_of(const std::vector<Fit>& fits) {
   std::string text;
   for (const Fit& fit : fits) {
     if (!text.empty()) text += ", or ";
-    text += fmt::format("{}", fmt::join(fit.effects, " with "));
+    text += in_words(fit.effects);
   }
   return text;
+}
+
+/// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)"
+std::string size_in_words(const NamedEffect& e) {
+  return fmt::format("{} = {:.3g}{} (90 % interval {:.3g} to {:.3g})", material::effect_in_words(e.name), e.parameter, material::unit_behind_number(e.unit), e.interval_low, e.interval_high);
 }
 
 /// What the named effect does for designs that the fit has not seen. A cause may be sure and its gain not: the base imitates most of it there.
@@ -62,10 +68,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
       return fmt::format("Nothing is wrong beyond noise: {} (chance of a misfit as large: {:.3f}).", decision.reason, d.p_misfit);
     case Verdict::named: {
       std::string text = "The simulation lacks ";
-      for (std::size_t i = 0; i < d.effects.size(); ++i) {
-        const NamedEffect& e = d.effects[i];
-        text += fmt::format("{}{} = {:.3g} {} (90 % interval {:.3g} to {:.3g})", i ? " and " : "", e.name, e.parameter, e.unit, e.interval_low, e.interval_high);
-      }
+      for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
       text += fmt::format(": {}.", decision.reason);
       if (d.gain) text += " " + gain_in_words(*d.gain);
       return text;

@@ -51,11 +51,6 @@ Separation best_separation(const PossibleTest& test, const std::vector<FeatureVa
   return best;
 }
 
-std::string model_name(const Fit& fit) {
-  if (fit.effects.empty()) return "the base model";
-  return fit.effects.size() == 1 ? fit.effects[0] : fit.effects[0] + " with " + fit.effects[1];
-}
-
 }  // namespace
 
 std::vector<double> unload_history() {
@@ -151,7 +146,7 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
     const PossibleTest& test = tests[r.test];
     experiments.push_back({test.design, test.test, test.conditions, replicates,
                            fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words, in_words(r.separation.feature),
-                                       model_name(models[r.separation.first]), model_name(models[r.separation.second]), r.separation.errors)});
+                                       in_words(models[r.separation.first].effects), in_words(models[r.separation.second].effects), r.separation.errors)});
   }
   return experiments;
 }

@@ -123,7 +123,7 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
   const Fit& best = possible.front();
   const double signal = signal_of(evidence, best);
   decision.p_outside = outsider_against(evidence, best.chi2, static_cast<int>(best.effects.size())).p;
-  const std::string nearest = fmt::format("{} comes nearest", fmt::join(best.effects, " with "));
+  const std::string nearest = in_words(best.effects) + " comes nearest";
   if (signal < kNameableSignal) {
     return unexplained(std::move(decision), possible,
                        fmt::format("{}, but its traces are only {:.1f} times the noise: a cause that the library does not hold could look the same (a name needs {:.1f})", nearest, signal, kNameableSignal));

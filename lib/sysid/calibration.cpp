@@ -63,8 +63,12 @@ optimize::Algorithm algorithm_of(ToughnessSearch search) {
 constexpr std::size_t kModulusDimensions = material::kModulusParameterCount - 1;
 constexpr std::size_t kToughnessDimensions = material::kToughnessParameterCount;
 
-/// A coordinate that is also off by an error of the numerics, in units of its range.
-CoordinateInterval widened(const CoordinateInterval& interval, double sd) {
+/// A coordinate that is also off by an error of the numerics, `log_sd` in the parameter's natural logarithm.
+CoordinateInterval widened(const CoordinateInterval& interval, const ParameterRange& range, double value,
+                           double log_sd) {
+  if (log_sd <= 0.0) return interval;
+  const double sd = range.logarithmic() ? log_sd / std::log(range.maximum / range.minimum)
+                                        : log_sd * value / (range.maximum - range.minimum);
   const double middle = 0.5 * (interval.low90 + interval.high90);
   const double half = std::hypot(0.5 * (interval.high90 - interval.low90), 1.645 * sd);
   return {std::max(0.0, middle - half), std::min(1.0, middle + half), std::hypot(interval.deviation, sd)};
@@ -230,15 +234,14 @@ struct Calibration::State {
   template <class Vector>
   int add_estimates(std::string_view table, std::span<const std::string_view> names,
                     std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit,
-                    double log_damping_sd) {
+                    const Vector& log_sd) {
     std::vector<CoordinateInterval> intervals;
     if (fit != nullptr) intervals = fit->intervals();
     intervals.resize(vector.size(), {0.0, 1.0, kUnknownDeviation});  // theta's gamma is not searched
     const auto determined = [](const CoordinateInterval& each) { return each.deviation < 0.5 * kUnknownDeviation; };
     const auto fitted = std::count_if(intervals.begin(), intervals.end(), determined);
-    intervals.back() =
-        widened(intervals.back(), log_damping_sd / std::log(ranges.back().maximum / ranges.back().minimum));
     for (std::size_t j = 0; j < vector.size(); ++j) {
+      intervals[j] = widened(intervals[j], ranges[j], vector[j], log_sd[j]);
       ParameterEstimate estimate{fmt::format("{}.{}", table, names[j]), vector[j], ranges[j].minimum, ranges[j].maximum,
                                  determined(intervals[j])};
       if (estimate.determined) {
@@ -276,10 +279,10 @@ struct Calibration::State {
       }
     }
     const int fitted_modulus = add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
-                                             to_vector(result.parameters.modulus), modulus.fit.get(), 0.0);
+                                             to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
     const int fitted_toughness =
         add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
-                      to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_damping_sd);
+                      to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_eta_sd);
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);
     add_likelihood(fitted_modulus, fitted_toughness);

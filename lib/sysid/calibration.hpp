@@ -73,7 +73,8 @@ struct NumericsFloor {
   double log_modulus_common_sd = 0.06, log_toughness_common_sd = 0.27, log_peak_common_sd = 0.10;
   double log_modulus_trend_sd = 0.024;  ///< over the designs: thin soft joints are computed softer than thick ones
   double log_toughness_trend_sd = 0.05, log_peak_trend_sd = 0.07;  ///< per 0.1 of rigid fraction
-  double log_damping_sd = 1.7;  ///< of eta's gamma: another mesh needs another damping to break alike
+  /// Of eta's parameters: another mesh needs others to break alike, beyond what the above say. As measured at `preview`.
+  material::ToughnessVector log_eta_sd = {};
 };
 /// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
 /// InputError.

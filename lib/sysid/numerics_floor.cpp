@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/toml_file.hpp"
@@ -10,8 +11,8 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
   const toml::table* table = document[tester::to_string(fidelity)].as_table();
   NumericsFloor floor;
   if (table == nullptr) return floor;
-  const auto read = [&](std::string_view key, double& value) {
-    const toml::node* node = table->get(key);
+  const auto read_from = [&](const toml::table& from, std::string_view key, double& value) {
+    const toml::node* node = from.get(key);
     if (node == nullptr) return;
     const std::optional<double> number = node->value<double>();
     if (!number || !(std::abs(*number) <= 2.0)) {
@@ -20,6 +21,7 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
     }
     value = std::abs(*number);
   };
+  const auto read = [&](std::string_view key, double& value) { read_from(*table, key, value); };
   read("log_modulus_sd", floor.log_modulus_sd);
   read("log_toughness_sd", floor.log_toughness_sd);
   read("log_peak_sd", floor.log_peak_sd);
@@ -27,7 +29,16 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
   read("log_modulus_mean", floor.log_modulus_common_sd);
   read("log_toughness_mean", floor.log_toughness_common_sd);
   read("log_peak_mean", floor.log_peak_common_sd);
-  read("log_damping_sd", floor.log_damping_sd);
+  if (const toml::table* of_eta = (*table)["log_eta_sd"].as_table()) {
+    floor.log_eta_sd = {};
+    const auto names = material::toughness_parameter_names();
+    for (std::size_t j = 0; j < names.size(); ++j) read_from(*of_eta, names[j], floor.log_eta_sd[j]);
+    for (const auto& [key, value] : *of_eta) {
+      if (std::find(names.begin(), names.end(), key.str()) == names.end())
+        throw InputError::format("{}:{}: {} is none of eta's parameters", file.string(), key.source().begin.line,
+                                 key.str());
+    }
+  }
   const auto read_trend = [&](std::size_t feature, double& value) {
     const toml::node_view<const toml::node> entry = (*table)["covariance_rigid"][feature][feature];
     if (!entry) return;

@@ -9,6 +9,7 @@
 #include "analyser/report_style.hpp"
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
+#include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 
 namespace nacre::analyser {
@@ -18,10 +19,7 @@ using diagnosis::Candidate;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return escaped(name);
-}
+std::string spaced(const std::string& name) { return escaped(material::effect_in_words(name)); }
 
 std::string headline(const Diagnosis& d) {
   switch (d.verdict) {
@@ -71,7 +69,7 @@ std::string cause_section(const Diagnosis& d) {
     content += fmt::format("<h3>{}</h3>\n", spaced(named.name));
     if (effect != nullptr) content += paragraph(escaped(effect->explanation));
     const std::string meaning = effect != nullptr ? escaped(effect->parameters.front().meaning) : "";
-    content += paragraph(fmt::format("Its size: <strong>{} {}</strong>, with 90 % certainty between {} and {}. It means: {}.", quantity(named.parameter), escaped(named.unit), quantity(named.interval_low),
+    content += paragraph(fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.", quantity(named.parameter), escaped(material::unit_behind_number(named.unit)), quantity(named.interval_low),
                                      quantity(named.interval_high), meaning));
     if (effect != nullptr)
       content += paragraph(effect->side == material::EffectSide::measurement ? "This is a fault of the measurement, not of the material: it corrects comparisons, designs are not to be chosen by it."

@@ -5,16 +5,12 @@
 #include "analyser/report_sections.hpp"
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
+#include "material/effect_words.hpp"
 
 namespace nacre::analyser {
 namespace {
 
-std::string spaced(std::string name) {
-  for (char& c : name) {
-    if (c == '_') c = ' ';
-  }
-  return escaped(name);
-}
+std::string spaced(const std::string& name) { return escaped(material::effect_in_words(name)); }
 
 std::string effect_table(const std::vector<store::RecordedEffect>& effects) {
   if (effects.empty()) return "";

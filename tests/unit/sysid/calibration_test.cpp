@@ -261,7 +261,7 @@ Prediction damped_fracture(const pattern::Design& design, const material::Toughn
   return prediction;
 }
 
-ParameterEstimate estimate_of_damping(double log_damping_sd) {
+ParameterEstimate estimate_of_damping(double log_sd) {
   const std::vector<Replicates> measured = measured_designs(12);
   CalibrationSettings chosen = settings();
   chosen.modulus_budget = 0;
@@ -271,7 +271,7 @@ ParameterEstimate estimate_of_damping(double log_damping_sd) {
                   .log_peak_common_sd = 0.0,
                   .log_toughness_trend_sd = 0.0,
                   .log_peak_trend_sd = 0.0,
-                  .log_damping_sd = log_damping_sd};
+                  .log_eta_sd = {0, 0, 0, 0, 0, 0, 0, 0, 0, log_sd}};
   return finish_breaking(measured, chosen, damped_fracture).estimates.back();
 }
 

@@ -83,15 +83,19 @@ TEST(NumericsFloor, IsReadFromTheTableOfItsFidelity) {
   const auto file = std::filesystem::path(testing::TempDir()) / "floor.toml";
   write_file_atomically(file,
                         "[tiny]\nlog_modulus_mean = -0.05\nlog_toughness_sd = 0.3\n"
-                        "covariance_rigid = [[1e-6, 0, 0], [0, 0.04, 0], [0, 0, 0.01]]\n");
+                        "covariance_rigid = [[1e-6, 0, 0], [0, 0.04, 0], [0, 0, 0.01]]\n"
+                        "log_eta_sd = {w_vw_j_per_m3 = 0.6, gamma_per_s = 1.7}\n");
   const NumericsFloor floor = read_numerics_floor(file, tester::Fidelity::tiny);
   EXPECT_EQ(floor.log_modulus_common_sd, 0.05);
   EXPECT_EQ(floor.log_toughness_sd, 0.3);
   EXPECT_EQ(floor.log_modulus_sd, NumericsFloor{}.log_modulus_sd);
   EXPECT_DOUBLE_EQ(floor.log_toughness_trend_sd, 0.2);
   EXPECT_DOUBLE_EQ(floor.log_peak_trend_sd, 0.1);
+  EXPECT_EQ(floor.log_eta_sd, (material::ToughnessVector{0, 0, 0, 0, 0, 0, 0, 0.6, 0, 1.7}));
   EXPECT_EQ(read_numerics_floor(file, tester::Fidelity::full).log_toughness_sd, NumericsFloor{}.log_toughness_sd);
   write_file_atomically(file, "[tiny]\nlog_toughness_sd = \"much\"\n");
+  EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
+  write_file_atomically(file, "[tiny]\nlog_eta_sd = {w_vw = 0.6}\n");
   EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
 }
 
