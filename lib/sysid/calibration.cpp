@@ -278,8 +278,9 @@ struct Calibration::State {
         after[toughness.items[k]].curve = best.curve;
       }
     }
-    const int fitted_modulus = add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
-                                             to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
+    const int fitted_modulus =
+        add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
+                      to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
     const int fitted_toughness =
         add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
                       to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_eta_sd);

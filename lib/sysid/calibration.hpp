@@ -73,7 +73,7 @@ struct NumericsFloor {
   double log_modulus_common_sd = 0.06, log_toughness_common_sd = 0.27, log_peak_common_sd = 0.10;
   double log_modulus_trend_sd = 0.024;  ///< over the designs: thin soft joints are computed softer than thick ones
   double log_toughness_trend_sd = 0.05, log_peak_trend_sd = 0.07;  ///< per 0.1 of rigid fraction
-  /// Of eta's parameters: another mesh needs others to break alike, beyond what the above say. As measured at `preview`.
+  /// Of eta's parameters: another mesh needs others to break alike, beyond what the above say.
   material::ToughnessVector log_eta_sd = {};
 };
 /// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
@@ -128,7 +128,7 @@ struct GoodnessOfFit {
 
 /// Where parameters come from and how far they can be trusted: what goes out with them.
 struct Provenance {
-  std::string search;                                         ///< `base_materials`, `begun_with` (nothing was fitted), or how eta was searched
+  std::string search;  ///< `base_materials`, `begun_with` (nothing was fitted), or how eta was searched
   double modulus_objective = 0.0, toughness_objective = 0.0;  ///< (2.8) of these parameters on their calibration set
   GoodnessOfFit modulus_fit, toughness_fit;
   std::vector<ParameterEstimate> estimates;
