@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,7 +29,7 @@ constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
 /// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between leaves no trace in the shape of either curve.
-constexpr double kSlow = 1e-6, kFast = 10.0;
+constexpr double kSlow = 1e-6, kFast = 10.0, kPairRates[] = {kSlow, kFast};
 constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cause of a pair may have
 constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
 
@@ -68,7 +69,7 @@ std::string batch_of(const Trial& trial, const lab::Question& question, int repl
 }
 
 /// Homogeneous coupons, each pulled with a curve at every rate.
-std::vector<lab::Question> pulled_coupons(const std::vector<double>& fractions, const std::vector<double>& rates_per_s, tester::Fidelity fidelity) {
+std::vector<lab::Question> pulled_coupons(std::span<const double> fractions, std::span<const double> rates_per_s, tester::Fidelity fidelity) {
   std::vector<lab::Question> questions;
   for (const double fraction : fractions) {
     for (const double rate_per_s : rates_per_s) {
@@ -158,7 +159,7 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
 }
 
 std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& options) {
-  if (is_pair(trial)) return pulled_coupons({std::begin(kPairFractions), std::end(kPairFractions)}, {kSlow, kFast}, options.fidelity);
+  if (is_pair(trial)) return pulled_coupons(kPairFractions, kPairRates, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);
@@ -182,8 +183,8 @@ std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& 
     for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
   }
   if (trial.kind == "alike") return questions;
-  const double rate_per_s = tester::TestConditions{}.strain_rate_per_s;
-  const std::vector<lab::Question> coupons = pulled_coupons({std::begin(kCouponFractions), std::end(kCouponFractions)}, {rate_per_s, kSecondRate * rate_per_s}, options.fidelity);
+  const double rate_per_s = tester::TestConditions{}.strain_rate_per_s, rates_per_s[] = {rate_per_s, kSecondRate * rate_per_s};
+  const std::vector<lab::Question> coupons = pulled_coupons(kCouponFractions, rates_per_s, options.fidelity);
   questions.insert(questions.end(), coupons.begin(), coupons.end());
   return questions;
 }

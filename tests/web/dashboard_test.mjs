@@ -20,6 +20,10 @@ const PUBLISHED = "577fffe9fffdef";
 const CURVE = "strain,stress_pa\n0,0\n0.01,1e7\n0.02,1.8e7\n0.03,9e6\n0.035,0\n";
 
 const view = (on, name) => on.locator(`nav a[href="#${name}"]`).click();
+const pointedAt = (on) => on.locator(".catcher").getAttribute("data-pointed");
+/** Presses an arrow key until a point has come that it can point at; its design. */
+const pointWithKeys = (on) =>
+  until(async () => (await on.keyboard.press("ArrowRight"), pointedAt(on)), 20, "a point is pointed at");
 const ringAt = async (on) => {
   const box = await on.locator(".ring:not(.chosen)").boundingBox();
   return [box.x + box.width / 2, box.y + box.height / 2];
@@ -45,10 +49,8 @@ test("a live game is shown and followed", async () => {
 });
 
 test("a point is clicked and its film plays", async () => {
-  const catcher = page.locator(".catcher");
-  await catcher.focus();
-  await page.keyboard.press("ArrowRight");
-  await page.keyboard.press("ArrowLeft");
+  await page.locator(".catcher").focus();
+  await pointWithKeys(page);
   const [x, y] = await ringAt(page);
   await page.mouse.move(5, 5);
   await page.mouse.move(x, y);
@@ -148,6 +150,23 @@ test("the family stage waits for a yes to its variants, and the game goes on to 
   await photograph(page, "diagnosis", true);
 });
 
+test("what is pointed at stays while the gamut comes", async () => {
+  const other = await visit(live.url);
+  let letGamutCome;
+  const mayCome = new Promise((resolve) => (letGamutCome = resolve));
+  await other.route("**/api/gamut?*", (route) => mayCome.then(() => route.continue()));
+  await other.reload();
+  await other.locator(".catcher").focus();
+  const pointed = await pointWithKeys(other);
+  const shareOf = async () => (await painted(other, ".gamut canvas")).share;
+  const bare = await shareOf();
+  letGamutCome();
+  await until(async () => (await shareOf()) > bare, 20, "the gamut is shown");
+  await ringAt(other);
+  assert.equal(await pointedAt(other), pointed);
+  await other.context().close();
+});
+
 test("the page of a live game has no errors and asks nobody else", async () => {
   await photograph(page, "live-at-the-end", true);
   assert.deepEqual(page.troubles, []);
@@ -183,9 +202,7 @@ test("families show their variants and whether their models were worth it", asyn
     assert.ok((await on.locator(".table", { hasText: table }).locator("tbody tr").count()) > 0, String(table));
   assert.match(await on.locator(".table", { hasText: /on variants/ }).innerText(), /over-fit/);
   await on.locator(".catcher").focus();
-  await on.keyboard.press("ArrowRight");
-  await on.keyboard.press("ArrowRight");
-  assert.match(await on.locator(".catcher").getAttribute("data-pointed"), /^[0-9a-f]{14}$/);
+  assert.match(await pointWithKeys(on), /^[0-9a-f]{14}$/);
   const [download] = await Promise.all([on.waitForEvent("download"), on.getByLabel("families as CSV").click()]);
   assert.match(readFileSync(await download.path(), "utf8"), /^family,what,pattern,[\s\S]*,simulated,[0-9a-f]{14},/);
   await photograph(on, "families", true);
@@ -256,9 +273,9 @@ test("everything is reached with the keyboard alone", async () => {
   await tabTo(/to the content/);
   await tabTo(/Laboratory/);
   await tabTo(/points of the gamut/);
+  await pointWithKeys(keys);
   await keys.keyboard.press("ArrowUp");
-  await keys.keyboard.press("ArrowRight");
-  assert.match(await keys.locator(".catcher").getAttribute("data-pointed"), /^[0-9a-f]{14}$/);
+  assert.match(await pointedAt(keys), /^[0-9a-f]{14}$/);
   assert.match(await keys.locator(".catcher .for-reader").innerText(), /gigapascal/);
   await keys.keyboard.press("Enter");
   await keys.locator(".film canvas").waitFor({ timeout: 40_000 });
@@ -317,18 +334,17 @@ async function shownAndPointed(run, count, picture) {
   await until(() => on.evaluate(hasCome, 16 * count), 60, "the gamut has come");
   await on.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   const shown = Date.now() - begun;
-  const catcher = on.locator(".catcher");
-  await catcher.focus();
-  await on.keyboard.press("ArrowRight");
+  await on.locator(".catcher").focus();
+  await pointWithKeys(on);
   const [x, y] = await ringAt(on);
   await on.mouse.move(x, y);
   const times = [];
   for (let i = 0; i < 10; ++i) {
     await on.mouse.move(5, 5);
-    await until(async () => (await catcher.getAttribute("data-pointed")) === "", 10, "nothing is pointed at");
+    await until(async () => (await pointedAt(on)) === "", 10, "nothing is pointed at");
     const before = Date.now();
     await on.mouse.move(x, y);
-    await until(async () => (await catcher.getAttribute("data-pointed")) !== "", 10, "a point is found");
+    await until(async () => (await pointedAt(on)) !== "", 10, "a point is found");
     times.push(Date.now() - before);
   }
   if (picture) await photograph(on, picture);

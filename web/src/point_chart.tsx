@@ -228,7 +228,15 @@ export function PointChart({
     else return;
     event.preventDefault();
   };
-  useEffect(() => setPointed(null), [shown]);
+  // A live game's points come while somebody points: what is still shown stays pointed at.
+  useEffect(
+    () =>
+      setPointed((now) => {
+        const kept = now && (clouds.some((c) => c.of === now.of) || spots.some((s) => isSame(s, now)));
+        return kept ? now : null;
+      }),
+    [shown, spots],
+  );
 
   const pressed = useRef<[number, number] | null>(null);
   const at = (x: number, y: number): [number, number] | null => {
@@ -297,6 +305,8 @@ export function PointChart({
     </ChartBox>
   );
 }
+
+const isSame = (a: Spot, b: Spot) => a.design === b.design && a.of === b.of;
 
 const spotOf = ({ gamut, of, model }: Cloud, index: number): Spot => ({
   x: gamut.points[2 * index],
