@@ -25,4 +25,7 @@ std::vector<double> ranks_of(std::span<const double> values);
 /// sides of the same length.
 double rank_correlation(std::span<const double> a, std::span<const double> b);
 
+/// Share of a standard normal distribution below x.
+double normal_cdf(double x);
+
 }  // namespace nacre

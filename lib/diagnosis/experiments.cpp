@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/parallel.hpp"
+#include "diagnosis/test_choice.hpp"
 #include "measurement/reduction.hpp"
 #include "pattern/coupons.hpp"
 
@@ -29,24 +30,14 @@ double noise_sd(const Observations& observations, TestKind test, Feature feature
   return std::sqrt(variance);
 }
 
-/// Which two models a test separates best, and by how many standard errors.
-struct Separation {
-  double errors = 0.0;
-  std::size_t first = 0, second = 0;
-  Feature feature = Feature::log_modulus;
-};
-
-Separation best_separation(const PossibleTest& test, const std::vector<FeatureValues>& predicted, const Observations& observations, int replicates) {
+/// How far apart two models see a test.
+Separation separation_of(const FeatureValues& one, const FeatureValues& other, TestKind test, const Observations& observations, int replicates) {
   Separation best;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    if (!one[f] || !other[f]) continue;
     const auto feature = static_cast<Feature>(f);
-    for (std::size_t a = 0; a < predicted.size(); ++a) {
-      for (std::size_t b = a + 1; b < predicted.size(); ++b) {
-        if (!predicted[a][f] || !predicted[b][f]) continue;
-        const double errors = std::abs(*predicted[a][f] - *predicted[b][f]) / noise_sd(observations, test.test, feature, replicates);
-        if (errors > best.errors) best = {errors, a, b, feature};
-      }
-    }
+    const double errors = std::abs(*one[f] - *other[f]) / noise_sd(observations, test, feature, replicates);
+    if (errors > best.errors) best = {errors, feature};
   }
   return best;
 }
@@ -134,20 +125,22 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
     const std::size_t t = static_cast<std::size_t>(job) / models.size(), m = static_cast<std::size_t>(job) % models.size();
     predicted[t][m] = predicted_features(tests[t], model.map(models[m].effects), models[m].u, fidelity);
   });
-  struct Ranked {
-    Separation separation;
-    std::size_t test = 0;
-  };
-  std::vector<Ranked> ranked;
-  for (std::size_t t = 0; t < tests.size(); ++t) ranked.push_back({best_separation(tests[t], predicted[t], observations, replicates), t});
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.separation.errors > b.separation.errors; });
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t b = 1; b < models.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) pairs.emplace_back(a, b);
+  std::vector<TestValue> values;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    values.push_back({tests[t].words, {}});
+    for (const auto& [a, b] : pairs) values.back().pairs.push_back(separation_of(predicted[t][a], predicted[t][b], tests[t].test, observations, replicates));
+  }
   std::vector<NextExperiment> experiments;
-  for (const Ranked& r : ranked) {
-    if (static_cast<int>(experiments.size()) == count || r.separation.errors < 1.0) break;
-    const PossibleTest& test = tests[r.test];
+  for (const TestChoice& choice : choose_tests(values, count)) {
+    const PossibleTest& test = tests[choice.test];
+    const Separation& separation = values[choice.test].pairs[choice.pair];
+    const auto& [a, b] = pairs[choice.pair];
     experiments.push_back({test.design, test.test, test.conditions, replicates,
-                           fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words, in_words(r.separation.feature),
-                                       in_words(models[r.separation.first].effects), in_words(models[r.separation.second].effects), r.separation.errors)});
+                           fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words, in_words(separation.feature), in_words(models[a].effects),
+                                       in_words(models[b].effects), separation.errors)});
   }
   return experiments;
 }

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/statistics.hpp"
 
 namespace nacre::explore {
 namespace {
-
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 /// What is left of the errors once the value of one pattern is known.
 void learn(Eigen::MatrixXd& covariance, std::size_t known, std::vector<Belief>& beliefs, LogNormal Belief::*property) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/statistics.hpp"
 #include "optimize/sobol.hpp"
 #include "optimize/unit_cube.hpp"
 
@@ -34,13 +35,13 @@ double steepest_slope(const GaussianProcess& process, std::uint64_t seed) {
 }  // namespace
 
 double log_expected_improvement(double z) {
-  if (z > kTail) return std::log(std::exp(log_normal_density(z)) + 0.5 * z * std::erfc(-z / std::numbers::sqrt2));
+  if (z > kTail) return std::log(std::exp(log_normal_density(z)) + z * normal_cdf(z));
   const double s = 1.0 / (z * z);  // asymptotic series of 1 - |z| Phi / phi
   return log_normal_density(z) + std::log(s) + std::log1p(s * (-3.0 + s * (15.0 + s * (-105.0 + 945.0 * s))));
 }
 
 double log_normal_cdf(double z) {
-  if (z > kTail) return std::log(0.5 * std::erfc(-z / std::numbers::sqrt2));
+  if (z > kTail) return std::log(normal_cdf(z));
   const double s = 1.0 / (z * z);
   return log_normal_density(z) - std::log(-z) + std::log1p(s * (-1.0 + s * (3.0 + s * (-15.0 + 105.0 * s))));
 }

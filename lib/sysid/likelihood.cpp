@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/statistics.hpp"
 #include "sysid/features.hpp"
 
 namespace nacre::sysid {
@@ -34,7 +34,7 @@ class Residuals {
 double chi_squared_tail(double value, int freedom) {
   const double share = 2.0 / (9.0 * freedom);
   const double z = (std::cbrt(value / freedom) - (1.0 - share)) / std::sqrt(share);
-  return 0.5 * std::erfc(z / std::numbers::sqrt2);
+  return normal_cdf(-z);
 }
 
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,

@@ -39,5 +39,11 @@ TEST(Statistics, QuantilesRunFromTheLeastToTheGreatest) {
   EXPECT_DOUBLE_EQ(quantile(values, 1.0), 3.0);
 }
 
+TEST(Statistics, TheNormalDistributionIsTheTables) {
+  EXPECT_DOUBLE_EQ(normal_cdf(0.0), 0.5);
+  EXPECT_NEAR(normal_cdf(1.959964), 0.975, 1e-7);
+  EXPECT_NEAR(normal_cdf(-6.0) / 9.865876e-10, 1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace nacre

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "diagnosis/observations.hpp"
+
+namespace nacre::diagnosis {
+
+/// How far apart two models see a test, in standard errors of the feature that shows it most.
+struct Separation {
+  double errors = 0.0;
+  Feature feature = Feature::log_modulus;
+};
+
+/// What a possible test says about every pair of models.
+struct TestValue {
+  std::string way;                ///< "turned twin", ...: tests of one way share what all models get wrong about it
+  std::vector<Separation> pairs;  ///< in the same order in every test
+};
+
+/// A test that is worth its cost, and the pair of models that it helps most.
+struct TestChoice {
+  std::size_t test = 0, pair = 0;
+};
+
+/// At most `count` tests, chosen one after another so that the chance of taking one model of a pair for the other falls most, summed over
+/// the pairs. It is that of two normal distributions d standard deviations apart, Phi(-d/2); d^2 sums the squared errors of the best test of
+/// each way, none counted as more than four standard errors: models foretell only so well what nobody has tested. Where no chance falls any
+/// more, the largest separation comes first. What separates no pair by a standard error is never chosen.
+std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count);
+
+}  // namespace nacre::diagnosis
