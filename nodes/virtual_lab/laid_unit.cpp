@@ -1,5 +1,6 @@
 #include "virtual_lab/laid_unit.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -60,32 +61,47 @@ std::vector<double> bell_shares(double deviation) {
   return shares;
 }
 
-/// Whether the point (in pixels, pixel k centred at k) lies in a rigid pixel grown by `growth` on every side.
-bool in_grown_pixel(const pattern::Layout& layout, double x, double y, double growth) {
-  const double reach = 0.5 + growth;
-  for (int row = static_cast<int>(std::ceil(y - reach)); row <= y + reach; ++row)
-    for (int column = static_cast<int>(std::ceil(x - reach)); column <= x + reach; ++column)
+/// Places in an element along one direction, and at each the pixels that reach it when grown: those of a probe before,
+/// at and behind the place.
+constexpr int kPlaces = 16, kProbes = 3;  // fewer places would round the growth to steps of a sixteenth of a pixel
+struct Reached {
+  int first = 0, last = 0;
+};
+using ReachedAlong = std::array<std::array<Reached, kProbes>, kPlaces>;
+
+ReachedAlong reached_along(int element, double growth) {
+  ReachedAlong along;
+  for (int place = 0; place < kPlaces; ++place) {
+    const double at = (element + (place + 0.5) / kPlaces) * kElementM / kPixelM - kFirstCentre;
+    for (int probe = 0; probe < kProbes; ++probe) {
+      const double x = at + (probe - 1) * kInterfaceReach, reach = 0.5 + growth;
+      along[static_cast<std::size_t>(place)][static_cast<std::size_t>(probe)] = {
+          static_cast<int>(std::ceil(x - reach)), static_cast<int>(std::floor(x + reach))};
+    }
+  }
+  return along;
+}
+
+bool any_rigid(const pattern::Layout& layout, Reached rows, Reached columns) {
+  for (int row = rows.first; row <= rows.last; ++row)
+    for (int column = columns.first; column <= columns.last; ++column)
       if (rigid_at(layout, column, row)) return true;
   return false;
 }
 
-/// Rigid fraction of an element where rigid regions have grown: the mean over points of it, each soft, rigid or, where
-/// probes a quarter pixel away disagree, interface.
+/// Rigid fraction of an element where rigid regions have grown on every side by `growth` pixels: the mean over places
+/// in it, each soft, rigid or, where probes a quarter pixel away disagree, interface.
 double grown_fraction(const pattern::Layout& layout, int row, int column, double growth) {
-  constexpr int kPoints = 4;
+  const ReachedAlong up = reached_along(row, growth), across = reached_along(column, growth);
   double sum = 0.0;
-  for (int i = 0; i < kPoints * kPoints; ++i) {
-    const auto in_pixels = [](int element, int point) {
-      return (element + (point + 0.5) / kPoints) * kElementM / kPixelM - kFirstCentre;
-    };
-    const double x = in_pixels(column, i % kPoints), y = in_pixels(row, i / kPoints);
-    int rigid = 0;
-    for (const double dy : {-kInterfaceReach, 0.0, kInterfaceReach})
-      for (const double dx : {-kInterfaceReach, 0.0, kInterfaceReach})
-        rigid += in_grown_pixel(layout, x + dx, y + dy, growth) ? 1 : 0;
-    sum += rigid == 9 ? 1.0 : rigid == 0 ? 0.0 : 0.5;
-  }
-  return sum / (kPoints * kPoints);
+  for (const auto& rows : up)
+    for (const auto& columns : across) {
+      int rigid = 0;
+      for (const Reached y : rows)
+        for (const Reached x : columns) rigid += any_rigid(layout, y, x) ? 1 : 0;
+      sum += rigid == kProbes * kProbes ? 1.0 : rigid == 0 ? 0.0 : 0.5;
+    }
+  return sum / (kPlaces * kPlaces);
 }
 
 }  // namespace
