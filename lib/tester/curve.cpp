@@ -60,6 +60,15 @@ double area_between(const Curve& a, const Curve& b) {
   return area;
 }
 
+double largest_difference(const Curve& a, const Curve& b, double until_strain) {
+  double largest = 0.0, peak = 0.0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a.strain[i] <= until_strain; ++i) {
+    peak = std::max(peak, std::abs(a.stress_pa[i]));
+    largest = std::max(largest, std::abs(a.stress_pa[i] - b.stress_pa[i]));
+  }
+  return peak > 0.0 ? largest / peak : 1.0;
+}
+
 double stress_at(const Curve& curve, double strain) {
   if (curve.empty() || strain < curve.strain.front() || strain > curve.strain.back()) return 0.0;
   const auto above = std::upper_bound(curve.strain.begin(), curve.strain.end(), strain);

@@ -19,6 +19,10 @@ double area_under(const Curve& curve);
 /// I[|a - b|] of Eq. 2.8: the area between two curves; a curve is zero beyond its end. Both with non-decreasing strain.
 double area_between(const Curve& a, const Curve& b);
 
+/// Largest difference in stress up to `until_strain` between two curves with the same strains, relative to the largest
+/// stress of `a` up to there; 1 where that is nothing.
+double largest_difference(const Curve& a, const Curve& b, double until_strain);
+
 /// Stress at `strain` by linear interpolation on a curve with non-decreasing strain; 0 outside it.
 double stress_at(const Curve& curve, double strain);
 

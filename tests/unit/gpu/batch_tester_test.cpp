@@ -47,21 +47,11 @@ std::vector<Result<tester::ToughnessResult>> pulled(std::unique_ptr<Device> devi
   return in_order;
 }
 
-/// Largest difference of two curves up to `strain`, relative to the largest stress up to there.
-double difference_until(const tester::Curve& a, const tester::Curve& b, double strain) {
-  double largest = 0.0, peak = 0.0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a.strain[i] <= strain; ++i) {
-    peak = std::max(peak, std::abs(a.stress_pa[i]));
-    largest = std::max(largest, std::abs(a.stress_pa[i] - b.stress_pa[i]));
-  }
-  return peak > 0.0 ? largest / peak : 1.0;
-}
-
 void expect_agreement(const tester::ToughnessResult& batch, const tester::ToughnessResult& alone) {
   ASSERT_FALSE(alone.breaks.empty());
   ASSERT_FALSE(batch.breaks.empty());
   const double first = alone.breaks.front().strain;
-  EXPECT_LT(difference_until(alone.curve, batch.curve, first), 1e-3);
+  EXPECT_LT(tester::largest_difference(alone.curve, batch.curve, first), 1e-3);
   EXPECT_NEAR(batch.breaks.front().strain / first, 1.0, 1e-3);
   EXPECT_EQ(batch.breaks.front().element, alone.breaks.front().element);
   // Behind the first failures rounding decides between nearly equal ways.
@@ -90,7 +80,7 @@ TEST(BatchTester, FollowsEveryPartOfTheExtendedLaw) {
     const auto alone = tester::run_fracture_test<float>(test), base = tester::run_fracture_test<float>(plain);
     const auto batch = pulled(emulated_device(1), 1, {test});
     ASSERT_TRUE(alone && base && batch.front());
-    EXPECT_LT(difference_until(alone->curve, batch.front()->curve, 1.0), 1e-3);
+    EXPECT_LT(tester::largest_difference(alone->curve, batch.front()->curve, 1.0), 1e-3);
     EXPECT_NEAR(batch.front()->toughness_pa / alone->toughness_pa, 1.0, 1e-3);
   }
 }

@@ -1,5 +1,6 @@
 #include "tester/curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,15 @@ TEST(Curve, UnloadingGivesItsWorkBack) {
 }
 
 TEST(Curve, AreaBetweenACurveAndItselfIsZero) { EXPECT_EQ(area_between(kTriangle, kTriangle), 0.0); }
+
+TEST(Curve, TheLargestDifferenceCountsOnlyWhatLiesBelowItsStrain) {
+  Curve other = kTriangle;
+  other.stress_pa.back() += 0.1 * *std::max_element(kTriangle.stress_pa.begin(), kTriangle.stress_pa.end());
+  EXPECT_EQ(largest_difference(kTriangle, kTriangle, 1.0), 0.0);
+  EXPECT_NEAR(largest_difference(kTriangle, other, kTriangle.strain.back()), 0.1, 1e-12);
+  EXPECT_EQ(largest_difference(kTriangle, other, 0.5 * kTriangle.strain.back()), 0.0);
+  EXPECT_EQ(largest_difference({}, {}, 1.0), 1.0);
+}
 
 TEST(Curve, AreaBetweenIsSymmetricAndCountsCrossings) {
   // Triangle above the line up to strain 2/15, below it after: |difference| has two triangles.
