@@ -32,7 +32,8 @@ Hidden hidden_effect(const toml::table& truth, const std::string& name) {
   for (std::size_t k = 0; signals != nullptr && k < signals->size(); ++k) {
     const toml::table& signal = *signals->get(k)->as_table();
     if (signal["name"].value_or(std::string()) != name) continue;
-    hidden.s = signal["s"].value_or(0.0), hidden.rho = signal["rho"].value_or(0.0), hidden.ceiling = signal["ceiling"].value_or(0.0);
+    hidden.s = signal["s"].value_or(0.0), hidden.rho = signal["rho"].value_or(0.0),
+    hidden.ceiling = signal["ceiling"].value_or(0.0);
   }
   return hidden;
 }
@@ -75,7 +76,12 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 Answer open_answer(const Trial& trial, const std::string& commit, const std::filesystem::path& folder) {
   const auto diagnosis = nlohmann::json::parse(read_file(folder / "diagnosis.json"));
   const toml::table truth = toml::parse(read_file(folder / "set.truth.toml"));
-  Answer answer{.commit = commit, .verdict = diagnosis["verdict"], .hidden = {}, .named = {}, .possible = diagnosis["possible"], .p_misfit = diagnosis["p_misfit"]};
+  Answer answer{.commit = commit,
+                .verdict = diagnosis["verdict"],
+                .hidden = {},
+                .named = {},
+                .possible = diagnosis["possible"],
+                .p_misfit = diagnosis["p_misfit"]};
   for (const std::string& name : trial.hidden) answer.hidden.push_back(hidden_effect(truth, name));
   for (const auto& effect : diagnosis["effects"])
     answer.named.push_back({effect["name"], effect["parameter"], effect["interval90"][0], effect["interval90"][1]});
@@ -84,12 +90,17 @@ Answer open_answer(const Trial& trial, const std::string& commit, const std::fil
 }
 
 std::vector<std::string> answer_columns() {
-  return {"trial", "commit", "hidden", "s", "rho", "ceiling", "verdict", "named", "size", "low90", "high90", "possible", "gain", "p_misfit"};
+  return {"trial", "commit", "hidden", "s",      "rho",      "ceiling", "verdict",
+          "named", "size",   "low90",  "high90", "possible", "gain",    "p_misfit"};
 }
 
 std::vector<std::string> to_cells(const Answer& a) {
-  const auto of_hidden = [&](double Hidden::*field) { return joined<Hidden>(a.hidden, [&](const Hidden& h) { return short_number(h.*field); }); };
-  const auto of_named = [&](double Named::*field) { return joined<Named>(a.named, [&](const Named& n) { return short_number(n.*field); }); };
+  const auto of_hidden = [&](double Hidden::*field) {
+    return joined<Hidden>(a.hidden, [&](const Hidden& h) { return short_number(h.*field); });
+  };
+  const auto of_named = [&](double Named::*field) {
+    return joined<Named>(a.named, [&](const Named& n) { return short_number(n.*field); });
+  };
   std::vector<std::string> models;
   for (const auto& model : a.possible) models.push_back(fmt::format("{}", fmt::join(model, ";")));
   return {a.commit,
@@ -108,7 +119,13 @@ std::vector<std::string> to_cells(const Answer& a) {
 }
 
 Answer answer_from_cells(const std::vector<std::string>& cells) {
-  Answer answer{.commit = cells[0], .verdict = cells[5], .hidden = std::vector<Hidden>(split(cells[1], ';').size()), .named = {}, .possible = {}, .gain = number(cells[11]), .p_misfit = number(cells[12])};
+  Answer answer{.commit = cells[0],
+                .verdict = cells[5],
+                .hidden = std::vector<Hidden>(split(cells[1], ';').size()),
+                .named = {},
+                .possible = {},
+                .gain = number(cells[11]),
+                .p_misfit = number(cells[12])};
   double Hidden::*const hidden_fields[] = {&Hidden::size, &Hidden::s, &Hidden::rho, &Hidden::ceiling};
   for (std::size_t i = 0; i < 4; ++i) spread(cells[1 + i], answer.hidden, hidden_fields[i]);
   for (const std::string& name : split(cells[6], ';')) answer.named.push_back({.effect = name});

@@ -1,5 +1,6 @@
 #pragma once
-// What a finished trial comes to, on one line of the study's table: what was hidden and how well it could be seen, what the diagnosis said.
+// What a finished trial comes to, on one line of the study's table: what was hidden and how well it could be seen, what
+// the diagnosis said.
 
 #include <filesystem>
 #include <string>
@@ -11,8 +12,9 @@ namespace nacre::blind_trials {
 
 /// One effect that was hidden. Signals are 0 for effects that the library does not know.
 struct Hidden {
-  double size = 0.0;                         ///< in the parameter's unit
-  double s = 0.0, rho = 0.0, ceiling = 0.0;  ///< as sealed: signal-to-noise, cosine to the nearest rival, chance that all rivals lose
+  double size = 0.0;  ///< in the parameter's unit
+  double s = 0.0, rho = 0.0,
+         ceiling = 0.0;  ///< as sealed: signal-to-noise, cosine to the nearest rival, chance that all rivals lose
 };
 
 /// One effect that was named, with its parameter and 90 % interval.
@@ -22,9 +24,9 @@ struct Named {
 };
 
 struct Answer {
-  std::string commit;                              ///< of the program that was asked
-  std::string verdict;                             ///< as in `nacre diagnose --json`
-  std::vector<Hidden> hidden;                      ///< in the order of Trial::hidden
+  std::string commit;          ///< of the program that was asked
+  std::string verdict;         ///< as in `nacre diagnose --json`
+  std::vector<Hidden> hidden;  ///< in the order of Trial::hidden
   std::vector<Named> named;
   std::vector<std::vector<std::string>> possible;  ///< the models that the report leaves open
   double gain = 0.0;                               ///< relative reduction of held-out error; 0: none established

@@ -1,5 +1,6 @@
-// Blind trials of the diagnosis (docs/METHODS.md, "Diagnosis"): the virtual laboratory hides effects, nacre diagnose sees the measurements alone, the answers
-// are opened for scoring. A folder per trial and a line in the study's table; what has a line is not done again.
+// Blind trials of the diagnosis (docs/METHODS.md, "Diagnosis"): the virtual laboratory hides effects, nacre diagnose
+// sees the measurements alone, the answers are opened for scoring. A folder per trial and a line in the study's table;
+// what has a line is not done again.
 
 #include <fmt/format.h>
 #include <chrono>
@@ -21,7 +22,9 @@ struct Options {
 };
 
 /// Seeds of a report follow from the commit under test, so that nobody chooses them.
-std::uint64_t report_seed(const std::string& commit) { return 1'000'000 + std::stoull(commit.substr(0, 7), nullptr, 16) * 1000; }
+std::uint64_t report_seed(const std::string& commit) {
+  return 1'000'000 + std::stoull(commit.substr(0, 7), nullptr, 16) * 1000;
+}
 
 /// Hides, prints, measures, asks; a trial that was asked before and has no line yet is opened only.
 Answer play(const Trial& trial, const Options& options) {
@@ -54,7 +57,9 @@ void run(Options options) {
     }
     if (!finished) table.add(trial.name, to_cells(play(trial, options)));
     scores.push_back(score_of(trial, answer_from_cells(*table.find(trial.name))));
-    if (!finished) fmt::print(stderr, "{}: {} {}\n", trial.name, scores.back().answer.verdict, scores.back().right_name ? "(right)" : "");
+    if (!finished)
+      fmt::print(stderr, "{}: {} {}\n", trial.name, scores.back().answer.verdict,
+                 scores.back().right_name ? "(right)" : "");
   }
   if (waiting > 0) fmt::print(stderr, "{} trials are still waiting: run it again\n", waiting);
   fmt::print("{}", report_of(scores));
@@ -67,7 +72,8 @@ int main(int argc, char** argv) {
   Options options;
   study::add_fidelity_option(app, options.fidelity);
   options.trials.program = NACRE_BINARY_DIR "/nacre";
-  app.add_option("--program", options.trials.program, "nacre under test: a copy outlives the next build")->capture_default_str();
+  app.add_option("--program", options.trials.program, "nacre under test: a copy outlives the next build")
+      ->capture_default_str();
   app.add_option("--work", options.work, "Folder of the trials")->capture_default_str();
   app.add_flag("--fracture", options.trials.fracture, "Toughness specimens beside the moduli");
   app.add_option("--nulls", options.trials.nulls)->capture_default_str();
@@ -75,11 +81,16 @@ int main(int argc, char** argv) {
   app.add_option("--doubles", options.trials.doubles)->capture_default_str();
   app.add_option("--alike", options.trials.alike)->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();
-  app.add_option("--seeds", options.trials.seeds_per_effect, "Trials of each effect, size and scatter")->capture_default_str();
-  app.add_option("--first-seed", options.trials.first_seed, "Tuning seeds begin here")->check(CLI::Range(1, 999'999))->capture_default_str();
-  app.add_option("--table", options.table, "CSV of finished trials, read and continued; default: the folder of the trials, .csv");
+  app.add_option("--seeds", options.trials.seeds_per_effect, "Trials of each effect, size and scatter")
+      ->capture_default_str();
+  app.add_option("--first-seed", options.trials.first_seed, "Tuning seeds begin here")
+      ->check(CLI::Range(1, 999'999))
+      ->capture_default_str();
+  app.add_option("--table", options.table,
+                 "CSV of finished trials, read and continued; default: the folder of the trials, .csv");
   app.add_option("--commit", options.commit, "Commit under test, for the table")->required();
-  app.add_option("--report", options.report, "Commit under test, hexadecimal: a report, with seeds of its own")->excludes("--first-seed");
+  app.add_option("--report", options.report, "Commit under test, hexadecimal: a report, with seeds of its own")
+      ->excludes("--first-seed");
   app.add_option("--only", options.only, "Trials whose name contains this");
   app.add_option("--seconds", options.seconds, "Begins nothing new after so long");
   CLI11_PARSE(app, argc, argv);

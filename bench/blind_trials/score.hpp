@@ -11,9 +11,10 @@ namespace nacre::blind_trials {
 struct Score {
   Trial trial;
   Answer answer;
-  bool right_name = false, in_set = false;  ///< exactly the hidden effects named; or one of the reported models is exactly them
-  double parameter_error = -1.0;            ///< relative, of the first hidden effect; negative: not rightly named
-  bool covered = false;                     ///< the 90 % interval holds the hidden size
+  bool right_name = false,
+       in_set = false;            ///< exactly the hidden effects named; or one of the reported models is exactly them
+  double parameter_error = -1.0;  ///< relative, of the first hidden effect; negative: not rightly named
+  bool covered = false;           ///< the 90 % interval holds the hidden size
 };
 
 Score score_of(const Trial& trial, const Answer& answer);

@@ -28,7 +28,8 @@ using tester::TestKind;
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between leaves no trace in the shape of either curve.
+/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between leaves no trace in the shape of
+/// either curve.
 constexpr double kSlow = 1e-6, kFast = 10.0, kPairRates[] = {kSlow, kFast};
 constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cause of a pair may have
 constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
@@ -46,15 +47,21 @@ double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
   RandomStream random(trial.seed, fmt::format("trial/{}/{}", trial.name, kind.name));
   if (is_pair(trial)) return std::exp(random.uniform(std::log(kPairLeast), std::log(kPairMost)));
   const bool drawn = kind.drawn_maximum > 0.0;
-  const double low = std::log(drawn ? kind.drawn_minimum : 0.02 * kind.maximum), high = std::log(drawn ? kind.drawn_maximum : 0.2 * kind.maximum);
+  const double low = std::log(drawn ? kind.drawn_minimum : 0.02 * kind.maximum),
+               high = std::log(drawn ? kind.drawn_maximum : 0.2 * kind.maximum);
   const double third = (high - low) / 3.0;
   const double value = std::exp(trial.large ? random.uniform(high - third, high) : random.uniform(low, low + third));
   return kind.either_sign && random.index(2) == 1 ? -value : value;
 }
 
 lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
-  lab::Truth truth{.seed = trial.seed, .fidelity = options.fidelity, .replicates = kReplicates, .noise = noise_of(trial), .modulus = lab::draw_modulus_parameters(trial.seed),
-                   .toughness = lab::draw_toughness_parameters(trial.seed), .effects = {}};
+  lab::Truth truth{.seed = trial.seed,
+                   .fidelity = options.fidelity,
+                   .replicates = kReplicates,
+                   .noise = noise_of(trial),
+                   .modulus = lab::draw_modulus_parameters(trial.seed),
+                   .toughness = lab::draw_toughness_parameters(trial.seed),
+                   .effects = {}};
   for (const lab::EffectKind& kind : lab::effect_kinds()) {
     if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) == trial.hidden.end()) continue;
     truth.effects.*kind.value = hidden_value(trial, kind);
@@ -69,11 +76,13 @@ std::string batch_of(const Trial& trial, const lab::Question& question, int repl
 }
 
 /// Homogeneous coupons, each pulled with a curve at every rate.
-std::vector<lab::Question> pulled_coupons(std::span<const double> fractions, std::span<const double> rates_per_s, tester::Fidelity fidelity) {
+std::vector<lab::Question> pulled_coupons(std::span<const double> fractions, std::span<const double> rates_per_s,
+                                          tester::Fidelity fidelity) {
   std::vector<lab::Question> questions;
   for (const double fraction : fractions) {
     for (const double rate_per_s : rates_per_s) {
-      lab::Question coupon{.design = pattern::Mixture{fraction}, .test = TestKind::tensile, .conditions = {}, .fidelity = fidelity};
+      lab::Question coupon{
+          .design = pattern::Mixture{fraction}, .test = TestKind::tensile, .conditions = {}, .fidelity = fidelity};
       coupon.conditions.strain_rate_per_s = rate_per_s;
       questions.push_back(coupon);
     }
@@ -82,13 +91,16 @@ std::vector<lab::Question> pulled_coupons(std::span<const double> fractions, std
 }
 
 /// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
-std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::vector<lab::Question>& questions, const std::vector<Result<lab::Response>>& responses) {
+std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::vector<lab::Question>& questions,
+                                                 const std::vector<Result<lab::Response>>& responses) {
   std::vector<measurement::SpecimenRecord> records;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const lab::Question& q = questions[i];
     for (int r = 0; r < kReplicates; ++r) {
       measurement::SpecimenRecord record;
-      record.specimen = fmt::format("{}-{}-{:.0f}-{:.2g}-{:.2g}-{}", q.design.name(), tester::to_string(q.test), q.conditions.orientation_deg, q.conditions.strain_rate_per_s, q.conditions.thickness_mm, r + 1);
+      record.specimen =
+          fmt::format("{}-{}-{:.0f}-{:.2g}-{:.2g}-{}", q.design.name(), tester::to_string(q.test),
+                      q.conditions.orientation_deg, q.conditions.strain_rate_per_s, q.conditions.thickness_mm, r + 1);
       record.design = q.design;
       record.test = q.test;
       record.conditions = q.conditions;
@@ -102,7 +114,8 @@ std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::
 }
 
 /// What the specimens could show of each hidden effect that the library knows, at the true constants.
-std::string sealed_signals(const Trial& trial, const TrialOptions& options, const lab::Truth& truth, std::vector<measurement::SpecimenRecord> specimens) {
+std::string sealed_signals(const Trial& trial, const TrialOptions& options, const lab::Truth& truth,
+                           std::vector<measurement::SpecimenRecord> specimens) {
   // Fractures would have to be simulated for every effect.
   std::erase_if(specimens, [](const auto& specimen) { return specimen.test == TestKind::toughness; });
   diagnosis::DiagnosisSettings settings;
@@ -111,16 +124,21 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
   settings.start.toughness = truth.toughness;
   settings.fidelity = options.fidelity;
   settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
-  diagnosis::PlannedScatter scatter{.modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
+  diagnosis::PlannedScatter scatter{
+      .modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
   const diagnosis::Plan plan = diagnosis::plan_diagnosis(specimens, settings, scatter, false);
   std::string text;
   for (const lab::EffectKind& kind : lab::effect_kinds()) {
     const double value = truth.effects.*kind.value;
-    const auto known = std::find_if(plan.effects.begin(), plan.effects.end(), [&](const auto& e) { return e.name == kind.name; });
+    const auto known =
+        std::find_if(plan.effects.begin(), plan.effects.end(), [&](const auto& e) { return e.name == kind.name; });
     if (value == 0.0 || known == plan.effects.end()) continue;
-    const double strength = std::abs(material::strength_of(material::find_effect(kind.name)->parameters.front(), value));
-    const double s = diagnosis::signal_at(*known, strength), distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", kind.name, s, known->rival_cosine, known->nearest_rival,
+    const double strength =
+        std::abs(material::strength_of(material::find_effect(kind.name)->parameters.front(), value));
+    const double s = diagnosis::signal_at(*known, strength),
+                 distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
+    text += fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n",
+                        kind.name, s, known->rival_cosine, known->nearest_rival,
                         0.5 * std::erfc(-distance / std::sqrt(2.0)));
   }
   return fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind, text);
@@ -131,8 +149,10 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
 std::vector<Trial> all_trials(const TrialOptions& options) {
   std::vector<Trial> trials;
   std::uint64_t seed = options.first_seed;
-  const auto add = [&](const std::string& kind, const std::string& what, std::vector<std::string> hidden, bool large, bool noisy) {
-    trials.push_back({fmt::format("{}-{}-{}{}-{}", kind, what, large ? "large" : "small", noisy ? "-noisy" : "", seed), kind, seed, large, noisy, std::move(hidden)});
+  const auto add = [&](const std::string& kind, const std::string& what, std::vector<std::string> hidden, bool large,
+                       bool noisy) {
+    trials.push_back({fmt::format("{}-{}-{}{}-{}", kind, what, large ? "large" : "small", noisy ? "-noisy" : "", seed),
+                      kind, seed, large, noisy, std::move(hidden)});
     ++seed;
   };
   for (int i = 0; i < options.nulls; ++i) add("null", "nothing", {}, true, i % 2 == 1);
@@ -142,7 +162,9 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
     for (const bool large : {true, false})
       for (const bool noisy : {false, true})
         for (int i = 0; i < options.seeds_per_effect; ++i) add("effect", name, {name}, large, noisy);
-  for (int i = 0; i < options.outside && !outside.empty(); ++i) add("outside", outside[static_cast<std::size_t>(i) % outside.size()], {outside[static_cast<std::size_t>(i) % outside.size()]}, true, i % 2 == 1);
+  for (int i = 0; i < options.outside && !outside.empty(); ++i)
+    add("outside", outside[static_cast<std::size_t>(i) % outside.size()],
+        {outside[static_cast<std::size_t>(i) % outside.size()]}, true, i % 2 == 1);
   RandomStream random(options.first_seed, "trials/doubles");
   for (int i = 0; i < options.doubles; ++i) {
     const int a = random.index(static_cast<int>(inside.size()));
@@ -183,7 +205,8 @@ std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& 
     for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
   }
   if (trial.kind == "alike") return questions;
-  const double rate_per_s = tester::TestConditions{}.strain_rate_per_s, rates_per_s[] = {rate_per_s, kSecondRate * rate_per_s};
+  const double rate_per_s = tester::TestConditions{}.strain_rate_per_s,
+               rates_per_s[] = {rate_per_s, kSecondRate * rate_per_s};
   const std::vector<lab::Question> coupons = pulled_coupons(kCouponFractions, rates_per_s, options.fidelity);
   questions.insert(questions.end(), coupons.begin(), coupons.end());
   return questions;
@@ -193,17 +216,21 @@ void generate(const Trial& trial, const TrialOptions& options, const fs::path& f
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Question> questions = questions_of(trial, options);
   std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
-  parallel_for(static_cast<int>(questions.size()), [&](int i) { responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]); });
+  parallel_for(static_cast<int>(questions.size()), [&](int i) {
+    responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]);
+  });
   std::vector<measurement::SpecimenRecord> records = planned(trial, questions, responses);
   const std::string signals = sealed_signals(trial, options, truth, records);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
   for (std::size_t i = 0; i < records.size(); ++i) order.push_back(static_cast<int>(i) + 1);
   RandomStream random(trial.seed, "trial/print order");
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records[i] = lab::record_specimen(truth, questions[q], responses[q], {records[i].specimen, records[i].batch, order[i]});
+    records[i] =
+        lab::record_specimen(truth, questions[q], responses[q], {records[i].specimen, records[i].batch, order[i]});
   }
   fs::create_directories(folder);
   measurement::write_measurement_set(folder / "set", records);
@@ -212,11 +239,13 @@ void generate(const Trial& trial, const TrialOptions& options, const fs::path& f
 
 void diagnose(const TrialOptions& options, const fs::path& folder) {
   const std::string answer = (folder / "diagnosis.json").string();
-  const std::string command = fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program, (folder / "set").string(), tester::to_string(options.fidelity),
-                                          options.fracture ? "--fracture" : "",
-                                          (folder / "store").string(), answer, (folder / "log").string());
+  const std::string command =
+      fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
+                  (folder / "set").string(), tester::to_string(options.fidelity), options.fracture ? "--fracture" : "",
+                  (folder / "store").string(), answer, (folder / "log").string());
   const int status = std::system(command.c_str());
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());
   fs::rename(answer + ".part", answer);
 }
 
@@ -227,12 +256,18 @@ void print_what_was_ordered(const Trial& trial, const TrialOptions& options, con
   std::vector<measurement::SpecimenRecord> records = measurement::read_measurement_set(folder / "set").specimens;
   const auto diagnosis = nlohmann::json::parse(read_file(kept));
   for (const auto& ordered : diagnosis["next_experiments"]) {
-    lab::Question question{.design = *pattern::design_from_name(ordered["design"].get<std::string>()), .test = *tester::test_kind_from_string(ordered["test"].get<std::string>()), .conditions = {}, .fidelity = options.fidelity};
-    question.conditions = {.orientation_deg = ordered["orientation_deg"], .strain_rate_per_s = ordered["strain_rate_per_s"], .thickness_mm = ordered["thickness_mm"]};
+    lab::Question question{.design = *pattern::design_from_name(ordered["design"].get<std::string>()),
+                           .test = *tester::test_kind_from_string(ordered["test"].get<std::string>()),
+                           .conditions = {},
+                           .fidelity = options.fidelity};
+    question.conditions = {.orientation_deg = ordered["orientation_deg"],
+                           .strain_rate_per_s = ordered["strain_rate_per_s"],
+                           .thickness_mm = ordered["thickness_mm"]};
     const Result<lab::Response> response = lab::respond(truth, question);
     for (int i = 0; i < ordered["replicates"]; ++i) {
       const std::string number = std::to_string(records.size() + 1);
-      records.push_back(lab::record_specimen(truth, question, response, {"ordered-" + number, "batch-3", static_cast<int>(records.size()) + 1}));
+      records.push_back(lab::record_specimen(truth, question, response,
+                                             {"ordered-" + number, "batch-3", static_cast<int>(records.size()) + 1}));
     }
   }
   measurement::write_measurement_set(folder / "set", records);

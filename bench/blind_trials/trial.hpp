@@ -13,11 +13,11 @@ namespace nacre::blind_trials {
 
 /// One trial before it is played. Everything follows from it: designs, constants, scatter.
 struct Trial {
-  std::string name;     ///< unique, a file name
-  std::string kind;     ///< null, effect, outside, double, alike, pair, resolved
+  std::string name;  ///< unique, a file name
+  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved
   std::uint64_t seed = 1;
-  bool large = true;    ///< size of the effects: the upper or the lower third of what the laboratory draws
-  bool noisy = false;   ///< twice the scatter
+  bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
+  bool noisy = false;               ///< twice the scatter
   std::vector<std::string> hidden;  ///< names of the laboratory's effects
 };
 
@@ -33,22 +33,24 @@ struct TrialOptions {
 /// All trials of a study, nulls first.
 std::vector<Trial> all_trials(const TrialOptions& options);
 
-/// One of three fixed designs of 16 layouts, by the trial's seed: random patterns over the strata, turned twins, checkerboards, a second rate and a thinner
-/// twin; beside them homogeneous coupons of five mixtures, pulled with a curve at both rates. Alike causes (droplets that mix, rigid ink
-/// that spreads) are played on layouts as they are and nothing else. Pairs cannot be told apart: coupons at two rates, every fast one of the second batch;
-/// of those to be resolved, what the diagnosis orders is printed in a third batch.
+/// One of three fixed designs of 16 layouts, by the trial's seed: random patterns over the strata, turned twins,
+/// checkerboards, a second rate and a thinner twin; beside them homogeneous coupons of five mixtures, pulled with a
+/// curve at both rates. Alike causes (droplets that mix, rigid ink that spreads) are played on layouts as they are and
+/// nothing else. Pairs cannot be told apart: coupons at two rates, every fast one of the second batch; of those to be
+/// resolved, what the diagnosis orders is printed in a third batch.
 std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
 
-/// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens could show
-/// what is hidden (signal-to-noise, nearest rival, chance that all rivals lose), computed before scatter is drawn.
+/// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens
+/// could show what is hidden (signal-to-noise, nearest rival, chance that all rivals lose), computed before scatter is
+/// drawn.
 void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
-/// Adds what FOLDER/diagnosis.json orders as next experiments to FOLDER/set, a third batch; the diagnosis that ordered it goes to FOLDER/first_diagnosis.json.
-/// Coupons are pulled without unloading them on the way.
+/// Adds what FOLDER/diagnosis.json orders as next experiments to FOLDER/set, a third batch; the diagnosis that ordered
+/// it goes to FOLDER/first_diagnosis.json. Coupons are pulled without unloading them on the way.
 void print_what_was_ordered(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
-/// `nacre diagnose FOLDER/set` as a program of its own, answer in FOLDER/diagnosis.json; fracture simulations are kept in FOLDER/store. Throws InputError when
-/// it fails.
+/// `nacre diagnose FOLDER/set` as a program of its own, answer in FOLDER/diagnosis.json; fracture simulations are kept
+/// in FOLDER/store. Throws InputError when it fails.
 void diagnose(const TrialOptions& options, const std::filesystem::path& folder);
 
 }  // namespace nacre::blind_trials

@@ -35,6 +35,25 @@ std::vector<optimize::Evaluation> read_log(const std::string& file) {
   return told;
 }
 
+/// What the schedule found, in sample and on the designs that were not fitted.
+void add_result(const Options& options, std::uint64_t seed, const optimize::Evaluation& best, std::size_t evaluations,
+                const Case& study_case, const std::function<void()>& may_go_on) {
+  sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
+  const auto predicted = sysid::predict({parameters_at(best.point)}, study_case.held_out, simulator, may_go_on);
+  const sysid::PredictionErrors errors = sysid::prediction_errors(study_case.held_out, predicted.front());
+  Table table(options.out + "/thesis.csv",
+              {"fidelity", "seed", "fitted", "evaluations", "T_objective", "T_held_out", "spearman"}, 4);
+  const std::vector<std::string> key = {options.fidelity, std::to_string(seed), std::to_string(options.fitted),
+                                        std::to_string(evaluations)};
+  if (table.has(key)) return;
+  std::vector<std::string> cells = key;
+  for (const double value : {*best.value, errors.toughness_mean, errors.toughness_spearman})
+    cells.push_back(fmt::format("{:.4f}", value));
+  table.add(cells);
+  fmt::print("seed {}: smallest loss {:.4f} in {} evaluations; T held out {:.3f}, spearman {:.2f}\n", seed, *best.value,
+             evaluations, errors.toughness_mean, errors.toughness_spearman);
+}
+
 void run_schedule(const Options& options, std::uint64_t seed, const std::function<void()>& may_go_on) {
   const Case study_case = measured_case(seed, options, may_go_on);
   const std::vector<double> weights = sysid::sample_weights(study_case.fitted);
@@ -72,7 +91,7 @@ void run_schedule(const Options& options, std::uint64_t seed, const std::functio
     std::ofstream(log, std::ios::app) << lines;
     optimizer->tell(values);
   }
-  fmt::print("seed {}: smallest loss {:.4f}\n", seed, *optimizer->best()->value);
+  add_result(options, seed, *optimizer->best(), read_log(log).size(), study_case, may_go_on);
 }
 
 }  // namespace

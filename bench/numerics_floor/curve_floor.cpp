@@ -1,6 +1,7 @@
-// What the elements of the fracture tester leave of the features that a diagnosis compares (lib/diagnosis/features.hpp): elements of size h
-// against h/2, the layouts and parameter sets of numerics_floor. Finished tests are kept in a table. Result: [FIDELITY.curve] of
-// data/numerics_floor.toml, docs/studies/numerics-floor.md.
+// What the elements of the fracture tester leave of the features that a diagnosis compares
+// (lib/diagnosis/features.hpp): elements of size h against h/2, the layouts and parameter sets of numerics_floor.
+// Finished tests are kept in a table. Result: [FIDELITY.curve] of data/numerics_floor.toml,
+// docs/studies/numerics-floor.md.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -29,7 +30,8 @@ struct Options {
 /// The features of a fracture test, in their order.
 std::vector<Feature> compared() {
   std::vector<Feature> features;
-  for (int f = static_cast<int>(Feature::log_toughness); f <= static_cast<int>(Feature::tail); ++f) features.push_back(static_cast<Feature>(f));
+  for (int f = static_cast<int>(Feature::log_toughness); f <= static_cast<int>(Feature::tail); ++f)
+    features.push_back(static_cast<Feature>(f));
   return features;
 }
 
@@ -46,9 +48,11 @@ std::vector<study::Wanted> wanted_curves(const Plan& plan) {
         simulation.parameters.toughness.gamma_per_s *= refinement * refinement;
         wanted.push_back({toughness_key(plan, i, set, refinement), [=]() -> std::vector<double> {
                             const auto result = tester::test_toughness(simulation, {.refinement = refinement});
-                            const diagnosis::FeatureValues features = result ? diagnosis::fracture_features(result->curve) : diagnosis::FeatureValues{};
+                            const diagnosis::FeatureValues features =
+                                result ? diagnosis::fracture_features(result->curve) : diagnosis::FeatureValues{};
                             std::vector<double> values;
-                            for (const Feature feature : compared()) values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));
+                            for (const Feature feature : compared())
+                              values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));
                             return values;
                           }});
       }
@@ -60,7 +64,8 @@ struct Pair {
   Eigen::VectorXd change;  ///< feature(h/2) - feature(h)
 };
 
-/// Covariance of changes: mean over parameter sets of what all layouts share, of what goes with rigid fraction, and what is left per layout.
+/// Covariance of changes: mean over parameter sets of what all layouts share, of what goes with rigid fraction, and
+/// what is left per layout.
 struct CurveFloor {
   Eigen::MatrixXd shared, rigid, layout;
   int pairs = 0, sets = 0;
@@ -77,13 +82,15 @@ CurveFloor curve_floor(const Plan& plan, const study::StudyTable& table) {
       const auto coarse = table.find(toughness_key(plan, i, s, 1)), fine = table.find(toughness_key(plan, i, s, 2));
       if (!coarse || !fine) continue;
       Pair pair{(plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit, Eigen::VectorXd(count)};
-      for (Eigen::Index f = 0; f < count; ++f) pair.change[f] = (*fine)[static_cast<std::size_t>(f)] - (*coarse)[static_cast<std::size_t>(f)];
+      for (Eigen::Index f = 0; f < count; ++f)
+        pair.change[f] = (*fine)[static_cast<std::size_t>(f)] - (*coarse)[static_cast<std::size_t>(f)];
       if (pair.change.cwiseAbs().maxCoeff() < 0.5 * kMissing && (*fine)[0] < kMissing) pairs.push_back(pair);
     }
     if (pairs.size() < kLeastPairs) continue;
     double n = 0.0, z1 = 0.0, z2 = 0.0;
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(count), sum_z = sum;
-    for (const Pair& pair : pairs) n += 1.0, z1 += pair.z, z2 += pair.z * pair.z, sum += pair.change, sum_z += pair.z * pair.change;
+    for (const Pair& pair : pairs)
+      n += 1.0, z1 += pair.z, z2 += pair.z * pair.z, sum += pair.change, sum_z += pair.z * pair.change;
     const double determinant = n * z2 - z1 * z1;
     const Eigen::VectorXd middle = (z2 * sum - z1 * sum_z) / determinant, slope = (n * sum_z - z1 * sum) / determinant;
     floor.shared += middle * middle.transpose();
@@ -105,7 +112,8 @@ std::string text_of(const Eigen::MatrixXd& matrix) {
   std::string text = "[\n";
   for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
     text += "  [";
-    for (Eigen::Index column = 0; column < matrix.cols(); ++column) text += fmt::format("{}{:.3e}", column == 0 ? "" : ", ", matrix(row, column));
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      text += fmt::format("{}{:.3e}", column == 0 ? "" : ", ", matrix(row, column));
     text += "],\n";
   }
   return text + "]";
@@ -124,8 +132,11 @@ void run(const Options& options) {
   const CurveFloor floor = curve_floor(plan, table);
   std::string names;
   for (const std::string& name : columns) names += (names.empty() ? "\"" : ", \"") + name + "\"";
-  fmt::print("[{}.curve]  # {} pairs, {} parameter sets\nfeatures = [{}]\ncovariance_shared = {}\ncovariance_rigid = {}\ncovariance_layout = {}\n", options.fidelity, floor.pairs, floor.sets, names,
-             text_of(floor.shared), text_of(floor.rigid), text_of(floor.layout));
+  fmt::print(
+      "[{}.curve]  # {} pairs, {} parameter sets\nfeatures = [{}]\ncovariance_shared = {}\ncovariance_rigid = "
+      "{}\ncovariance_layout = {}\n",
+      options.fidelity, floor.pairs, floor.sets, names, text_of(floor.shared), text_of(floor.rigid),
+      text_of(floor.layout));
 }
 
 }  // namespace
@@ -133,7 +144,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Numerics floor of the features of a curve: elements of size h against h/2"};
   Options options;
-  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")->check(CLI::Range(12, 1000));
+  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")
+      ->check(CLI::Range(12, 1000));
   app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
   app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
   study::add_fidelity_option(app, options.fidelity);

@@ -17,7 +17,7 @@ struct Plan {
   std::uint64_t seed = 1;
   std::vector<pattern::Pattern> layouts;
   std::vector<material::ParameterSet> sets;  ///< the first is the default
-  int sets_per_layout = 5;                   ///< of a fracture test, in turn; every layout with all of them: as many as sets
+  int sets_per_layout = 5;  ///< of a fracture test, in turn; every layout with all of them: as many as sets
 };
 
 /// Half of the layouts random, stratified over 50-85 % rigid; half the best ones (by rank) of a gamut.
@@ -27,13 +27,14 @@ std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_
 std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_t seed);
 
 /// E on elements of size h / refinement, Pa. Throws InputError when a simulation fails.
-double modulus_pa(const Plan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta, int refinement);
+double modulus_pa(const Plan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta,
+                  int refinement);
 
 inline const std::vector<std::string> kToughnessColumns = {"toughness_pa", "peak_stress_pa", "failure_strain"};
 std::string toughness_key(const Plan& plan, std::size_t layout, std::size_t set, int refinement);
 
-/// Fracture tests at h and h/2, thresholds times 2 and damping times 4 (the filter's viscosity is gamma h^2): first every
-/// layout with one parameter set, in turn, then with the next one. A failed test gives zeros.
+/// Fracture tests at h and h/2, thresholds times 2 and damping times 4 (the filter's viscosity is gamma h^2): first
+/// every layout with one parameter set, in turn, then with the next one. A failed test gives zeros.
 std::vector<study::Wanted> wanted_fracture_tests(const Plan& plan);
 
 }  // namespace nacre::numerics_floor

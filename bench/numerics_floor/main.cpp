@@ -1,6 +1,7 @@
-// What the testers' elements leave of an error: features on elements of size h against h/2 at shared fracture energy, over
-// random and front-like layouts and several parameter sets, after a base refit. Finished fracture tests are kept in a
-// table, so that the study goes on where it stopped. Results: data/numerics_floor.toml, docs/studies/numerics-floor.md.
+// What the testers' elements leave of an error: features on elements of size h against h/2 at shared fracture energy,
+// over random and front-like layouts and several parameter sets, after a base refit. Finished fracture tests are kept
+// in a table, so that the study goes on where it stopped. Results: data/numerics_floor.toml,
+// docs/studies/numerics-floor.md.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -31,8 +32,8 @@ void run(const Options& options) {
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
   if (missing > 0 && options.output.empty()) return;
   const ModulusFloor moduli = modulus_floor(plan, options.table.threads);
-  const std::string text = fmt::format("[{}]\n{}{}", options.fidelity, to_toml(moduli, plan),
-                                       to_toml(toughness_floor(plan, table, moduli)));
+  const std::string text =
+      fmt::format("[{}]\n{}{}", options.fidelity, to_toml(moduli, plan), to_toml(toughness_floor(plan, table, moduli)));
   fmt::print("{}", text);
   if (!options.output.empty()) write_file_atomically(options.output, text);
 }
@@ -42,9 +43,11 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Numerics floor: the testers on elements of size h against h/2"};
   Options options;
-  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")->check(CLI::Range(12, 1000));
+  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")
+      ->check(CLI::Range(12, 1000));
   app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
-  app.add_option("--sets-per-layout", options.sets_per_layout, "Of a fracture test: each layout gets so many, in turn")->check(CLI::Range(1, 100));
+  app.add_option("--sets-per-layout", options.sets_per_layout, "Of a fracture test: each layout gets so many, in turn")
+      ->check(CLI::Range(1, 100));
   app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
   study::add_fidelity_option(app, options.fidelity);
   study::add_table_options(app, options.table, "layouts and parameter sets");

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kManyRigid = 0.75;  // proposals lie above it
 
-std::vector<double> log_moduli(const Plan& plan, const material::ModulusParameters& theta, int refinement, int threads) {
+std::vector<double> log_moduli(const Plan& plan, const material::ModulusParameters& theta, int refinement,
+                               int threads) {
   std::vector<double> logs(plan.layouts.size());
   parallel_for(
       static_cast<int>(logs.size()),
@@ -37,8 +38,8 @@ std::vector<double> centred(std::vector<double> values) {
   return values;
 }
 
-/// Limit of log E at vanishing elements less that at h, by Aitken's extrapolation of h, h/2, h/4; the common ratio of the
-/// two changes is taken over all layouts, since it is the order of convergence.
+/// Limit of log E at vanishing elements less that at h, by Aitken's extrapolation of h, h/2, h/4; the common ratio of
+/// the two changes is taken over all layouts, since it is the order of convergence.
 std::vector<double> extrapolated(const std::vector<double>& first, const std::vector<double>& second, double ratio) {
   std::vector<double> changes;
   for (std::size_t i = 0; i < first.size(); ++i) changes.push_back(first[i] + second[i] / (1.0 - ratio));
@@ -51,7 +52,9 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-void append(std::vector<double>& all, const std::vector<double>& more) { all.insert(all.end(), more.begin(), more.end()); }
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 }  // namespace
 
@@ -60,7 +63,8 @@ ModulusFloor modulus_floor(const Plan& plan, int threads) {
   std::vector<double> changes, rescaled, left, left_of[2], first_changes, second_changes;
   int lost = 0;
   for (const material::ParameterSet& set : plan.sets) {
-    const std::vector<double> coarse = log_moduli(plan, set.modulus, 1, threads), half = log_moduli(plan, set.modulus, 2, threads),
+    const std::vector<double> coarse = log_moduli(plan, set.modulus, 1, threads),
+                              half = log_moduli(plan, set.modulus, 2, threads),
                               quarter = log_moduli(plan, set.modulus, 4, threads);
     const std::vector<double> change = minus(half, coarse);
     append(changes, change);
@@ -95,8 +99,10 @@ std::string to_toml(const ModulusFloor& floor, const Plan& plan) {
       "log_modulus_mean = {:.4f}  # log E(h/2) - log E(h)\n"
       "log_modulus_sd_rescaled = {:.5f}  # after one common factor\n"
       "log_modulus_sd = {:.5f}  # after a refit of 6 constants; below 75 % rigid {:.5f}, from there {:.5f}\n"
-      "# Covariance of log E(0) - log E(h) between layouts i and j: amplitude^2 c_i c_j + (i = j) remainder_sd^2, where c is\n"
-      "# log E(h/2) - log E(h) of the layout itself, which a diagnosis computes. Observed order of convergence {:.2f}.\n"
+      "# Covariance of log E(0) - log E(h) between layouts i and j: amplitude^2 c_i c_j + (i = j) remainder_sd^2, "
+      "where c is\n"
+      "# log E(h/2) - log E(h) of the layout itself, which a diagnosis computes. Observed order of convergence "
+      "{:.2f}.\n"
       "mesh_amplitude = {:.3f}\nmesh_remainder_sd = {:.5f}\n",
       plan.layouts.size(), plan.sets.size(), floor.mean, floor.sd_rescaled, floor.sd, floor.at_sd[0], floor.at_sd[1],
       floor.observed_order, floor.mesh_amplitude, floor.mesh_remainder_sd);

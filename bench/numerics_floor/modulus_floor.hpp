@@ -15,7 +15,7 @@ struct ModulusFloor {
   /// log E(0) - log E(h) = amplitude x (log E(h/2) - log E(h)) + remainder, with E(0) extrapolated from h, h/2 and h/4.
   double mesh_amplitude = 0.0;
   double mesh_remainder_sd = 0.0;
-  double observed_order = 0.0;                  ///< log2 of the ratio of the two changes, mean
+  double observed_order = 0.0;                 ///< log2 of the ratio of the two changes, mean
   std::vector<std::vector<double>> residuals;  ///< [set][layout], after the refit
 };
 

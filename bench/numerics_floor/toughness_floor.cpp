@@ -23,7 +23,8 @@ struct Pair {
   FeatureVector change;  ///< feature(h/2) - feature(h)
 };
 
-std::vector<Pair> finished_pairs(const Plan& plan, const study::StudyTable& table, const ModulusFloor& moduli, int& failed) {
+std::vector<Pair> finished_pairs(const Plan& plan, const study::StudyTable& table, const ModulusFloor& moduli,
+                                 int& failed) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < plan.layouts.size(); ++i)
     for (std::size_t s = 0; s < plan.sets.size(); ++s) {
@@ -37,7 +38,8 @@ std::vector<Pair> finished_pairs(const Plan& plan, const study::StudyTable& tabl
       pair.z = (plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit;
       pair.change[0] = moduli.residuals[s][i];  // refitted already
       for (int f = 1; f < kFeatures; ++f)
-        pair.change[f] = std::log((*fine)[static_cast<std::size_t>(f - 1)] / (*coarse)[static_cast<std::size_t>(f - 1)]);
+        pair.change[f] =
+            std::log((*fine)[static_cast<std::size_t>(f - 1)] / (*coarse)[static_cast<std::size_t>(f - 1)]);
       pairs.push_back(pair);
     }
   return pairs;
@@ -74,7 +76,8 @@ std::string matrix_text(const FeatureMatrix& matrix) {
   std::string text = "[";
   for (int row = 0; row < kFeatures; ++row) {
     text += row == 0 ? "[" : ", [";
-    for (int column = 0; column < kFeatures; ++column) text += fmt::format("{}{:.3e}", column == 0 ? "" : ", ", matrix(row, column));
+    for (int column = 0; column < kFeatures; ++column)
+      text += fmt::format("{}{:.3e}", column == 0 ? "" : ", ", matrix(row, column));
     text += "]";
   }
   return text + "]";
@@ -144,13 +147,15 @@ ToughnessFloor toughness_floor(const Plan& plan, const study::StudyTable& table,
 
 std::string to_toml(const ToughnessFloor& floor) {
   if (floor.sets == 0) return "";
-  std::string text = fmt::format("toughness_layouts = {}\ntoughness_parameter_sets = {}\ntoughness_pairs = {}\n", floor.layouts,
-                                 floor.sets, floor.pairs);
+  std::string text = fmt::format("toughness_layouts = {}\ntoughness_parameter_sets = {}\ntoughness_pairs = {}\n",
+                                 floor.layouts, floor.sets, floor.pairs);
   for (int f = 1; f < kFeatures; ++f)
-    text += fmt::format("{}_mean = {:.4f}\n{}_sd = {:.5f}  # after one common factor per parameter set\n", kFeatureNames[f],
-                        floor.mean[f], kFeatureNames[f], floor.sd[f]);
-  text += fmt::format("# log T below 75 % rigid {:.3f}, from there {:.3f}; same layout, other parameters: correlation {:.2f} ({} pairs)\n",
-                      floor.at_sd[0], floor.at_sd[1], floor.same_layout, floor.repeated);
+    text += fmt::format("{}_mean = {:.4f}\n{}_sd = {:.5f}  # after one common factor per parameter set\n",
+                        kFeatureNames[f], floor.mean[f], kFeatureNames[f], floor.sd[f]);
+  text += fmt::format(
+      "# log T below 75 % rigid {:.3f}, from there {:.3f}; same layout, other parameters: correlation {:.2f} ({} "
+      "pairs)\n",
+      floor.at_sd[0], floor.at_sd[1], floor.same_layout, floor.repeated);
   text += fmt::format("toughness_spearman = {:.3f}\n", floor.spearman);
   text +=
       "# Covariance between features (of layouts i and j; z = (rigid fraction - 0.675) / 0.1) that a refit leaves:\n"

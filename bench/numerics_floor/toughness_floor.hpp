@@ -10,7 +10,8 @@ namespace nacre::numerics_floor {
 
 /// log E, log T, log peak stress, log failure strain.
 inline constexpr int kFeatures = 4;
-inline constexpr const char* kFeatureNames[kFeatures] = {"log_modulus", "log_toughness", "log_peak", "log_failure_strain"};
+inline constexpr const char* kFeatureNames[kFeatures] = {"log_modulus", "log_toughness", "log_peak",
+                                                         "log_failure_strain"};
 using FeatureMatrix = Eigen::Matrix<double, kFeatures, kFeatures>;
 using FeatureVector = Eigen::Matrix<double, kFeatures, 1>;
 
@@ -19,14 +20,14 @@ using FeatureVector = Eigen::Matrix<double, kFeatures, 1>;
 /// dimensions prescribe (T with W; stress with sqrt(E W); strain with sqrt(W / E)).
 struct ToughnessFloor {
   int pairs = 0, layouts = 0, sets = 0, failed = 0;
-  FeatureVector mean, sd;     ///< feature(h/2) - feature(h) before the refit; sd after one common factor per set
-  double spearman = 0.0;      ///< of T, mean over the parameter sets
-  double at_sd[2] = {};       ///< of log T below and from 75 % rigid
+  FeatureVector mean, sd;  ///< feature(h/2) - feature(h) before the refit; sd after one common factor per set
+  double spearman = 0.0;   ///< of T, mean over the parameter sets
+  double at_sd[2] = {};    ///< of log T below and from 75 % rigid
   /// Covariance of what is left between layouts i and j with z = (rigid fraction - 0.675) / 0.1:
   /// shared + z_i z_j rigid + (i = j) layout.
   FeatureMatrix shared, rigid, layout;
-  double same_layout = 0.0;   ///< correlation of log T between parameter sets of one layout; 0 when never repeated
-  int repeated = 0;           ///< pairs of parameter sets behind it
+  double same_layout = 0.0;  ///< correlation of log T between parameter sets of one layout; 0 when never repeated
+  int repeated = 0;          ///< pairs of parameter sets behind it
 };
 
 ToughnessFloor toughness_floor(const Plan& plan, const study::StudyTable& table, const ModulusFloor& moduli);

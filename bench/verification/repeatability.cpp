@@ -25,7 +25,8 @@ struct Options {
 };
 
 /// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5).
-material::ToughnessParameters perturbed(const material::ToughnessParameters& eta, double relative, RandomStream& random) {
+material::ToughnessParameters perturbed(const material::ToughnessParameters& eta, double relative,
+                                        RandomStream& random) {
   material::ToughnessVector vector = material::to_vector(eta);
   for (double& value : vector) value *= 1.0 + relative * random.normal();
   for (std::size_t i = 3; i < 6; ++i) vector[i] = std::min(vector[i], 0.499);
@@ -68,7 +69,8 @@ void print_row(const Options& options, const std::vector<pattern::Pattern>& patt
   for (const pattern::Pattern& pattern : patterns) {
     std::vector<double> logs[3];
     for (int draw = -1; draw < options.draws; ++draw) {
-      const auto row = table.find(draw < 0 ? key_of(options, pattern, 0.0, 0) : key_of(options, pattern, relative, draw));
+      const auto row =
+          table.find(draw < 0 ? key_of(options, pattern, 0.0, 0) : key_of(options, pattern, relative, draw));
       if (!row || (*row)[0] <= 0.0) continue;
       for (std::size_t feature = 0; feature < 3; ++feature) logs[feature].push_back(std::log((*row)[feature]));
     }
@@ -91,7 +93,8 @@ void run(const Options& options) {
   const int missing = study::fill(table, wanted_rows(options, patterns), options.table.seconds, options.table.threads);
   fmt::print("{}: standard deviations between runs of one pattern whose parameters differ by this much\n\n",
              options.fidelity);
-  fmt::print("| relative | patterns | log T (rms) | log T (median) | largest range of log T | log peak | log strain |\n");
+  fmt::print(
+      "| relative | patterns | log T (rms) | log T (median) | largest range of log T | log peak | log strain |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
   for (const double relative : kPerturbations) print_row(options, patterns, table, relative);
   if (missing > 0) fmt::print("\n{} simulations are still missing: run it again\n", missing);

@@ -43,7 +43,8 @@ std::string key_of(const Options& options, const pattern::Pattern& pattern, cons
   return fmt::format("{} {} {} {}", options.fidelity, options.table.seed, pattern.key(), variant.name);
 }
 
-Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Variant& variant, tester::Fidelity fidelity) {
+Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Variant& variant,
+                                     tester::Fidelity fidelity) {
   tester::Simulation simulation{pattern, material::default_parameters(), {}, fidelity};
   simulation.parameters.toughness.gamma_per_s *= variant.gamma_scale;
   const tester::FractureTest test = tester::fracture_test(simulation, variant.numerics);
@@ -54,7 +55,8 @@ void print_row(const Options& options, const std::vector<pattern::Pattern>& patt
                const Variant& variant) {
   std::vector<double> ratios, sizes, own, reference;
   for (const pattern::Pattern& pattern : patterns) {
-    const auto row = table.find(key_of(options, pattern, variant)), base = table.find(key_of(options, pattern, {"the tester"}));
+    const auto row = table.find(key_of(options, pattern, variant)),
+               base = table.find(key_of(options, pattern, {"the tester"}));
     if (!row || !base || (*row)[0] <= 0.0 || (*base)[0] <= 0.0) continue;
     own.push_back((*row)[0]);
     reference.push_back((*base)[0]);
@@ -62,8 +64,8 @@ void print_row(const Options& options, const std::vector<pattern::Pattern>& patt
     sizes.push_back(std::abs(own.back() / reference.back() - 1.0));
   }
   if (ratios.empty()) return;
-  fmt::print("| {} | {} | {:+.3f} | {:.3f} | {:.2f} % | {:.1f} % | {:.3f} |\n", variant.name, ratios.size(), mean(ratios),
-             standard_deviation(ratios), 100.0 * quantile(sizes, 0.5), 100.0 * quantile(sizes, 1.0),
+  fmt::print("| {} | {} | {:+.3f} | {:.3f} | {:.2f} % | {:.1f} % | {:.3f} |\n", variant.name, ratios.size(),
+             mean(ratios), standard_deviation(ratios), 100.0 * quantile(sizes, 0.5), 100.0 * quantile(sizes, 1.0),
              rank_correlation(own, reference));
 }
 

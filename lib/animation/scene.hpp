@@ -6,8 +6,8 @@
 namespace nacre::animation {
 
 /// Draws a film for people: the deformed specimen between its grips with the energy density over the materials, failed
-/// elements left out (those that failed since the frame before bright), letters where a toughening mechanism shows (crack/marks.hpp), colour scale, scale bar, and the stress-strain
-/// curve with a marker. 16:9.
+/// elements left out (those that failed since the frame before bright), letters where a toughening mechanism shows
+/// (crack/marks.hpp), colour scale, scale bar, and the stress-strain curve with a marker. 16:9.
 class Scene {
  public:
   /// The film must outlive the scene. width_points >= 320.

@@ -104,8 +104,8 @@ void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placeme
   const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
   const std::vector<crack::Mark> marks = crack::marks_of(grid_of(film), film.crack);
   const std::vector<Point> node = node_positions(film, frame, placement);
-  constexpr double kAside = 14.0;    // the crack itself stays in sight
-  constexpr int kMostOfAKind = 5;    // more would cover the specimen; branches come longest first
+  constexpr double kAside = 14.0;  // the crack itself stays in sight
+  constexpr int kMostOfAKind = 5;  // more would cover the specimen; branches come longest first
   std::array<int, crack::kMarkKinds> shown{};
   for (const crack::Mark& mark : marks) {
     if (frame.strain < mark.strain || frame.strain > mark.until_strain) continue;

@@ -20,6 +20,8 @@ inline toml::table read_toml(std::string_view text, const std::string& source) {
 }
 
 /// The document of a TOML file. Throws InputError naming file and line.
-inline toml::table read_toml_file(const std::filesystem::path& file) { return read_toml(read_file(file), file.string()); }
+inline toml::table read_toml_file(const std::filesystem::path& file) {
+  return read_toml(read_file(file), file.string());
+}
 
 }  // namespace nacre

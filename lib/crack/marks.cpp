@@ -21,7 +21,8 @@ struct FailedPath {
   bool failed(int element) const { return strain_of.contains(element); }
   int row(int element) const { return element / grid.columns; }
   fem::Phase phase(int element) const { return grid.phase[static_cast<std::size_t>(element)]; }
-  /// When the path has got as far as its i-th element: when that, or for a standing one the next failed one, has failed.
+  /// When the path has got as far as its i-th element: when that, or for a standing one the next failed one, has
+  /// failed.
   double strain_at(std::size_t i) const {
     for (; i < elements.size(); ++i)
       if (const auto found = strain_of.find(elements[i]); found != strain_of.end()) return found->second;
@@ -63,9 +64,11 @@ void each_run(const std::vector<int>& elements, const Belongs& belongs, const Us
 }
 
 void mark_bridging(const FailedPath& path, std::vector<Mark>& marks) {
-  each_run(path.elements, [&](int e) { return !path.failed(e); }, [&](std::size_t first, std::size_t end) {
-    marks.push_back({MarkKind::bridging, path.elements[(first + end) / 2], path.strain_at(first), kToTheEnd});
-  });
+  each_run(
+      path.elements, [&](int e) { return !path.failed(e); },
+      [&](std::size_t first, std::size_t end) {
+        marks.push_back({MarkKind::bridging, path.elements[(first + end) / 2], path.strain_at(first), kToTheEnd});
+      });
 }
 
 void mark_arrest(const FailedPath& path, std::vector<Mark>& marks) {

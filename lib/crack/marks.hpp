@@ -14,9 +14,9 @@ std::string_view to_string(MarkKind kind);
 
 struct Mark {
   MarkKind kind = MarkKind::deflection;
-  int element = 0;           ///< in the middle of what is marked
-  double strain = 0.0;       ///< shown from here on
-  double until_strain = 0.0; ///< and up to here; infinity: to the end
+  int element = 0;            ///< in the middle of what is marked
+  double strain = 0.0;        ///< shown from here on
+  double until_strain = 0.0;  ///< and up to here; infinity: to the end
   bool operator==(const Mark&) const = default;
 };
 
@@ -27,10 +27,10 @@ inline constexpr double kShortestArrest = 0.05;
 /// So many elements of the path in a row in soft material or interfaces are a guided stretch (three pixels).
 inline constexpr int kShortestGuidedRun = 6;
 
-/// Marks of a crack in the notched specimen as it was before the test: deflection, where the path is farthest above or below
-/// its beginning; branching, at the tip of each branch; bridging, in the middle of each ligament that stands in the path;
-/// arrest, where the tip waits in front of soft material, while it waits; guidance, in the middle of each guided stretch. By
-/// kind, along the path. None without a path. The strains are those of record.order.
+/// Marks of a crack in the notched specimen as it was before the test: deflection, where the path is farthest above or
+/// below its beginning; branching, at the tip of each branch; bridging, in the middle of each ligament that stands in
+/// the path; arrest, where the tip waits in front of soft material, while it waits; guidance, in the middle of each
+/// guided stretch. By kind, along the path. None without a path. The strains are those of record.order.
 std::vector<Mark> marks_of(const fem::Grid& notched, const Record& record);
 
 /// The tip of each branch of a record, longest first: record.branches of them.

@@ -16,11 +16,11 @@ struct Mechanisms {
   double branching = 0.0;
   /// Bridging: share of the path that stands when the test ends; ligaments hold the faces together behind the tip.
   double bridging = 0.0;
-  /// Soft-phase arrest: share of the strain between the path's first and last failure that passes while the tip waits in front of a soft
-  /// element.
+  /// Soft-phase arrest: share of the strain between the path's first and last failure that passes while the tip waits
+  /// in front of a soft element.
   double soft_arrest = 0.0;
-  /// Defect guidance: share of the path's failed length in soft and interface elements less their share of the specimen.
-  /// Below 0: the crack shuns them.
+  /// Defect guidance: share of the path's failed length in soft and interface elements less their share of the
+  /// specimen. Below 0: the crack shuns them.
   double guidance = 0.0;
 };
 
@@ -32,7 +32,8 @@ struct Mechanism {
 std::array<Mechanism, 5> mechanism_names();
 std::array<double, 5> values_of(const Mechanisms& mechanisms);
 
-/// From the record of a crack and the specimen's phases as they were before the test (notch empty). All zero without a path.
+/// From the record of a crack and the specimen's phases as they were before the test (notch empty). All zero without a
+/// path.
 Mechanisms mechanisms_of(const fem::Grid& notched, const Record& record);
 
 /// The same for the toughness test of a simulation (unrefined).

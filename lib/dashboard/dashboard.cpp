@@ -159,8 +159,7 @@ Response Dashboard::design(const Request& request) {
 }
 
 Json Dashboard::simulation_state(const std::string& design, const std::string& model) {
-  if (films_.name_in_run(*data_.record(), design, model))
-    return {{"state", "ready"}, {"source", "run"}};
+  if (films_.name_in_run(*data_.record(), design, model)) return {{"state", "ready"}, {"source", "run"}};
   const Background::State state = films_.made(design, model);
   Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
   if (state.result) {
@@ -255,8 +254,8 @@ Response Dashboard::between(const Request& request) {
 
 Response Dashboard::families(const Request&) {
   const auto record = data_.record();
-  Json json = families_json(
-      *record, family_folder_.grouping(measured_members(*record), settings_.scenario.families.rank));
+  Json json =
+      families_json(*record, family_folder_.grouping(measured_members(*record), settings_.scenario.families.rank));
   json["enabled"] = settings_.scenario.families.enabled;
   return json_response(json);
 }

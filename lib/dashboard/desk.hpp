@@ -70,7 +70,8 @@ class Desk {
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Answer judge(const Judgement& judgement) = 0;
   virtual Answer decide(const Decision& decision) = 0;
-  /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is called.
+  /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is
+  /// called.
   virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;
 };
 

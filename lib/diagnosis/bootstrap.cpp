@@ -41,13 +41,17 @@ double chi_square(int dof, RandomStream& random) {
 
 }  // namespace
 
-double DrawStatistics::largest_drop() const { return drops.empty() ? 0.0 : *std::max_element(drops.begin(), drops.end()); }
+double DrawStatistics::largest_drop() const {
+  return drops.empty() ? 0.0 : *std::max_element(drops.begin(), drops.end());
+}
 
 double DrawStatistics::largest_contrast() const {
   return contrasts.empty() ? 0.0 : *std::max_element(contrasts.begin(), contrasts.end());
 }
 
-DataSource::DataSource(const Observations& observations) : to_combinations_(Eigen::MatrixXd::Zero(observations.size(), observations.size())), scatter_share_(observations.size()) {
+DataSource::DataSource(const Observations& observations)
+    : to_combinations_(Eigen::MatrixXd::Zero(observations.size(), observations.size())),
+      scatter_share_(observations.size()) {
   const CovarianceParts parts = observations.covariance_parts();
   const Eigen::MatrixXd total = parts.fixed + parts.scatter;
   Eigen::Index next = 0;
@@ -62,7 +66,8 @@ DataSource::DataSource(const Observations& observations) : to_combinations_(Eige
     // Whitened from both sides, the scatter is symmetric again, its eigenvalues the shares.
     const Eigen::MatrixXd half = whitener(parts.scatter(rows, rows));
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shares(whitener(half.transpose()));
-    to_combinations_(Eigen::seqN(next, count), rows) = shares.eigenvectors().transpose() * whitener(Eigen::MatrixXd::Identity(count, count));
+    to_combinations_(Eigen::seqN(next, count), rows) =
+        shares.eigenvectors().transpose() * whitener(Eigen::MatrixXd::Identity(count, count));
     scatter_share_.segment(next, count) = shares.eigenvalues();
     scatter_.insert(scatter_.end(), rows.size(), k);
     next += count;
@@ -90,7 +95,8 @@ ScatterFactors DataSource::draw_factors(RandomStream& random) const {
 
 Eigen::VectorXd DataSource::variances(const ScatterFactors& factors) const {
   Eigen::VectorXd variances(scatter_share_.size());
-  for (Eigen::Index i = 0; i < variances.size(); ++i) variances[i] = 1.0 + (factors[scatter_[static_cast<std::size_t>(i)]] - 1.0) * scatter_share_[i];
+  for (Eigen::Index i = 0; i < variances.size(); ++i)
+    variances[i] = 1.0 + (factors[scatter_[static_cast<std::size_t>(i)]] - 1.0) * scatter_share_[i];
   return variances;
 }
 
@@ -115,9 +121,11 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
     }
     statistics.drops.push_back(best);
   }
-  // Directions are given in the features' own units; whitened and projected they are contrasts that noise scatters with unit variance.
+  // Directions are given in the features' own units; whitened and projected they are contrasts that noise scatters with
+  // unit variance.
   Eigen::MatrixXd directions(data.values.size(), static_cast<Eigen::Index>(anchor.directions.size()));
-  for (Eigen::Index k = 0; k < directions.cols(); ++k) directions.col(k) = anchor.directions[static_cast<std::size_t>(k)].values;
+  for (Eigen::Index k = 0; k < directions.cols(); ++k)
+    directions.col(k) = anchor.directions[static_cast<std::size_t>(k)].values;
   const Eigen::MatrixXd whitened = projector.whitened(directions), g = projector.projected(directions);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     const double length = g.col(k).norm();
@@ -128,7 +136,8 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   return statistics;
 }
 
-std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count, std::uint64_t seed) {
+std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count,
+                                             std::uint64_t seed) {
   std::vector<DrawStatistics> draws(static_cast<std::size_t>(count));
   const DataSource source(observations);
   const Anchor combined = source.combined(anchor);
@@ -139,9 +148,10 @@ std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observa
   return draws;
 }
 
-RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations, int count,
-                                std::uint64_t seed) {
-  RivalStatistics statistics{std::vector<double>(static_cast<std::size_t>(count)), std::vector<double>(static_cast<std::size_t>(count))};
+RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations,
+                                int count, std::uint64_t seed) {
+  RivalStatistics statistics{std::vector<double>(static_cast<std::size_t>(count)),
+                             std::vector<double>(static_cast<std::size_t>(count))};
   const DataSource source(observations);
   std::vector<Fit> combined;
   for (const Fit& rival : rivals) combined.push_back(source.combined(rival));
@@ -169,6 +179,8 @@ SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, c
   return {projector.whitened(change).norm(), projector.projected(change).norm()};
 }
 
-Eigen::MatrixXd projected_signatures(const Fit& anchor, const Eigen::MatrixXd& changes, const Whitener& whitener) { return Projector(anchor, whitener).projected(changes); }
+Eigen::MatrixXd projected_signatures(const Fit& anchor, const Eigen::MatrixXd& changes, const Whitener& whitener) {
+  return Projector(anchor, whitener).projected(changes);
+}
 
 }  // namespace nacre::diagnosis

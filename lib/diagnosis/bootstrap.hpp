@@ -1,6 +1,6 @@
 #pragma once
-// Parametric bootstrap of the whole decision: data are drawn from a fitted model with the noise of the actual design (replicate
-// scatter re-estimated in every draw, numerics floor), and everything is refitted on linearised models.
+// Parametric bootstrap of the whole decision: data are drawn from a fitted model with the noise of the actual design
+// (replicate scatter re-estimated in every draw, numerics floor), and everything is refitted on linearised models.
 
 #include <Eigen/Dense>
 #include <string>
@@ -21,9 +21,9 @@ struct Signature {
 
 /// Statistics of one data set against an anchor model.
 struct DrawStatistics {
-  double chi2 = 0.0;                ///< of the anchor, refitted
-  std::vector<double> drops;        ///< by how much each signature lowers it
-  std::vector<double> contrasts;    ///< projected residual along each direction, in standard deviations
+  double chi2 = 0.0;              ///< of the anchor, refitted
+  std::vector<double> drops;      ///< by how much each signature lowers it
+  std::vector<double> contrasts;  ///< projected residual along each direction, in standard deviations
   double largest_drop() const;
   double largest_contrast() const;
 };
@@ -41,9 +41,9 @@ struct NoisyData {
   Whitener whitener;
 };
 
-/// Draws data sets of the actual design as if a truth were exact, in combinations of rows that stay independent whatever scatter the replicates of a
-/// draw suggest: those that diagonalise scatter and total covariance at once. A draw costs O(rows), where the rows themselves would need a Cholesky
-/// factorisation each.
+/// Draws data sets of the actual design as if a truth were exact, in combinations of rows that stay independent
+/// whatever scatter the replicates of a draw suggest: those that diagonalise scatter and total covariance at once. A
+/// draw costs O(rows), where the rows themselves would need a Cholesky factorisation each.
 class DataSource {
  public:
   explicit DataSource(const Observations& observations);
@@ -70,15 +70,17 @@ class DataSource {
 DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data);
 
 /// `count` draws of the statistics when the anchor is true; the same for every number of cores.
-std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count, std::uint64_t seed);
+std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count,
+                                             std::uint64_t seed);
 
-/// Statistics of rival models when `rivals[truth]` is true: chi2 of that rival, and by how much the best other one beats it.
+/// Statistics of rival models when `rivals[truth]` is true: chi2 of that rival, and by how much the best other one
+/// beats it.
 struct RivalStatistics {
   std::vector<double> chi2;
   std::vector<double> lead_of_best_other;
 };
-RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations, int count,
-                                std::uint64_t seed);
+RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations,
+                                int count, std::uint64_t seed);
 
 /// (1 + number of draws at least as large) / (1 + draws).
 double exceedance(const std::vector<double>& draws, double observed);

@@ -13,10 +13,13 @@ namespace {
 constexpr int kTypicalSize = 2;  // index of 0.3 among the sizes of a signature
 
 bool holds(const std::vector<Fit>& fits, const std::string& effect) {
-  return std::any_of(fits.begin(), fits.end(), [&](const Fit& f) { return std::find(f.effects.begin(), f.effects.end(), effect) != f.effects.end(); });
+  return std::any_of(fits.begin(), fits.end(), [&](const Fit& f) {
+    return std::find(f.effects.begin(), f.effects.end(), effect) != f.effects.end();
+  });
 }
 
-/// The change between base and the joint fit, in what the base cannot imitate; a typical one where the fit found nothing.
+/// The change between base and the joint fit, in what the base cannot imitate; a typical one where the fit found
+/// nothing.
 Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed) {
   const Eigen::VectorXd fitted = evidence.singles[k].predicted - evidence.base.fit.predicted;
   return noticed ? fitted : evidence.base.signatures[k].changes.col(kTypicalSize);
@@ -27,7 +30,9 @@ Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed)
 std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision) {
   const Whitener whitener(evidence.observations.covariance());
   Eigen::MatrixXd changes(evidence.observations.size(), static_cast<Eigen::Index>(evidence.effects.size()));
-  for (std::size_t k = 0; k < evidence.effects.size(); ++k) changes.col(static_cast<Eigen::Index>(k)) = change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level);
+  for (std::size_t k = 0; k < evidence.effects.size(); ++k)
+    changes.col(static_cast<Eigen::Index>(k)) =
+        change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level);
   const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
   std::vector<Candidate> candidates;
   for (const material::Effect& effect : material::effect_library()) {
@@ -41,7 +46,8 @@ std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& d
     }
     const auto k = static_cast<std::size_t>(found - evidence.effects.begin());
     const Fit& single = evidence.singles[k];
-    const SignatureSize typical = signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(kTypicalSize), whitener);
+    const SignatureSize typical =
+        signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(kTypicalSize), whitener);
     candidate.statistic = evidence.base.fit.chi2 - single.chi2;
     candidate.p_family_wise = decision.p_family_wise[k];
     candidate.p_fit = decision.p_fit[k];
@@ -51,13 +57,18 @@ std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& d
     for (std::size_t j = 0; j < evidence.effects.size(); ++j) {
       const double lengths = candidate.signal_to_noise * projected.col(static_cast<Eigen::Index>(j)).norm();
       if (j == k || lengths < 1e-9) continue;
-      const double cosine = std::min(1.0, std::abs(projected.col(static_cast<Eigen::Index>(k)).dot(projected.col(static_cast<Eigen::Index>(j)))) / lengths);
-      if (cosine > candidate.rival_cosine) candidate.rival_cosine = cosine, candidate.nearest_rival = evidence.effects[j];
+      const double cosine = std::min(
+          1.0, std::abs(projected.col(static_cast<Eigen::Index>(k)).dot(projected.col(static_cast<Eigen::Index>(j)))) /
+                   lengths);
+      if (cosine > candidate.rival_cosine)
+        candidate.rival_cosine = cosine, candidate.nearest_rival = evidence.effects[j];
     }
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
     const bool visible = typical.projected >= kVisibleSignal && typical.absorption() <= kInvisibleAbsorption;
     const bool noticed = candidate.p_family_wise <= evidence.settings.name_level;
-    candidate.status = holds(decision.possible, candidate.name) ? "in_set" : visible || noticed ? "excluded" : "invisible";
+    candidate.status = holds(decision.possible, candidate.name) ? "in_set"
+                       : visible || noticed                     ? "excluded"
+                                                                : "invisible";
     candidates.push_back(candidate);
   }
   return candidates;
@@ -67,7 +78,9 @@ std::string common_ground(const std::vector<std::vector<std::string>>& possible)
   if (possible.empty()) return "";
   // An effect that is in every model is certain, whatever else it comes with.
   for (const std::string& name : possible.front()) {
-    if (std::all_of(possible.begin(), possible.end(), [&](const auto& model) { return std::find(model.begin(), model.end(), name) != model.end(); })) return "effect " + name;
+    if (std::all_of(possible.begin(), possible.end(),
+                    [&](const auto& model) { return std::find(model.begin(), model.end(), name) != model.end(); }))
+      return "effect " + name;
   }
   std::set<std::string_view> families;
   std::set<material::EffectSide> sides;

@@ -6,19 +6,23 @@
 
 namespace nacre::diagnosis {
 
-/// Signal-to-noise below which one effect cannot be told from none with 5 % error, and distance from which two are told apart.
+/// Signal-to-noise below which one effect cannot be told from none with 5 % error, and distance from which two are told
+/// apart.
 inline constexpr double kVisibleSignal = 3.8, kToldApart = 2.2;
-/// How much a cause of another kind may look like the named one on a set of specimens: cosines of up to 0.76 were seen between effects of different
-/// families. What such a look-alike leaves, s sqrt(1 - 0.8^2), is noticed from a signal-to-noise of 6.3 on: below it no name is given.
+/// How much a cause of another kind may look like the named one on a set of specimens: cosines of up to 0.76 were seen
+/// between effects of different families. What such a look-alike leaves, s sqrt(1 - 0.8^2), is noticed from a
+/// signal-to-noise of 6.3 on: below it no name is given.
 inline constexpr double kLookalike = 0.8, kNameableSignal = kVisibleSignal / 0.6;
 /// Share of a signature that the base imitates above which the effect is called invisible.
 inline constexpr double kInvisibleAbsorption = 0.95;
 
-/// What became of every effect of the library: fitted size and drop, absorption, signal-to-noise at the fitted size where it was noticed and at a typical one
-/// otherwise (0.3 of its range), and its nearest rival among the effects that act.
+/// What became of every effect of the library: fitted size and drop, absorption, signal-to-noise at the fitted size
+/// where it was noticed and at a typical one otherwise (0.3 of its range), and its nearest rival among the effects that
+/// act.
 std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision);
 
-/// The finest thing that all possible models share: an effect, a family, the material or measurement side; empty: nothing.
+/// The finest thing that all possible models share: an effect, a family, the material or measurement side; empty:
+/// nothing.
 std::string common_ground(const std::vector<std::vector<std::string>>& possible);
 
 }  // namespace nacre::diagnosis

@@ -14,7 +14,9 @@ using pattern::kSide;
 using pattern::Layout;
 
 /// Pixel with periodic indices: a layout is repeated over the specimen.
-bool at(const Layout& layout, int row, int column) { return layout.rigid((row + kSide) % kSide, (column + kSide) % kSide); }
+bool at(const Layout& layout, int row, int column) {
+  return layout.rigid((row + kSide) % kSide, (column + kSide) % kSide);
+}
 
 /// Share of neighbouring pixel pairs that differ; pairs across (dr = 0, dc = 1) or along (dr = 1, dc = 0) the load.
 double interface_share(const Layout& layout, int dr, int dc) {
@@ -77,7 +79,9 @@ double rigid_percolates(const Layout& layout) {
     if (r == kSide - 1) return 1.0;
     for (const auto& [dr, dc] : kNeighbours) {
       const int nr = r + dr, nc = (c + dc + kSide) % kSide;
-      if (nr < 0 || nr >= kSide || !layout.rigid(nr, nc) || seen[static_cast<std::size_t>(nr)][static_cast<std::size_t>(nc)]) continue;
+      if (nr < 0 || nr >= kSide || !layout.rigid(nr, nc) ||
+          seen[static_cast<std::size_t>(nr)][static_cast<std::size_t>(nc)])
+        continue;
       seen[static_cast<std::size_t>(nr)][static_cast<std::size_t>(nc)] = true;
       open.emplace_back(nr, nc);
     }
@@ -101,10 +105,12 @@ constexpr std::array kLayoutDescriptors = {
 };
 
 /// Features along which designs are compared; the others only as a whole.
-constexpr std::array kDescribed = {Feature::log_modulus, Feature::log_toughness, Feature::log_tangent_30, Feature::log_peak};
+constexpr std::array kDescribed = {Feature::log_modulus, Feature::log_toughness, Feature::log_tangent_30,
+                                   Feature::log_peak};
 
 /// Appends the direction when it varies over the rows it is about: centred there, unit length.
-void add_if_varying(std::vector<ContrastDirection>& directions, const std::string& name, Eigen::VectorXd values, const std::vector<int>& rows) {
+void add_if_varying(std::vector<ContrastDirection>& directions, const std::string& name, Eigen::VectorXd values,
+                    const std::vector<int>& rows) {
   double mean = 0.0;
   for (const int row : rows) mean += values[row] / static_cast<double>(rows.size());
   double largest = 0.0;
@@ -124,7 +130,8 @@ std::vector<int> rows_of(const Observations& observations, Feature feature, test
   return rows;
 }
 
-Eigen::VectorXd spread(const Observations& observations, const std::vector<int>& rows, const std::function<double(const Observation&)>& value) {
+Eigen::VectorXd spread(const Observations& observations, const std::vector<int>& rows,
+                       const std::function<double(const Observation&)>& value) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations.size());
   for (const int row : rows) values[row] = value(observations.group_of(row));
   return values;
@@ -141,7 +148,9 @@ std::vector<Descriptor> descriptors() {
       {"print order", [](const Observation& g) { return g.print_order; }},
   };
   for (const LayoutDescriptor& descriptor : kLayoutDescriptors)
-    all.push_back({descriptor.name, [of = descriptor.of](const Observation& g) { return g.design.layout() ? of(*g.design.layout()) : 0.0; }});
+    all.push_back({descriptor.name, [of = descriptor.of](const Observation& g) {
+                     return g.design.layout() ? of(*g.design.layout()) : 0.0;
+                   }});
   return all;
 }
 
@@ -163,12 +172,14 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
     Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
     for (const int row : rows) level[row] = predicted[row];
     add_if_varying(directions, prefix + (feature == Feature::log_modulus ? "stiffness level" : "level"), level, rows);
-    for (const Descriptor& descriptor : descriptors()) add_if_varying(directions, prefix + descriptor.name, spread(observations, rows, descriptor.of), rows);
+    for (const Descriptor& descriptor : descriptors())
+      add_if_varying(directions, prefix + descriptor.name, spread(observations, rows, descriptor.of), rows);
   }
   for (int i = 0; i < observations.size(); ++i) {
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
     if (row.probe == Probe::mean) continue;
-    directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature), row.probe == Probe::batch ? "one batch" : "one specimen printed"),
+    directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),
+                                      row.probe == Probe::batch ? "one batch" : "one specimen printed"),
                           Eigen::VectorXd::Unit(observations.size(), i)});
   }
   return directions;

@@ -21,12 +21,12 @@ struct Descriptor {
   std::function<double(const Observation&)> of;
 };
 
-/// Rigid fraction, orientation, rate, thickness, print order; interface length along and across the load, run length of either
-/// phase, corner contacts, percolation of the rigid phase.
+/// Rigid fraction, orientation, rate, thickness, print order; interface length along and across the load, run length of
+/// either phase, corner contacts, percolation of the rigid phase.
 std::vector<Descriptor> descriptors();
 
-/// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and peak stress; every
-/// feature as a whole; every row of history by itself.
+/// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and
+/// peak stress; every feature as a whole; every row of history by itself.
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted);
 
 }  // namespace nacre::diagnosis

@@ -10,7 +10,8 @@ namespace {
 
 /// Of a prior about the middle, in widths of the widened range.
 constexpr double kWidePrior = 0.5;
-/// eta is looked for within this distance of the centre, in log units, with this standard deviation: the emulator knows no more.
+/// eta is looked for within this distance of the centre, in log units, with this standard deviation: the emulator knows
+/// no more.
 constexpr double kEtaReach = 1.5, kEtaSd = 0.7;
 constexpr std::array kSearchedEta = {0, 1, 2, 6, 7, 8, 9};
 
@@ -21,7 +22,8 @@ struct Bounds {
 /// Range widened three-fold about its middle (docs/METHODS.md): moduli in log scale, ratios kept physical.
 Bounds widened(const material::ParameterRange& range, bool logarithmic) {
   if (logarithmic) {
-    const double half = 1.5 * std::log(range.maximum / range.minimum), middle = 0.5 * std::log(range.maximum * range.minimum);
+    const double half = 1.5 * std::log(range.maximum / range.minimum),
+                 middle = 0.5 * std::log(range.maximum * range.minimum);
     return {middle - half, middle + half};
   }
   const double half = 1.5 * (range.maximum - range.minimum), middle = 0.5 * (range.maximum + range.minimum);
@@ -32,7 +34,8 @@ Bounds widened(const material::ParameterRange& range, bool logarithmic) {
 
 std::span<const int> searched_eta() { return kSearchedEta; }
 
-CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects) : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
+CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects)
+    : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
   centre_.extensions.clear();
   const auto add_moduli = [&](Block block, material::FitTarget target) {
     for (int i = 0; i < 6; ++i) {
@@ -90,7 +93,8 @@ double CoordinateMap::plain(const BaseCoordinate& c, double u) const {
 }
 
 double CoordinateMap::value(int i, double u) const {
-  return i >= base_count() ? material::value_at_strength(parameter_of(i), u) : plain(base_[static_cast<std::size_t>(i)], u);
+  return i >= base_count() ? material::value_at_strength(parameter_of(i), u)
+                           : plain(base_[static_cast<std::size_t>(i)], u);
 }
 
 material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {
@@ -127,13 +131,16 @@ material::ParameterSet CoordinateMap::coupon_parameters(const Eigen::VectorXd& u
 }
 
 Eigen::VectorXd CoordinateMap::coordinates(const material::ParameterSet& parameters) const {
-  const material::ModulusVector theta = to_vector(parameters.modulus), bulk = to_vector(material::default_parameters().modulus);
+  const material::ModulusVector theta = to_vector(parameters.modulus),
+                                bulk = to_vector(material::default_parameters().modulus);
   const material::ToughnessVector eta = to_vector(parameters.toughness);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(size());
   for (int i = 0; i < base_count(); ++i) {
     const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
     const auto index = static_cast<std::size_t>(c.index);
-    const double plain_value = c.block == Block::toughness ? eta[index] : c.block == Block::modulus ? theta[index] : bulk[index];
+    const double plain_value = c.block == Block::toughness ? eta[index]
+                               : c.block == Block::modulus ? theta[index]
+                                                           : bulk[index];
     const double x = c.logarithmic ? std::log(plain_value) : plain_value;
     u[i] = std::clamp((x - c.low) / (c.high - c.low), 0.02, 0.98);
   }

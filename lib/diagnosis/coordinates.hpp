@@ -1,5 +1,6 @@
 #pragma once
-// Coordinates of a fit: the base constants of each kind of specimen, then one per parameter of the effects that extend the model.
+// Coordinates of a fit: the base constants of each kind of specimen, then one per parameter of the effects that extend
+// the model.
 
 #include <Eigen/Dense>
 #include <span>
@@ -10,12 +11,15 @@
 
 namespace nacre::diagnosis {
 
-/// Which base constants are free. Kinds of specimens have constants of their own (thesis 2.3.1, 3.2.4): what they share are effects.
+/// Which base constants are free. Kinds of specimens have constants of their own (thesis 2.3.1, 3.2.4): what they share
+/// are effects.
 struct Basis {
-  bool modulus = true;     ///< theta of modulus tests of layouts: E and nu of three materials (gamma has no effect on a static test)
+  bool modulus =
+      true;  ///< theta of modulus tests of layouts: E and nu of three materials (gamma has no effect on a static test)
   bool toughness = false;  ///< eta of fracture tests: E and W of three materials, gamma
   bool coupon = false;     ///< E of the bulk materials: homogeneous coupons
-  material::ParameterSet centre = material::default_parameters();  ///< where eta is looked for, and what is not searched
+  material::ParameterSet centre =
+      material::default_parameters();  ///< where eta is looked for, and what is not searched
 };
 
 /// One parameter of one effect.
@@ -24,8 +28,8 @@ struct EffectCoordinate {
   int parameter = 0;
 };
 
-/// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a factor
-/// e^1.5 of the centre, in log scale; effects by their strength (material::value_at_strength), -1 or 0 to 1.
+/// theta and the bulk constants in the unit cube of their ranges widened three-fold (moduli in log scale); eta within a
+/// factor e^1.5 of the centre, in log scale; effects by their strength (material::value_at_strength), -1 or 0 to 1.
 class CoordinateMap {
  public:
   CoordinateMap(const Basis& basis, std::span<const std::string> effects);
@@ -56,7 +60,7 @@ class CoordinateMap {
   enum class Block { modulus, toughness, coupon };
   struct BaseCoordinate {
     Block block;
-    int index;  ///< in the vector of the block's parameters
+    int index;         ///< in the vector of the block's parameters
     double low, high;  ///< of the logarithm where `logarithmic`
     bool logarithmic;
     double prior_sd;

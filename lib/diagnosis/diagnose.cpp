@@ -22,7 +22,8 @@ std::vector<NamedEffect> named_effects(const Evidence& evidence, const Fit& fit)
   const CoordinateMap map = evidence.model.map(fit.effects);
   const Whitener whitener(evidence.observations.covariance());
   const int dof = evidence.observations.replicate_dof();
-  const double student = dof > 0 ? 1.645 * (1.0 + 0.93 / dof) : 2.0;  // Cornish-Fisher, within 1 % from 4 degrees of freedom on
+  const double student =
+      dof > 0 ? 1.645 * (1.0 + 0.93 / dof) : 2.0;  // Cornish-Fisher, within 1 % from 4 degrees of freedom on
   std::vector<NamedEffect> named;
   for (std::size_t k = 0; k < fit.effects.size(); ++k) {
     const material::Effect& effect = *material::find_effect(fit.effects[k]);
@@ -30,7 +31,8 @@ std::vector<NamedEffect> named_effects(const Evidence& evidence, const Fit& fit)
     const double half = student * std::sqrt(fit.variance(i, whitener));
     // A limit falls as its effect grows stronger.
     const double a = map.value(i, std::max(fit.u[i] - half, map.lower(i))), b = map.value(i, fit.u[i] + half);
-    named.push_back({fit.effects[k], std::string(effect.family), map.value(i, fit.u[i]), std::min(a, b), std::max(a, b), std::string(effect.parameters.front().unit)});
+    named.push_back({fit.effects[k], std::string(effect.family), map.value(i, fit.u[i]), std::min(a, b), std::max(a, b),
+                     std::string(effect.parameters.front().unit)});
   }
   return named;
 }
@@ -46,26 +48,37 @@ std::string names_of(const std::vector<Fit>& fits) {
 
 /// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)"
 std::string size_in_words(const NamedEffect& e) {
-  return fmt::format("{} = {:.3g}{} (90 % interval {:.3g} to {:.3g})", material::effect_in_words(e.name), e.parameter, material::unit_behind_number(e.unit), e.interval_low, e.interval_high);
+  return fmt::format("{} = {:.3g}{} (90 % interval {:.3g} to {:.3g})", material::effect_in_words(e.name), e.parameter,
+                     material::unit_behind_number(e.unit), e.interval_low, e.interval_high);
 }
 
-/// What the named effect does for designs that the fit has not seen. A cause may be sure and its gain not: the base imitates most of it there.
+/// What the named effect does for designs that the fit has not seen. A cause may be sure and its gain not: the base
+/// imitates most of it there.
 std::string gain_in_words(const Gain& gain) {
   // Errors are of logarithms.
-  const double before = 100.0 * std::expm1(gain.held_out_error_before), after = 100.0 * std::expm1(gain.held_out_error_after);
-  const std::string interval = fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
+  const double before = 100.0 * std::expm1(gain.held_out_error_before),
+               after = 100.0 * std::expm1(gain.held_out_error_after);
+  const std::string interval =
+      fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
   if (gain.interval_low > 0.0)
-    return fmt::format("On held-out designs the mean error falls from {:.1f} to {:.1f} %, by {:.0f} % of itself ({}).", before, after, 100.0 * gain.relative_reduction, interval);
+    return fmt::format("On held-out designs the mean error falls from {:.1f} to {:.1f} %, by {:.0f} % of itself ({}).",
+                       before, after, 100.0 * gain.relative_reduction, interval);
   if (gain.interval_high < 0.0)
-    return fmt::format("Yet on held-out designs the mean error grows from {:.1f} to {:.1f} %: the cause is established, its use for predictions is not.", before, after);
-  return fmt::format("What it gains on held-out designs is not established: their mean error is {:.1f} % without it and {:.1f} % with it (reduction {:.0f} %, {}).", before, after,
-                     100.0 * gain.relative_reduction, interval);
+    return fmt::format(
+        "Yet on held-out designs the mean error grows from {:.1f} to {:.1f} %: the cause is established, its use for "
+        "predictions is not.",
+        before, after);
+  return fmt::format(
+      "What it gains on held-out designs is not established: their mean error is {:.1f} % without it and {:.1f} % with "
+      "it (reduction {:.0f} %, {}).",
+      before, after, 100.0 * gain.relative_reduction, interval);
 }
 
 std::string summary_of(const Diagnosis& d, const Decision& decision) {
   switch (d.verdict) {
     case Verdict::base_sufficient:
-      return fmt::format("Nothing is wrong beyond noise: {} (chance of a misfit as large: {:.3f}).", decision.reason, d.p_misfit);
+      return fmt::format("Nothing is wrong beyond noise: {} (chance of a misfit as large: {:.3f}).", decision.reason,
+                         d.p_misfit);
     case Verdict::named: {
       std::string text = "The simulation lacks ";
       for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
@@ -74,13 +87,17 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
       return text;
     }
     case Verdict::ambiguous:
-      return fmt::format("Something is wrong, and these data cannot tell which: {}.{} The next experiments would separate them.", names_of(decision.possible),
-                         d.common_ground.empty() ? "" : fmt::format(" Common to all of them: {}.", d.common_ground));
-    case Verdict::unexplained: break;
+      return fmt::format(
+          "Something is wrong, and these data cannot tell which: {}.{} The next experiments would separate them.",
+          names_of(decision.possible),
+          d.common_ground.empty() ? "" : fmt::format(" Common to all of them: {}.", d.common_ground));
+    case Verdict::unexplained:
+      break;
   }
   std::string text = fmt::format("Something is wrong, and no cause can be named: {}.", decision.reason);
   if (!d.contrasts.empty()) {
-    text += fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", d.contrasts.front().name, d.contrasts.front().statistic);
+    text += fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", d.contrasts.front().name,
+                        d.contrasts.front().statistic);
   }
   return text;
 }
@@ -88,7 +105,8 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
   // What numerics share among rows is in the predictions, as far as these residuals tell it.
   Eigen::VectorXd variances = observations.covariance().diagonal();
-  if (observations.numerics_shared.rows() == observations.size()) variances -= observations.numerics_shared.rowwise().squaredNorm();
+  if (observations.numerics_shared.rows() == observations.size())
+    variances -= observations.numerics_shared.rowwise().squaredNorm();
   const auto with_numerics = [&](const Fit& fit) -> Eigen::VectorXd {
     std::vector<Eigen::Index> all(static_cast<std::size_t>(observations.size()));
     std::iota(all.begin(), all.end(), 0);
@@ -101,7 +119,16 @@ std::vector<ResidualRow> residual_rows(const Observations& observations, const F
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
     if (row.probe != Probe::mean) continue;
     const Observation& g = observations.group_of(i);
-    ResidualRow shown{g.design.name(), g.test, g.conditions, row.feature, row.group, observations.values[i], by_base[i], by_extended[i], std::sqrt(variances[i]), {}};
+    ResidualRow shown{g.design.name(),
+                      g.test,
+                      g.conditions,
+                      row.feature,
+                      row.group,
+                      observations.values[i],
+                      by_base[i],
+                      by_extended[i],
+                      std::sqrt(variances[i]),
+                      {}};
     for (const Descriptor& descriptor : described) shown.descriptors.push_back(descriptor.of(g));
     rows.push_back(std::move(shown));
   }
@@ -109,12 +136,15 @@ std::vector<ResidualRow> residual_rows(const Observations& observations, const F
 }
 
 /// Curves at both fits: fracture tests from the run nearest to the fit, coupons computed.
-std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observations& observations, const Fit& base, const Fit& extended) {
+std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observations& observations, const Fit& base,
+                                   const Fit& extended) {
   std::vector<GroupCurves> curves;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
     if (group.test == tester::TestKind::modulus || group.curve.empty()) continue;
-    curves.push_back({group.design.name(), group.test, group.conditions, group.curve, workbench.curve_at(static_cast<int>(g), base), workbench.curve_at(static_cast<int>(g), extended)});
+    curves.push_back({group.design.name(), group.test, group.conditions, group.curve,
+                      workbench.curve_at(static_cast<int>(g), base),
+                      workbench.curve_at(static_cast<int>(g), extended)});
   }
   return curves;
 }
@@ -122,7 +152,8 @@ std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observation
 double shown_replicate_sd(const Observations& observations) {
   using tester::TestKind;
   if (observations.has(TestKind::modulus)) return observations.replicate_sd(Feature::log_modulus, TestKind::modulus);
-  if (observations.has(TestKind::toughness)) return observations.replicate_sd(Feature::log_toughness, TestKind::toughness);
+  if (observations.has(TestKind::toughness))
+    return observations.replicate_sd(Feature::log_toughness, TestKind::toughness);
   return observations.replicate_sd(Feature::log_peak, TestKind::tensile);
 }
 
@@ -149,18 +180,22 @@ double needed_drop(const Evidence& evidence) {
 
 std::string_view to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::base_sufficient: return "base_sufficient";
-    case Verdict::named: return "named";
-    case Verdict::ambiguous: return "ambiguous";
-    case Verdict::unexplained: break;
+    case Verdict::base_sufficient:
+      return "base_sufficient";
+    case Verdict::named:
+      return "named";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::unexplained:
+      break;
   }
   return "unexplained";
 }
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
   if (settings.bootstraps * settings.name_level < 2.0) {
-    throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}", settings.bootstraps, settings.name_level,
-                             std::ceil(2.0 / settings.name_level));
+    throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}",
+                             settings.bootstraps, settings.name_level, std::ceil(2.0 / settings.name_level));
   }
   Workbench workbench(specimens, settings);
   Evidence evidence = gather_evidence(workbench, settings);
@@ -180,7 +215,9 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.candidates = candidates_of(evidence, decision);
   for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
   diagnosis.common_ground = common_ground(diagnosis.possible);
-  const Fit& extended = !decision.possible.empty() ? decision.possible.front() : decision.partial ? *decision.partial : evidence.base.fit;
+  const Fit& extended = !decision.possible.empty() ? decision.possible.front()
+                        : decision.partial         ? *decision.partial
+                                                   : evidence.base.fit;
   diagnosis.extended_fit = extended.parameters;
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
   for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
@@ -194,18 +231,23 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }
   if (settings.progress) settings.progress(0.95, "choosing the next experiments");
-  diagnosis.next_experiments = next_experiments(models_to_separate(evidence, decision), evidence.model, observations, settings.fidelity, kNextExperiments);
+  diagnosis.next_experiments = next_experiments(models_to_separate(evidence, decision), evidence.model, observations,
+                                                settings.fidelity, kNextExperiments);
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
   if (settings.progress) settings.progress(0.98, "other numerics on three specimens");
-  if (settings.check_numerics) diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
+  if (settings.check_numerics)
+    diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
   diagnosis.summary = summary_of(diagnosis, decision);
   for (const SanityCheck& check : diagnosis.sanity) {
     // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
     if (!check.numerical || check.changed == "half the element size") continue;
-    diagnosis.summary += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.", check.changed, in_words(check.feature), 100.0 * check.largest);
+    diagnosis.summary += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.",
+                                     check.changed, in_words(check.feature), 100.0 * check.largest);
   }
-  if (!diagnosis.noise_known) diagnosis.summary += " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
+  if (!diagnosis.noise_known)
+    diagnosis.summary +=
+        " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
   if (settings.progress) settings.progress(1.0, "done");
   return diagnosis;
 }

@@ -40,12 +40,14 @@ struct Candidate {
   double statistic = 0.0;      ///< drop of the weighted sum of squares when the effect is fitted jointly with the base
   double p_family_wise = 1.0;  ///< chance that the best of all candidates drops it as much when the base is true
   double absorption = 0.0;     ///< share of the effect's signature that the base parameters imitate, 0..1
-  double signal_to_noise = 0.0;  ///< norm of the whitened signature after projection, at the fitted (else a typical) size
-  double parameter = 0.0;      ///< fitted size
-  double p_fit = 1.0;          ///< chance of a misfit as large when base and this effect are the truth
-  std::string nearest_rival;   ///< the effect whose signature is most like this one's beyond the base; empty: none is seen
-  double rival_cosine = 0.0;   ///< how like, 0..1
-  double distance = 0.0;       ///< signal_to_noise sqrt((1 - cosine) / 2): from 2.2 on the two are told apart with 5 % error
+  double signal_to_noise =
+      0.0;                 ///< norm of the whitened signature after projection, at the fitted (else a typical) size
+  double parameter = 0.0;  ///< fitted size
+  double p_fit = 1.0;      ///< chance of a misfit as large when base and this effect are the truth
+  std::string
+      nearest_rival;  ///< the effect whose signature is most like this one's beyond the base; empty: none is seen
+  double rival_cosine = 0.0;  ///< how like, 0..1
+  double distance = 0.0;  ///< signal_to_noise sqrt((1 - cosine) / 2): from 2.2 on the two are told apart with 5 % error
 };
 
 /// A pre-declared direction in which residuals may line up.
@@ -62,7 +64,8 @@ struct FeatureGain {
   double noise = 0.0;  ///< what scatter and numerics alone would leave
 };
 
-/// Errors are mean absolute errors of log E and log T on patterns that were held out (of slopes and stresses where only coupons were tested).
+/// Errors are mean absolute errors of log E and log T on patterns that were held out (of slopes and stresses where only
+/// coupons were tested).
 struct Gain {
   double held_out_error_before = 0.0;
   double held_out_error_after = 0.0;
@@ -86,10 +89,11 @@ struct ResidualRow {
   tester::TestConditions conditions;
   Feature feature = Feature::log_modulus;
   int group = 0;
-  double measured = 0.0;               ///< in the feature's own unit: logarithms of Pa, strains
-  double base = 0.0, extended = 0.0;   ///< with what numerics are found to leave along the shared directions
-  double standard_error = 0.0;         ///< replicates, numerics and emulator, but for what numerics share among rows: the predictions hold that
-  std::vector<double> descriptors;     ///< of the group, in the order of Diagnosis::descriptors
+  double measured = 0.0;              ///< in the feature's own unit: logarithms of Pa, strains
+  double base = 0.0, extended = 0.0;  ///< with what numerics are found to leave along the shared directions
+  double standard_error =
+      0.0;  ///< replicates, numerics and emulator, but for what numerics share among rows: the predictions hold that
+  std::vector<double> descriptors;  ///< of the group, in the order of Diagnosis::descriptors
 };
 
 /// Curves of one group: measured, and by both models.
@@ -102,30 +106,34 @@ struct GroupCurves {
 
 /// What one numerical choice changes in one feature: the largest of three specimens.
 struct SanityCheck {
-  std::string changed;        ///< "half the time step", "half the simulated rate", "doubled recording", "half the element size"
+  std::string
+      changed;  ///< "half the time step", "half the simulated rate", "doubled recording", "half the element size"
   Feature feature = Feature::log_modulus;
-  double largest = 0.0;       ///< largest change over the specimens, in the feature's unit
-  double allowed = 0.0;       ///< standard error of a group: what such a change would hide in
-  bool numerical = false;     ///< more than twice that: a misfit of this size is not to be called physics
+  double largest = 0.0;    ///< largest change over the specimens, in the feature's unit
+  double allowed = 0.0;    ///< standard error of a group: what such a change would hide in
+  bool numerical = false;  ///< more than twice that: a misfit of this size is not to be called physics
 };
 
 struct Diagnosis {
   Verdict verdict = Verdict::base_sufficient;
-  std::string summary;                ///< for a person, a few sentences
-  std::vector<NamedEffect> effects;   ///< one or two when named, else empty
-  std::vector<std::vector<std::string>> possible;  ///< models that stay possible, the best first: names of their effects
-  std::string common_ground;          ///< what the possible models share: "effect interface_anisotropy", "family geometry", "measurement side"; empty: nothing
+  std::string summary;               ///< for a person, a few sentences
+  std::vector<NamedEffect> effects;  ///< one or two when named, else empty
+  std::vector<std::vector<std::string>>
+      possible;               ///< models that stay possible, the best first: names of their effects
+  std::string common_ground;  ///< what the possible models share: "effect interface_anisotropy", "family geometry",
+                              ///< "measurement side"; empty: nothing
   std::vector<Candidate> candidates;  ///< in the order of the library
   std::vector<Contrast> contrasts;    ///< strongest first
   std::optional<Gain> gain;           ///< of the named model
   std::optional<Gain> partial_gain;   ///< of what comes nearest, when unexplained
   std::vector<NextExperiment> next_experiments;
-  double p_misfit = 1.0;              ///< omnibus: chance of a base misfit as large
-  double p_outside = 1.0;             ///< chance that a cause outside the library would lead to a name as surely; 1 when no name was in question
-  double replicate_sd = 0.0;          ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
-  double numerics_sd = 0.0;           ///< what numerics leave of log E: independent part, per layout
-  double numerics_shared_sd = 0.0;    ///< and along the directions that all layouts share, root mean square over groups
-  bool noise_known = true;            ///< false: no replicates, relative statements only
+  double p_misfit = 1.0;  ///< omnibus: chance of a base misfit as large
+  double p_outside =
+      1.0;  ///< chance that a cause outside the library would lead to a name as surely; 1 when no name was in question
+  double replicate_sd = 0.0;        ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
+  double numerics_sd = 0.0;         ///< what numerics leave of log E: independent part, per layout
+  double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over groups
+  bool noise_known = true;          ///< false: no replicates, relative statements only
   material::ParameterSet base_fit;
   material::ParameterSet extended_fit;  ///< base parameters and extension of the named model; base fit otherwise
   std::vector<ResidualRow> residuals;
@@ -133,28 +141,30 @@ struct Diagnosis {
   std::vector<std::string> descriptors;  ///< names of what residuals are shown against
   std::vector<GroupCurves> curves;       ///< of fracture tests and coupons
   int simulations = 0;                   ///< of fracture tests, really done
-  std::string procedure;                 ///< hash of library, features, contrasts and thresholds: two diagnoses with the same one asked the same
+  std::string procedure;  ///< hash of library, features, contrasts and thresholds: two diagnoses with the same one
+                          ///< asked the same
 };
 
 struct DiagnosisSettings {
   material::ParameterSet start;  ///< where the base fit begins
   tester::Fidelity fidelity = tester::Fidelity::full;
-  int bootstraps = 2000;             ///< at least 2 / name_level: fewer could never reach the level
+  int bootstraps = 2000;  ///< at least 2 / name_level: fewer could never reach the level
   std::uint64_t seed = 1;
-  ModulusFloor floor;                ///< from data/numerics_floor.toml
+  ModulusFloor floor;                  ///< from data/numerics_floor.toml
   FractureNumerics fracture_numerics;  ///< from the same file
-  int search_budget = 40;            ///< evaluations of the fracture tests in search of a base fit; 0: begin at `start`
-  std::filesystem::path store;       ///< file that keeps fracture simulations; empty: none
-  int threads = 0;                   ///< 0 all allowed cores
-  bool check_numerics = true;        ///< simulate three specimens with other numerics too
-  double name_level = 0.003;         ///< family-wise level of a name
-  double unexplained_level = 0.01;   ///< level of a misfit without a name
+  int search_budget = 40;           ///< evaluations of the fracture tests in search of a base fit; 0: begin at `start`
+  std::filesystem::path store;      ///< file that keeps fracture simulations; empty: none
+  int threads = 0;                  ///< 0 all allowed cores
+  bool check_numerics = true;       ///< simulate three specimens with other numerics too
+  double name_level = 0.003;        ///< family-wise level of a name
+  double unexplained_level = 0.01;  ///< level of a misfit without a name
   /// Called now and then with the share of the work done (0..1) and what is being done.
   std::function<void(double, std::string_view)> progress = {};
 };
 
-/// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws InputError when fewer than
-/// eight groups of layouts have a valid test and fewer than four coupons a curve, or when there are too few bootstraps for the level of a name.
+/// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws InputError when
+/// fewer than eight groups of layouts have a valid test and fewer than four coupons a curve, or when there are too few
+/// bootstraps for the level of a name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
 /// The JSON document of `nacre diagnose --json`.

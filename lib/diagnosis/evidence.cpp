@@ -8,7 +8,8 @@ namespace {
 
 /// How often the directions of the numerics are computed anew at models fitted with them.
 constexpr int kMeshPasses = 2;
-/// How often fracture tests are simulated at the fits and learnt from, and how far the emulator may be off before it is done again.
+/// How often fracture tests are simulated at the fits and learnt from, and how far the emulator may be off before it is
+/// done again.
 constexpr int kRefinements = 3;
 constexpr double kWellKnown = 1.5;
 /// Effects whose fits are simulated: those that come near the best.
@@ -63,8 +64,8 @@ struct Stretch {
 
 Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
 
-/// Effects that explain much of a misfit are fitted once more from the constants where the search for the base began: a base that bent itself towards the
-/// data may stand behind a hill, with constants on their bounds.
+/// Effects that explain much of a misfit are fitted once more from the constants where the search for the base began: a
+/// base that bent itself towards the data may stand behind a hill, with constants on their bounds.
 void start_again(Evidence& evidence) {
   constexpr double kMuch = 60.0;
   const CoordinateMap base = evidence.model.base_map();
@@ -80,36 +81,45 @@ void start_again(Evidence& evidence) {
 /// Base and every single effect, fitted to the observations of the evidence.
 void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
   const auto report = [&](double share, std::string_view phase) {
-    if (evidence.settings.progress) evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
+    if (evidence.settings.progress)
+      evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
   };
   report(0.0, "fitting the base model");
   evidence.base.fit = fit_model(evidence.model, evidence.observations, {}, start);
   // The base gets the start that the best extended fit ended with: a gain must not be better optimisation.
-  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
+                                     [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
   if (best != evidence.singles.end() && best->chi2 < evidence.base.fit.chi2 - 1.0)
-    evidence.base.fit = better_of(std::move(evidence.base.fit), fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count)));
+    evidence.base.fit = better_of(std::move(evidence.base.fit),
+                                  fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count)));
   report(0.3, "signatures of the effects");
   evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
   std::vector<Fit> singles;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
-    report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()), "fitting base and " + evidence.effects[k]);
+    report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
+           "fitting base and " + evidence.effects[k]);
     // An earlier fit that found something is where to go on, under another covariance or emulator.
-    const bool found = k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
-    singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, found ? evidence.singles[k].u : best_start(evidence, k)));
+    const bool found =
+        k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
+    singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]},
+                                found ? evidence.singles[k].u : best_start(evidence, k)));
   }
   evidence.singles = std::move(singles);
   start_again(evidence);
 }
 
-/// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the material true: each
-/// direction with a factor of its own, because an effect that smooths or sharpens a layout changes what its elements cost.
+/// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the
+/// material true: each direction with a factor of its own, because an effect that smooths or sharpens a layout changes
+/// what its elements cost.
 void share_numerics(Evidence& evidence) {
   const double amplitude = evidence.settings.floor.mesh_amplitude;
-  std::vector<Eigen::VectorXd> directions = {amplitude * evidence.model.mesh_change(evidence.model.base_map(), evidence.base.fit.u)};
+  std::vector<Eigen::VectorXd> directions = {
+      amplitude * evidence.model.mesh_change(evidence.model.base_map(), evidence.base.fit.u)};
   for (const Fit& single : evidence.singles) {
     if (material::find_effect(single.effects.front())->side != material::EffectSide::material) continue;
-    directions.push_back(amplitude * evidence.model.mesh_change(evidence.model.map(single.effects), single.u) - directions.front());
+    directions.push_back(amplitude * evidence.model.mesh_change(evidence.model.map(single.effects), single.u) -
+                         directions.front());
     if (directions.back().norm() < 1e-9) directions.pop_back();  // it does not act on moduli
   }
   Eigen::MatrixXd& shared = evidence.observations.numerics_shared;
@@ -118,7 +128,8 @@ void share_numerics(Evidence& evidence) {
   evidence.observations.numerics_sd = evidence.settings.floor.mesh_remainder_sd;
 }
 
-/// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator knows them.
+/// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator knows
+/// them.
 void refine_fractures(Evidence& evidence, Workbench& workbench) {
   if (!workbench.has_fractures()) return;
   for (int pass = 0; pass < kRefinements; ++pass) {
@@ -136,7 +147,8 @@ void refine_fractures(Evidence& evidence, Workbench& workbench) {
 
 }  // namespace
 
-std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor, const std::vector<std::string>& effects) {
+std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor,
+                                     const std::vector<std::string>& effects) {
   std::vector<Signature> signatures;
   for (const std::string& effect : effects) {
     std::vector<std::string> names = anchor.effects;
@@ -159,7 +171,8 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   Evidence evidence{workbench.model(), workbench.observations(), settings, {}, workbench.effects(), {}, {}, {}};
   const CoordinateMap map = evidence.model.base_map();
   const double first = workbench.has_fractures() ? 0.55 : 0.0;
-  const int passes = settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus) ? 1 + kMeshPasses : 1;
+  const int passes =
+      settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus) ? 1 + kMeshPasses : 1;
   for (int pass = 0; pass < passes; ++pass) {
     if (pass > 0) share_numerics(evidence);
     const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
@@ -168,7 +181,8 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   }
   const Observations& observations = evidence.observations;
   if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
-  evidence.base_statistics = anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
+  evidence.base_statistics =
+      anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
   evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);
   return evidence;
 }

@@ -15,7 +15,7 @@ namespace {
 using tester::TestKind;
 
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
-constexpr int kConditionTwins = 3;  // designs that are tested under other conditions
+constexpr int kConditionTwins = 3;      // designs that are tested under other conditions
 constexpr double kCouponStrain = 0.02;  // said in the words of possible_tests()
 
 /// Scatter where nothing was measured of a test: a logarithm's, and a strain's.
@@ -26,12 +26,14 @@ double noise_sd(const Observations& observations, TestKind test, Feature feature
   if (!(sd > 0.0)) sd = feature == Feature::toe_strain ? kUsualStrainSd : kUsualSd;
   double variance = sd * sd / replicates;
   if (test == TestKind::modulus) variance += observations.numerics_sd * observations.numerics_sd;
-  if (test == TestKind::toughness) variance += observations.fracture_numerics.covariance(feature, feature, 0.0, 0.0, true);
+  if (test == TestKind::toughness)
+    variance += observations.fracture_numerics.covariance(feature, feature, 0.0, 0.0, true);
   return std::sqrt(variance);
 }
 
 /// How far apart two models see a test.
-Separation separation_of(const FeatureValues& one, const FeatureValues& other, TestKind test, const Observations& observations, int replicates) {
+Separation separation_of(const FeatureValues& one, const FeatureValues& other, TestKind test,
+                         const Observations& observations, int replicates) {
   Separation best;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     if (!one[f] || !other[f]) continue;
@@ -56,7 +58,8 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
   std::vector<PossibleTest> possible;
   std::set<std::string> taken;
   const auto name_of = [](const PossibleTest& t) {
-    return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test), t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
+    return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test),
+                       t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
   };
   for (const Observation& g : observations.groups) taken.insert(name_of({g.design, g.test, g.conditions, ""}));
   const auto offer = [&](PossibleTest test) {
@@ -64,7 +67,9 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
   };
   std::vector<TestKind> tests;
   for (const TestKind test : {TestKind::modulus, TestKind::toughness})
-    if (std::any_of(observations.groups.begin(), observations.groups.end(), [&](const Observation& g) { return g.test == test && g.design.layout(); })) tests.push_back(test);
+    if (std::any_of(observations.groups.begin(), observations.groups.end(),
+                    [&](const Observation& g) { return g.test == test && g.design.layout(); }))
+      tests.push_back(test);
   int twins = 0;
   for (const Observation& g : observations.groups) {
     if (!g.design.layout() || g.test == TestKind::tensile) continue;
@@ -82,14 +87,23 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
   for (const TestKind test : tests) {
     for (const int period : {1, 2, 5}) {
       offer({pattern::checkerboard(period), test, {}, fmt::format("a checkerboard of period {}", period)});
-      offer({pattern::laminate(pattern::LayerDirection::along_x, period, period), test, {}, fmt::format("a laminate of period {} across the pull", period)});
-      offer({pattern::laminate(pattern::LayerDirection::along_y, period, period), test, {}, fmt::format("a laminate of period {} along the pull", period)});
+      offer({pattern::laminate(pattern::LayerDirection::along_x, period, period),
+             test,
+             {},
+             fmt::format("a laminate of period {} across the pull", period)});
+      offer({pattern::laminate(pattern::LayerDirection::along_y, period, period),
+             test,
+             {},
+             fmt::format("a laminate of period {} along the pull", period)});
     }
   }
   for (const double fraction : {1.0, 0.5, 0.0}) {
     for (const double factor : {1.0, kSecondRate}) {
       const std::string speed = factor > 1.0 ? "ten times as fast " : "";
-      PossibleTest coupon{pattern::Mixture{fraction}, TestKind::tensile, {}, "a pure coupon pulled " + speed + "to 2 % strain, back to 0.5 % and on"};
+      PossibleTest coupon{pattern::Mixture{fraction},
+                          TestKind::tensile,
+                          {},
+                          "a pure coupon pulled " + speed + "to 2 % strain, back to 0.5 % and on"};
       coupon.conditions.strain_rate_per_s *= factor;
       offer(coupon);
     }
@@ -97,14 +111,18 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
   return possible;
 }
 
-FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u, tester::Fidelity fidelity) {
+FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
+                                 tester::Fidelity fidelity) {
   const material::ParameterSet set = test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
   const tester::Simulation simulation{test.design, set, test.conditions, fidelity};
   FeatureValues values;
   if (test.test == TestKind::modulus) {
-    if (const auto result = tester::test_modulus(simulation)) value_of(values, Feature::log_modulus) = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+    if (const auto result = tester::test_modulus(simulation))
+      value_of(values, Feature::log_modulus) =
+          std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
   } else if (test.test == TestKind::tensile) {
-    if (const auto curve = tester::test_tensile(simulation, unload_history())) values = tensile_features(measurement::observe_curve(*curve, set.extensions));
+    if (const auto curve = tester::test_tensile(simulation, unload_history()))
+      values = tensile_features(measurement::observe_curve(*curve, set.extensions));
   } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
     sysid::Prediction prediction;
     prediction.toughness_pa = result->toughness_pa;
@@ -114,15 +132,21 @@ FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& 
   return values;
 }
 
-std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model, const Observations& observations, tester::Fidelity fidelity,
-                                             int count, int replicates) {
+std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model,
+                                             const Observations& observations, tester::Fidelity fidelity, int count,
+                                             int replicates) {
   if (models.size() < 2) return {};
   std::vector<PossibleTest> tests = possible_tests(observations, fidelity);
-  // Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: the others say the same for less.
-  if (observations.has(TestKind::modulus)) std::erase_if(tests, [](const PossibleTest& t) { return t.test == TestKind::toughness && t.words.find("twin") == std::string::npos; });
+  // Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: the others say the
+  // same for less.
+  if (observations.has(TestKind::modulus))
+    std::erase_if(tests, [](const PossibleTest& t) {
+      return t.test == TestKind::toughness && t.words.find("twin") == std::string::npos;
+    });
   std::vector<std::vector<FeatureValues>> predicted(tests.size(), std::vector<FeatureValues>(models.size()));
   parallel_for(static_cast<int>(tests.size() * models.size()), [&](int job) {
-    const std::size_t t = static_cast<std::size_t>(job) / models.size(), m = static_cast<std::size_t>(job) % models.size();
+    const std::size_t t = static_cast<std::size_t>(job) / models.size(),
+                      m = static_cast<std::size_t>(job) % models.size();
     predicted[t][m] = predicted_features(tests[t], model.map(models[m].effects), models[m].u, fidelity);
   });
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -131,7 +155,9 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
   std::vector<TestValue> values;
   for (std::size_t t = 0; t < tests.size(); ++t) {
     values.push_back({tests[t].words, {}});
-    for (const auto& [a, b] : pairs) values.back().pairs.push_back(separation_of(predicted[t][a], predicted[t][b], tests[t].test, observations, replicates));
+    for (const auto& [a, b] : pairs)
+      values.back().pairs.push_back(
+          separation_of(predicted[t][a], predicted[t][b], tests[t].test, observations, replicates));
   }
   std::vector<NextExperiment> experiments;
   for (const TestChoice& choice : choose_tests(values, count)) {
@@ -139,7 +165,8 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
     const Separation& separation = values[choice.test].pairs[choice.pair];
     const auto& [a, b] = pairs[choice.pair];
     experiments.push_back({test.design, test.test, test.conditions, replicates,
-                           fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words, in_words(separation.feature), in_words(models[a].effects),
+                           fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words,
+                                       in_words(separation.feature), in_words(models[a].effects),
                                        in_words(models[b].effects), separation.errors)});
   }
   return experiments;

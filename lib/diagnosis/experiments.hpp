@@ -15,20 +15,23 @@ struct PossibleTest {
   std::string words;  ///< "turned twin", "second rate", ...
 };
 
-/// Tests that a laboratory could add to these: turned twins of measured designs, a tenfold rate and half the thickness for the most
-/// measured ones, laminates and checkerboards of period 1, 2 and 5 both ways, pure coupons pulled and unloaded at two rates.
-/// What is measured already is left out.
+/// Tests that a laboratory could add to these: turned twins of measured designs, a tenfold rate and half the thickness
+/// for the most measured ones, laminates and checkerboards of period 1, 2 and 5 both ways, pure coupons pulled and
+/// unloaded at two rates. What is measured already is left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity fidelity);
 
 /// What a model predicts of a test, one value per feature that says something.
-FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u, tester::Fidelity fidelity);
+FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
+                                 tester::Fidelity fidelity);
 
 /// Strains of a pull to 2 %, back to no load and up again: what pure coupons are ordered with.
 std::vector<double> unload_history();
 
-/// Tests that would best tell the given models apart, by the expected squared difference of their predicted features over the noise of
-/// `replicates` specimens. Fewer than two models: nothing to separate. Fracture tests are simulated, one per model and test.
-std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model, const Observations& observations, tester::Fidelity fidelity,
-                                             int count, int replicates = 3);
+/// Tests that would best tell the given models apart, by the expected squared difference of their predicted features
+/// over the noise of `replicates` specimens. Fewer than two models: nothing to separate. Fracture tests are simulated,
+/// one per model and test.
+std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model,
+                                             const Observations& observations, tester::Fidelity fidelity, int count,
+                                             int replicates = 3);
 
 }  // namespace nacre::diagnosis

@@ -48,11 +48,13 @@ struct Rise {
 
 std::optional<Rise> rise_of(const tester::Curve& forward) {
   if (forward.size() < 4) return std::nullopt;
-  const auto peak = static_cast<std::size_t>(std::max_element(forward.stress_pa.begin(), forward.stress_pa.end()) - forward.stress_pa.begin());
+  const auto peak = static_cast<std::size_t>(std::max_element(forward.stress_pa.begin(), forward.stress_pa.end()) -
+                                             forward.stress_pa.begin());
   if (peak < 2 || forward.stress_pa[peak] <= 0.0 || forward.strain[peak] <= 0.0) return std::nullopt;
   Rise rise{{}, forward.stress_pa[peak], forward.strain[peak]};
   rise.path.strain.assign(forward.strain.begin(), forward.strain.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
-  rise.path.stress_pa.assign(forward.stress_pa.begin(), forward.stress_pa.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
+  rise.path.stress_pa.assign(forward.stress_pa.begin(),
+                             forward.stress_pa.begin() + static_cast<std::ptrdiff_t>(peak) + 1);
   return rise;
 }
 
@@ -67,7 +69,8 @@ void put_rise(FeatureValues& values, const Rise& rise) {
   put_slope(values, Feature::log_tangent_30, rise, 0.2, 0.4);
   put_slope(values, Feature::log_tangent_50, rise, 0.4, 0.6);
   if (const auto slope = value_of(values, Feature::log_tangent_30))
-    value_of(values, Feature::toe_strain) = 0.5 * (rise.strain_at(0.2) + rise.strain_at(0.4)) - 0.3 * rise.peak_pa / std::exp(*slope);
+    value_of(values, Feature::toe_strain) =
+        0.5 * (rise.strain_at(0.2) + rise.strain_at(0.4)) - 0.3 * rise.peak_pa / std::exp(*slope);
   const double energy = tester::area_under(rise.path);
   if (energy > 0.0) value_of(values, Feature::knee) = std::log(energy / (0.5 * rise.peak_pa * rise.peak_strain));
   value_of(values, Feature::log_peak) = std::log(rise.peak_pa);
@@ -121,7 +124,8 @@ FeatureValues fracture_features(const tester::Curve& curve) {
   value_of(values, Feature::tail) = 1.0 - tester::area_under(rise->path) / energy;
   std::size_t half = rise->path.size() - 1;
   while (half + 1 < forward.size() && forward.stress_pa[half] > 0.5 * rise->peak_pa) ++half;
-  value_of(values, Feature::drop) = std::log(kDropOffset + (forward.strain[half] - rise->peak_strain) / rise->peak_strain);
+  value_of(values, Feature::drop) =
+      std::log(kDropOffset + (forward.strain[half] - rise->peak_strain) / rise->peak_strain);
   return values;
 }
 
@@ -132,20 +136,24 @@ FeatureValues tensile_features(const tester::Curve& curve) {
   if (!rise) return values;
   put_rise(values, *rise);
   value_of(values, Feature::log_peak_strain).reset();
-  if (auto& toe = value_of(values, Feature::toe_strain)) value_of(values, Feature::toe_share) = *toe / rise->strain_at(0.3);
+  if (auto& toe = value_of(values, Feature::toe_strain))
+    value_of(values, Feature::toe_share) = *toe / rise->strain_at(0.3);
   value_of(values, Feature::toe_strain).reset();
-  if (const double energy = tester::area_under(forward); energy > 0.0) value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
+  if (const double energy = tester::area_under(forward); energy > 0.0)
+    value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
   put_unloading(values, curve);
   return values;
 }
 
 std::optional<double> carried_strain(const tester::Curve& curve) {
   if (curve.empty()) return std::nullopt;
-  const bool unloaded = std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
+  const bool unloaded =
+      std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
   if (unloaded) return std::nullopt;
   const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
   if (*peak <= 0.0) return std::nullopt;
-  const auto parted = std::find_if(peak, curve.stress_pa.end(), [&](double stress) { return stress < kCarriedShare * *peak; });
+  const auto parted =
+      std::find_if(peak, curve.stress_pa.end(), [&](double stress) { return stress < kCarriedShare * *peak; });
   return curve.strain[static_cast<std::size_t>(std::prev(parted) - curve.stress_pa.begin())];
 }
 

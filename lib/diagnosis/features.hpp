@@ -1,5 +1,6 @@
 #pragma once
-// What a diagnosis compares: numbers that a test says of a specimen, each smooth in the parameters and with a meaning of its own.
+// What a diagnosis compares: numbers that a test says of a specimen, each smooth in the parameters and with a meaning
+// of its own.
 
 #include <array>
 #include <optional>
@@ -25,7 +26,8 @@ enum class Feature {
   tail,             ///< share of the energy behind the peak
   log_unloading,    ///< slope of the first unloading, between 90 and 50 % of the stress where it begins
   set_share,        ///< where that line meets zero stress, over the strain where unloading begins
-  toe_share,        ///< toe_strain over the strain at 30 % of the peak (coupons: some are pulled a hundred times as far as others)
+  toe_share,  ///< toe_strain over the strain at 30 % of the peak (coupons: some are pulled a hundred times as far as
+              ///< others)
 };
 inline constexpr int kFeatureCount = 14;
 
@@ -37,19 +39,25 @@ Result<Feature> feature_from_string(std::string_view name);
 
 /// One value per feature, in their order; nothing where the test does not say.
 using FeatureValues = std::array<std::optional<double>, kFeatureCount>;
-inline std::optional<double>& value_of(FeatureValues& values, Feature feature) { return values[static_cast<std::size_t>(feature)]; }
-inline const std::optional<double>& value_of(const FeatureValues& values, Feature feature) { return values[static_cast<std::size_t>(feature)]; }
+inline std::optional<double>& value_of(FeatureValues& values, Feature feature) {
+  return values[static_cast<std::size_t>(feature)];
+}
+inline const std::optional<double>& value_of(const FeatureValues& values, Feature feature) {
+  return values[static_cast<std::size_t>(feature)];
+}
 
-/// Features of a notched specimen pulled to separation. The curve is taken at 128 points first, so that measured and simulated curves
-/// are read alike. Nothing at all when the stress never rises.
+/// Features of a notched specimen pulled to separation. The curve is taken at 128 points first, so that measured and
+/// simulated curves are read alike. Nothing at all when the stress never rises.
 FeatureValues fracture_features(const tester::Curve& curve);
 
-/// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee (over all of the curve: a
-/// plateau behind the peak bends it too), and of the first unloading where there is one. Its strain is not among them: it is where the test was stopped.
+/// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee
+/// (over all of the curve: a plateau behind the peak bends it too), and of the first unloading where there is one. Its
+/// strain is not among them: it is where the test was stopped.
 FeatureValues tensile_features(const tester::Curve& curve);
 
-/// Where a tensile curve is to be read to: the strain up to which it carries four fifths of its largest stress, so that a material that flows is read
-/// while it flows, and none while it parts; nothing when it was unloaded on the way (then all of it).
+/// Where a tensile curve is to be read to: the strain up to which it carries four fifths of its largest stress, so that
+/// a material that flows is read while it flows, and none while it parts; nothing when it was unloaded on the way (then
+/// all of it).
 std::optional<double> carried_strain(const tester::Curve& curve);
 /// The curve as far as `strain`, its last point interpolated.
 tester::Curve truncated(const tester::Curve& curve, double strain);

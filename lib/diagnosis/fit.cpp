@@ -18,7 +18,8 @@ std::string in_words(const std::vector<std::string>& effects) {
 
 namespace {
 
-/// Finite-difference step in coordinates: well above what curves of fracture tests jump by, well below the curvature of log E.
+/// Finite-difference step in coordinates: well above what curves of fracture tests jump by, well below the curvature of
+/// log E.
 constexpr double kStep = 0.01;
 constexpr int kIterations = 12;
 /// A drop of chi2 that no threshold would notice.
@@ -34,7 +35,8 @@ Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
 }
 
 /// Coordinates that do not stand on a bound which the descent direction would leave.
-std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, const Eigen::VectorXd& y, const Whitener& whitener) {
+std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, const Eigen::VectorXd& y,
+                                  const Whitener& whitener) {
   Fit whole = fit;
   whole.free.resize(static_cast<std::size_t>(map.size()));
   std::iota(whole.free.begin(), whole.free.end(), 0);
@@ -59,7 +61,9 @@ Eigen::VectorXd damped_step(const Fit& fit, const Eigen::VectorXd& y, const Whit
 }
 
 /// A share of something ends at the whole of it: that bound is physics, not the edge of what was thought of.
-bool is_share(const material::EffectParameter& parameter) { return parameter.unit == "1" && parameter.minimum == 0.0 && parameter.maximum == 1.0; }
+bool is_share(const material::EffectParameter& parameter) {
+  return parameter.unit == "1" && parameter.minimum == 0.0 && parameter.maximum == 1.0;
+}
 
 /// An extension that ended on a bound other than zero says that the library's range does not hold the truth.
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
@@ -130,7 +134,8 @@ Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
   return fit;
 }
 
-Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects, const Eigen::VectorXd& start) {
+Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
+              const Eigen::VectorXd& start) {
   const CoordinateMap map = model.map(effects);
   const Eigen::VectorXd& y = observations.values;
   const Whitener whitener(observations.covariance());
@@ -165,8 +170,8 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
 }
 
 double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta) {
-  // Data that no longer determine a coordinate would send it out of its range: what leaves is put on its bound, and the others are
-  // solved for again.
+  // Data that no longer determine a coordinate would send it out of its range: what leaves is put on its bound, and the
+  // others are solved for again.
   Fit part = fit;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.u.size());
   Eigen::VectorXd b = fit.whitened_residual(y, whitener);

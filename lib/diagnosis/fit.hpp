@@ -11,8 +11,8 @@ namespace nacre::diagnosis {
 /// Extensions as a sentence names them: "droplet mixing with rigid yield"; "the base model" for none.
 std::string in_words(const std::vector<std::string>& effects);
 
-/// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a wide
-/// Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
+/// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a
+/// wide Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
 struct Fit {
   std::vector<std::string> effects;  ///< extensions fitted with the base; empty: the base model
   int base_count = 0;                ///< coordinates that are base constants: the first ones
@@ -20,11 +20,11 @@ struct Fit {
   Eigen::VectorXd u;                 ///< coordinates of the optimum (CoordinateMap)
   Eigen::VectorXd lower, upper;      ///< their bounds
   material::ParameterSet parameters;
-  Eigen::VectorXd predicted;         ///< per row
-  Eigen::MatrixXd jacobian;          ///< rows x coordinates
-  std::vector<int> free;             ///< coordinates that may move; the others are held by a bound that they would leave
-  double chi2 = 0.0;                 ///< weighted sum of squares, prior included
-  bool extension_on_bound = false;   ///< an extension parameter ended on a bound of its range (zero does not count)
+  Eigen::VectorXd predicted;        ///< per row
+  Eigen::MatrixXd jacobian;         ///< rows x coordinates
+  std::vector<int> free;            ///< coordinates that may move; the others are held by a bound that they would leave
+  double chi2 = 0.0;                ///< weighted sum of squares, prior included
+  bool extension_on_bound = false;  ///< an extension parameter ended on a bound of its range (zero does not count)
   /// Whitened columns of the free coordinates: rows, then those of the prior.
   Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
   /// Whitened residual of data: rows, then those of the prior.
@@ -42,7 +42,9 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
 Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u);
 
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
-/// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the minimiser when wanted.
-double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta = nullptr);
+/// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the
+/// minimiser when wanted.
+double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener,
+                    Eigen::VectorXd* delta = nullptr);
 
 }  // namespace nacre::diagnosis

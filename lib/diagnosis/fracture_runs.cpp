@@ -34,15 +34,18 @@ material::ParameterSet simulated_side(const material::ParameterSet& set) {
   return result;
 }
 
-FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions, const measurement::PrintContext& context) {
+FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
+                             const measurement::PrintContext& context) {
   if (!prediction.toughness_pa || prediction.curve.empty()) return {};
   const sysid::Prediction shown = sysid::observed(prediction, extensions, context);
   FeatureValues features = fracture_features(shown.curve);
-  if (shown.toughness_pa && *shown.toughness_pa > 0.0) value_of(features, Feature::log_toughness) = std::log(*shown.toughness_pa);
+  if (shown.toughness_pa && *shown.toughness_pa > 0.0)
+    value_of(features, Feature::log_toughness) = std::log(*shown.toughness_pa);
   return features;
 }
 
-FractureRuns::FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store, int threads)
+FractureRuns::FractureRuns(const Observations& observations, tester::Fidelity fidelity,
+                           const std::filesystem::path& store, int threads)
     : simulator_(std::make_unique<sysid::LocalSimulator>(fidelity, threads, store)) {
   const double sd = observations.replicate_sd(Feature::log_toughness, tester::TestKind::toughness);
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
@@ -58,7 +61,9 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
   std::iota(items.begin(), items.end(), std::size_t{0});
   for (const material::ParameterSet& set : sets) {
     const material::ParameterSet simulated = simulated_side(set);
-    const auto same = [&](const auto& other) { return other.parameters.toughness == simulated.toughness && other.parameters.extensions == simulated.extensions; };
+    const auto same = [&](const auto& other) {
+      return other.parameters.toughness == simulated.toughness && other.parameters.extensions == simulated.extensions;
+    };
     if (std::any_of(runs_.begin(), runs_.end(), same) || std::any_of(wanted.begin(), wanted.end(), same)) continue;
     wanted.push_back({fmt::format("run {}", runs_.size() + wanted.size()), simulated, false, true, items});
   }
@@ -66,11 +71,14 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
   for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(answers[k])});
 }
 
-material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start, int budget, std::uint64_t seed, const sysid::ProgressCallback& progress) {
-  // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find where to look.
+material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start, int budget, std::uint64_t seed,
+                                                   const sysid::ProgressCallback& progress) {
+  // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find
+  // where to look.
   std::vector<measurement::Replicates> designs;
   for (const measurement::Replicates& each : measured_) {
-    const bool known = std::any_of(designs.begin(), designs.end(), [&](const auto& other) { return other.design == each.design; });
+    const bool known =
+        std::any_of(designs.begin(), designs.end(), [&](const auto& other) { return other.design == each.design; });
     if (!known && each.toughness_pa > 1.0) designs.push_back(each);
   }
   sysid::CalibrationSettings settings;

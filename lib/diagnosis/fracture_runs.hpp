@@ -1,5 +1,6 @@
 #pragma once
-// Fracture tests simulated for a diagnosis: every group of a set at chosen parameters, each simulation done once and kept.
+// Fracture tests simulated for a diagnosis: every group of a set at chosen parameters, each simulation done once and
+// kept.
 
 #include <filesystem>
 #include <functional>
@@ -14,26 +15,31 @@ namespace nacre::diagnosis {
 
 /// What the tester says of every fracture group at one parameter set, before the testing machine.
 struct FractureRun {
-  material::ParameterSet parameters;            ///< material side only
-  std::vector<sysid::Prediction> predictions;   ///< per fracture group; without values where the simulation failed
+  material::ParameterSet parameters;           ///< material side only
+  std::vector<sysid::Prediction> predictions;  ///< per fracture group; without values where the simulation failed
 };
 
 /// The features that a prediction would show through a machine with these measurement-side extensions.
-FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions, const measurement::PrintContext& context = {});
+FeatureValues shown_features(const sysid::Prediction& prediction, const material::Extensions& extensions,
+                             const measurement::PrintContext& context = {});
 
 class FractureRuns {
  public:
   /// `store`: a file of answers that are kept (sysid::PredictionStore); empty: remembered while this object lives.
-  FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store, int threads);
+  FractureRuns(const Observations& observations, tester::Fidelity fidelity, const std::filesystem::path& store,
+               int threads);
   /// Indices of the observations' groups that are fracture tests.
   const std::vector<int>& groups() const { return groups_; }
-  /// Simulates all groups at each set and appends the runs; a set that was run already is not run again. `done` after every simulation.
+  /// Simulates all groups at each set and appends the runs; a set that was run already is not run again. `done` after
+  /// every simulation.
   void add(const std::vector<material::ParameterSet>& sets, const std::function<void()>& done = {});
   const std::vector<FractureRun>& runs() const { return runs_; }
   /// Simulations really done.
   int simulations() const { return simulator_->simulations(); }
-  /// The most probable eta for the measured toughness and peaks, by the search of a calibration from `start`; its simulations are kept too.
-  material::ToughnessParameters search(const material::ParameterSet& start, int budget, std::uint64_t seed, const sysid::ProgressCallback& progress);
+  /// The most probable eta for the measured toughness and peaks, by the search of a calibration from `start`; its
+  /// simulations are kept too.
+  material::ToughnessParameters search(const material::ParameterSet& start, int budget, std::uint64_t seed,
+                                       const sysid::ProgressCallback& progress);
 
  private:
   std::vector<int> groups_;

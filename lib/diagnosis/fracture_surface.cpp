@@ -11,12 +11,12 @@
 namespace nacre::diagnosis {
 namespace {
 
-constexpr double kOffset = 3.0;         // deviation of a feature's level, in units of its spread over runs
-constexpr double kCurvedLength = 1.0;   // in log units of eta
-constexpr double kEffectLength = 0.5;   // in units of an effect's largest size
-constexpr double kOwnShare = 0.15;      // of an effect's variance that depends on eta
-constexpr double kNoEffect = 1e-3;      // share of the largest size below which an effect is none
-constexpr int kNearest = 5;             // runs whose curves stand for a fit's
+constexpr double kOffset = 3.0;        // deviation of a feature's level, in units of its spread over runs
+constexpr double kCurvedLength = 1.0;  // in log units of eta
+constexpr double kEffectLength = 0.5;  // in units of an effect's largest size
+constexpr double kOwnShare = 0.15;     // of an effect's variance that depends on eta
+constexpr double kNoEffect = 1e-3;     // share of the largest size below which an effect is none
+constexpr int kNearest = 5;            // runs whose curves stand for a fit's
 
 double square(double x) { return x * x; }
 
@@ -27,7 +27,8 @@ double matern52(double distance) {
 
 int library_index(std::string_view name) {
   const auto library = material::effect_library();
-  const auto found = std::find_if(library.begin(), library.end(), [&](const material::Effect& e) { return e.name == name; });
+  const auto found =
+      std::find_if(library.begin(), library.end(), [&](const material::Effect& e) { return e.name == name; });
   return static_cast<int>(found - library.begin());
 }
 
@@ -40,7 +41,8 @@ double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return size * shape;
 }
 
-FractureSurface::FractureSurface(const Observations& observations, const FractureRuns& runs, material::ToughnessParameters centre)
+FractureSurface::FractureSurface(const Observations& observations, const FractureRuns& runs,
+                                 material::ToughnessParameters centre)
     : observations_(observations), runs_(runs), centre_(to_vector(centre)) {
   for (int i = 0; i < observations.size(); ++i) {
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
@@ -87,13 +89,16 @@ Eigen::MatrixXd FractureSurface::covariance_matrix(const Kernel& kernel, const s
   Eigen::MatrixXd matrix(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j)
-      matrix(i, j) = matrix(j, i) = covariance(kernel, points_[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])], points_[static_cast<std::size_t>(at[static_cast<std::size_t>(j)])]);
+      matrix(i, j) = matrix(j, i) =
+          covariance(kernel, points_[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])],
+                     points_[static_cast<std::size_t>(at[static_cast<std::size_t>(j)])]);
     matrix(i, i) += square(kernel.noise);
   }
   return matrix;
 }
 
-/// Amplitude of every effect: root mean square over its runs of what they change beyond the base, per unit of the effect's own deviation.
+/// Amplitude of every effect: root mean square over its runs of what they change beyond the base, per unit of the
+/// effect's own deviation.
 void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const {
   std::vector<int> base;
   for (std::size_t k = 0; k < points_.size(); ++k)
@@ -105,14 +110,17 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (points_[k].effects.size() != 1) continue;
     Eigen::VectorXd row(static_cast<Eigen::Index>(base.size()));
-    for (std::size_t j = 0; j < base.size(); ++j) row[static_cast<Eigen::Index>(j)] = covariance(learnt.kernel, points_[k], points_[static_cast<std::size_t>(base[j])]);
+    for (std::size_t j = 0; j < base.size(); ++j)
+      row[static_cast<Eigen::Index>(j)] =
+          covariance(learnt.kernel, points_[k], points_[static_cast<std::size_t>(base[j])]);
     const Eigen::RowVectorXd change = centred.row(static_cast<Eigen::Index>(k)) - row.transpose() * weights;
     const auto& [effect, x] = *points_[k].effects.begin();
     auto& [sum, expected] = squares[effect];
     sum += change.squaredNorm();
     expected += effect_covariance(x, x) * static_cast<double>(change.size());
   }
-  for (const auto& [effect, sums] : squares) learnt.kernel.effect[effect] = std::max(std::sqrt(sums.first / sums.second), 0.3 * learnt.kernel.noise);
+  for (const auto& [effect, sums] : squares)
+    learnt.kernel.effect[effect] = std::max(std::sqrt(sums.first / sums.second), 0.3 * learnt.kernel.noise);
 }
 
 FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values) {
@@ -129,7 +137,9 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
     const std::vector<int>& base;
     const Eigen::MatrixXd& targets;
   } question{*this, base, targets};
-  const auto kernel_at = [](const std::vector<double>& at) { return Kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}}; };
+  const auto kernel_at = [](const std::vector<double>& at) {
+    return Kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}};
+  };
   const auto cost = [](const std::vector<double>& at, std::vector<double>&, void* data) {
     const Question& asked = *static_cast<Question*>(data);
     const Kernel kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}};
@@ -137,7 +147,8 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
     const Eigen::MatrixXd lower = factor.matrixL();
     // A weak prior about the start keeps what the runs do not determine.
     const double prior = 0.5 * (square(at[0] / 1.5) + square((at[1] + 1.0) / 1.5) + square((at[2] + 1.5) / 1.5));
-    return prior + 0.5 * factor.matrixL().solve(asked.targets).squaredNorm() + static_cast<double>(asked.targets.cols()) * lower.diagonal().array().log().sum();
+    return prior + 0.5 * factor.matrixL().solve(asked.targets).squaredNorm() +
+           static_cast<double>(asked.targets.cols()) * lower.diagonal().array().log().sum();
   };
   std::vector<double> at = {0.0, -1.0, -1.5};
   if (base.size() >= 5) {
@@ -158,10 +169,14 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
   std::vector<int> all(points_.size());
   std::iota(all.begin(), all.end(), 0);
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance_matrix(learnt.kernel, all));
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
+  const Eigen::MatrixXd inverse = factor.solve(
+      Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
   const Eigen::MatrixXd weights = inverse * centred;
   std::vector<int> order = all;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return points_[static_cast<std::size_t>(a)].log_eta.squaredNorm() < points_[static_cast<std::size_t>(b)].log_eta.squaredNorm(); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return points_[static_cast<std::size_t>(a)].log_eta.squaredNorm() <
+           points_[static_cast<std::size_t>(b)].log_eta.squaredNorm();
+  });
   order.resize((order.size() + 1) / 2);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     double sum = 0.0;
@@ -181,14 +196,16 @@ void FractureSurface::learn() {
     double sum = 0.0;
     int known = 0;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const auto& prediction = runs_.runs()[static_cast<std::size_t>(k)].predictions[static_cast<std::size_t>(rows_[r].group)];
+      const auto& prediction =
+          runs_.runs()[static_cast<std::size_t>(k)].predictions[static_cast<std::size_t>(rows_[r].group)];
       const auto value = value_of(shown_features(prediction, {}), rows_[r].feature);
       values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
       if (value) sum += *value, ++known;
     }
     // A run that failed says nothing: the mean of the others stands there.
     for (Eigen::Index k = 0; k < count; ++k)
-      if (std::isnan(values(k, static_cast<Eigen::Index>(r)))) values(k, static_cast<Eigen::Index>(r)) = known > 0 ? sum / known : 0.0;
+      if (std::isnan(values(k, static_cast<Eigen::Index>(r))))
+        values(k, static_cast<Eigen::Index>(r)) = known > 0 ? sum / known : 0.0;
   }
   std::map<Feature, std::vector<int>> by_feature;
   for (std::size_t r = 0; r < rows_.size(); ++r) by_feature[rows_[r].feature].push_back(static_cast<int>(r));
@@ -211,7 +228,8 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
       const auto own = at.effects.find(effect);
       distance += own == at.effects.end() ? 1.0 + x.squaredNorm() : (own->second - x).squaredNorm();
     }
-    for (const auto& [effect, x] : at.effects) distance += points_[k].effects.contains(effect) ? 0.0 : 1.0 + x.squaredNorm();
+    for (const auto& [effect, x] : at.effects)
+      distance += points_[k].effects.contains(effect) ? 0.0 : 1.0 + x.squaredNorm();
     order.emplace_back(distance, static_cast<int>(k));
   }
   std::sort(order.begin(), order.end());
@@ -243,13 +261,15 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
   Eigen::VectorXd result(static_cast<Eigen::Index>(rows_.size()));
   for (const Learnt& learnt : learnt_) {
     Eigen::VectorXd to_runs(static_cast<Eigen::Index>(points_.size()));
-    for (std::size_t k = 0; k < points_.size(); ++k) to_runs[static_cast<Eigen::Index>(k)] = covariance(learnt.kernel, at, points_[k]);
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      to_runs[static_cast<Eigen::Index>(k)] = covariance(learnt.kernel, at, points_[k]);
     const Eigen::RowVectorXd values = learnt.mean + to_runs.transpose() * learnt.weights;
     for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[static_cast<Eigen::Index>(r)];
   }
   const bool machine = std::any_of(set.extensions.begin(), set.extensions.end(), [](const auto& extension) {
     const material::Effect* effect = material::find_effect(extension.first);
-    return effect != nullptr && effect->side == material::EffectSide::measurement && std::any_of(extension.second.begin(), extension.second.end(), [](double v) { return v != 0.0; });
+    return effect != nullptr && effect->side == material::EffectSide::measurement &&
+           std::any_of(extension.second.begin(), extension.second.end(), [](double v) { return v != 0.0; });
   });
   if (machine) result += machine_change(set, at);
   return result;
@@ -259,9 +279,11 @@ FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) con
   FeatureValues slopes;
   const FractureRun& run = runs_.runs().front();
   for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
-    const FeatureValues before = shown_features(run.predictions[g], set.extensions, {.batch_step = 0.0}), after = shown_features(run.predictions[g], set.extensions, {.batch_step = 1.0});
+    const FeatureValues before = shown_features(run.predictions[g], set.extensions, {.batch_step = 0.0}),
+                        after = shown_features(run.predictions[g], set.extensions, {.batch_step = 1.0});
     for (std::size_t f = 0; f < kFeatureCount; ++f)
-      if (before[f] && after[f]) slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]) / static_cast<double>(runs_.groups().size());
+      if (before[f] && after[f])
+        slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]) / static_cast<double>(runs_.groups().size());
   }
   return slopes;
 }

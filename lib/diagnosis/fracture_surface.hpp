@@ -1,10 +1,10 @@
 #pragma once
-// Features of fracture tests as functions of the parameters, learnt from runs around a fit: a fracture costs a second, a bootstrap asks for
-// thousands.
+// Features of fracture tests as functions of the parameters, learnt from runs around a fit: a fracture costs a second,
+// a bootstrap asks for thousands.
 //
-// Per feature one covariance for all groups: an offset, a linear and a curved part over the logarithms of eta, one part per effect
-// that vanishes where the effect does, and noise: a crack jumps from one way to another. Effects of the machine need no
-// emulator: they are applied to the curves of the nearest runs.
+// Per feature one covariance for all groups: an offset, a linear and a curved part over the logarithms of eta, one part
+// per effect that vanishes where the effect does, and noise: a crack jumps from one way to another. Effects of the
+// machine need no emulator: they are applied to the curves of the nearest runs.
 
 #include <Eigen/Dense>
 #include <map>
@@ -16,19 +16,20 @@ namespace nacre::diagnosis {
 
 /// One row of the data that is a feature of a fracture group.
 struct SurfaceRow {
-  int row = 0;        ///< index in Observations::rows
-  int group = 0;      ///< index in FractureRuns::groups()
+  int row = 0;    ///< index in Observations::rows
+  int group = 0;  ///< index in FractureRuns::groups()
   Feature feature = Feature::log_toughness;
 };
 
-/// Covariance of what one effect changes, between two points given by its strengths (-1 to 1; further parameters behind): zero without the effect,
-/// linear and curved in its size.
+/// Covariance of what one effect changes, between two points given by its strengths (-1 to 1; further parameters
+/// behind): zero without the effect, linear and curved in its size.
 double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 class FractureSurface {
  public:
   /// Rows of the observations that the surface predicts.
-  explicit FractureSurface(const Observations& observations, const FractureRuns& runs, material::ToughnessParameters centre);
+  explicit FractureSurface(const Observations& observations, const FractureRuns& runs,
+                           material::ToughnessParameters centre);
   /// Learns from all runs there are now. O(runs^3) per feature.
   void learn();
   const std::vector<SurfaceRow>& rows() const { return rows_; }

@@ -30,17 +30,24 @@ Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::
 }
 
 /// All rows by a model refitted to `rows`, with what those rows say of the numerics that all layouts share.
-Eigen::VectorXd predicted_from(const Observations& observations, const Fit& fit, const Refit& refit, const std::vector<Eigen::Index>& rows) {
+Eigen::VectorXd predicted_from(const Observations& observations, const Fit& fit, const Refit& refit,
+                               const std::vector<Eigen::Index>& rows) {
   const Eigen::VectorXd model = fit.predicted + fit.jacobian * refit.delta;
   const Eigen::VectorXd residuals = observations.values - model;
   return model + observations.shared_numerics(residuals(rows), rows);
 }
 
-/// Rows whose errors count for the figure of the whole: moduli and toughness; slopes and stresses where there are coupons only.
+/// Rows whose errors count for the figure of the whole: moduli and toughness; slopes and stresses where there are
+/// coupons only.
 bool counts(const Observations& observations, const Row& row) {
-  const bool layouts = observations.has(tester::TestKind::toughness) || std::any_of(observations.groups.begin(), observations.groups.end(), [](const Observation& g) { return g.design.layout() != nullptr; });
-  if (layouts) return row.test != tester::TestKind::tensile && (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
-  return row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 || row.feature == Feature::log_tangent_50 || row.feature == Feature::log_peak;
+  const bool layouts = observations.has(tester::TestKind::toughness) ||
+                       std::any_of(observations.groups.begin(), observations.groups.end(),
+                                   [](const Observation& g) { return g.design.layout() != nullptr; });
+  if (layouts)
+    return row.test != tester::TestKind::tensile &&
+           (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
+  return row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 ||
+         row.feature == Feature::log_tangent_50 || row.feature == Feature::log_peak;
 }
 
 /// Sums over the rows of one design.
@@ -59,7 +66,8 @@ struct HeldOut {
   Eigen::VectorXd before, after;
 };
 
-HeldOut hold_out(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed, const std::vector<std::vector<Eigen::Index>>& designs) {
+HeldOut hold_out(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed,
+                 const std::vector<std::vector<Eigen::Index>>& designs) {
   const Eigen::VectorXd& y = observations.values;
   const Eigen::MatrixXd covariance = observations.covariance();
   HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
@@ -78,7 +86,8 @@ HeldOut hold_out(const Observations& observations, const Fit& base, const std::v
       const Refit own = refit(model, train, y, whitener);
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - drop_needed) chosen = &model, chosen_refit = own;
     }
-    const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train), after = y - predicted_from(observations, *chosen, chosen_refit, train);
+    const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train),
+                          after = y - predicted_from(observations, *chosen, chosen_refit, train);
     for (Eigen::Index row = 0; row < y.size(); ++row)
       if (held[static_cast<std::size_t>(row)]) result.before[row] = before[row], result.after[row] = after[row];
   }
@@ -87,15 +96,18 @@ HeldOut hold_out(const Observations& observations, const Fit& base, const std::v
 
 }  // namespace
 
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed, std::uint64_t seed) {
+Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
+                   double drop_needed, std::uint64_t seed) {
   // Folds of whole designs, dealt by a seeded shuffle.
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
   for (int i = 0; i < observations.size(); ++i)
-    if (observations.rows[static_cast<std::size_t>(i)].group >= 0) rows_of[observations.group_of(i).design.name()].push_back(i);
+    if (observations.rows[static_cast<std::size_t>(i)].group >= 0)
+      rows_of[observations.group_of(i).design.name()].push_back(i);
   std::vector<std::vector<Eigen::Index>> designs;
   for (const auto& [name, rows] : rows_of) designs.push_back(rows);
   RandomStream random(seed, "gain/folds");
-  for (std::size_t i = designs.size(); i > 1; --i) std::swap(designs[i - 1], designs[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  for (std::size_t i = designs.size(); i > 1; --i)
+    std::swap(designs[i - 1], designs[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
   const HeldOut held = hold_out(observations, base, models, drop_needed, designs);
 
   Gain gain;

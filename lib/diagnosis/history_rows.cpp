@@ -16,7 +16,8 @@ struct Regression {
 /// Sum over groups of (x - mean x)(y - mean y).
 Regression regress(const std::vector<Deviation>& deviations, const std::vector<double>& x, Feature feature) {
   std::map<int, std::pair<double, int>> means;
-  for (std::size_t i = 0; i < deviations.size(); ++i) means[deviations[i].group].first += x[i], ++means[deviations[i].group].second;
+  for (std::size_t i = 0; i < deviations.size(); ++i)
+    means[deviations[i].group].first += x[i], ++means[deviations[i].group].second;
   Regression sum;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const auto& y = value_of(deviations[i].from_mean, feature);
@@ -33,7 +34,8 @@ Regression regress(const std::vector<Deviation>& deviations, const std::vector<d
 /// Print order less its mean over the specimen's batch, which makes it nearly independent of the number of the batch.
 std::vector<double> order_in_batch(const std::vector<Deviation>& deviations) {
   std::map<double, std::pair<double, int>> means;
-  for (const Deviation& d : deviations) means[d.measured->batch_step].first += d.measured->specimen->print_order, ++means[d.measured->batch_step].second;
+  for (const Deviation& d : deviations)
+    means[d.measured->batch_step].first += d.measured->specimen->print_order, ++means[d.measured->batch_step].second;
   std::vector<double> order;
   for (const Deviation& d : deviations) {
     const auto& [total, count] = means[d.measured->batch_step];

@@ -9,19 +9,37 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json json_of(const NamedEffect& e) {
-  return {{"name", e.name}, {"family", e.family}, {"parameter", e.parameter}, {"interval90", {e.interval_low, e.interval_high}}, {"unit", e.unit}};
+  return {{"name", e.name},
+          {"family", e.family},
+          {"parameter", e.parameter},
+          {"interval90", {e.interval_low, e.interval_high}},
+          {"unit", e.unit}};
 }
 
 ordered_json json_of(const Candidate& c) {
-  return {{"name", c.name},           {"status", c.status},         {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise},
-          {"absorption", c.absorption}, {"signal_to_noise", c.signal_to_noise}, {"parameter", c.parameter}, {"p_fit", c.p_fit},
-          {"nearest_rival", c.nearest_rival}, {"rival_cosine", c.rival_cosine}, {"distance", c.distance}};
+  return {{"name", c.name},
+          {"status", c.status},
+          {"statistic", c.statistic},
+          {"p_family_wise", c.p_family_wise},
+          {"absorption", c.absorption},
+          {"signal_to_noise", c.signal_to_noise},
+          {"parameter", c.parameter},
+          {"p_fit", c.p_fit},
+          {"nearest_rival", c.nearest_rival},
+          {"rival_cosine", c.rival_cosine},
+          {"distance", c.distance}};
 }
 
-ordered_json json_of(const Contrast& c) { return {{"name", c.name}, {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise}}; }
+ordered_json json_of(const Contrast& c) {
+  return {{"name", c.name}, {"statistic", c.statistic}, {"p_family_wise", c.p_family_wise}};
+}
 
 ordered_json json_of(const SanityCheck& s) {
-  return {{"changed", s.changed}, {"feature", to_string(s.feature)}, {"largest", s.largest}, {"allowed", s.allowed}, {"numerical", s.numerical}};
+  return {{"changed", s.changed},
+          {"feature", to_string(s.feature)},
+          {"largest", s.largest},
+          {"allowed", s.allowed},
+          {"numerical", s.numerical}};
 }
 
 ordered_json json_of(const NextExperiment& e);
@@ -74,8 +92,10 @@ ordered_json json_of(const material::ParameterSet& set) {
   ordered_json object = ordered_json::object();
   const auto theta = to_vector(set.modulus);
   const auto eta = to_vector(set.toughness);
-  for (std::size_t i = 0; i < theta.size(); ++i) object["modulus"][std::string(material::modulus_parameter_names()[i])] = theta[i];
-  for (std::size_t i = 0; i < eta.size(); ++i) object["toughness"][std::string(material::toughness_parameter_names()[i])] = eta[i];
+  for (std::size_t i = 0; i < theta.size(); ++i)
+    object["modulus"][std::string(material::modulus_parameter_names()[i])] = theta[i];
+  for (std::size_t i = 0; i < eta.size(); ++i)
+    object["toughness"][std::string(material::toughness_parameter_names()[i])] = eta[i];
   object["extensions"] = ordered_json::object();
   for (const auto& [name, values] : set.extensions) object["extensions"][name] = values;
   return object;

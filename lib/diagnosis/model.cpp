@@ -24,15 +24,24 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
 Basis basis_for(const Observations& observations, const material::ParameterSet& start) {
   Basis basis{false, false, false, start};
   for (const Observation& group : observations.groups) {
-    if (group.test == TestKind::toughness) basis.toughness = true;
-    else if (group.design.layout()) basis.modulus = true;
-    else basis.coupon = true;
+    if (group.test == TestKind::toughness)
+      basis.toughness = true;
+    else if (group.design.layout())
+      basis.modulus = true;
+    else
+      basis.coupon = true;
   }
   return basis;
 }
 
-FeatureModel::FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity, const FractureSurface* surface)
-    : observations_(observations), basis_(basis), fidelity_(fidelity), surface_(surface), rows_of_group_(observations.groups.size()), last_(observations.groups.size()) {
+FeatureModel::FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
+                           const FractureSurface* surface)
+    : observations_(observations),
+      basis_(basis),
+      fidelity_(fidelity),
+      surface_(surface),
+      rows_of_group_(observations.groups.size()),
+      last_(observations.groups.size()) {
   for (int i = 0; i < observations.size(); ++i) {
     const int group = observations.rows[static_cast<std::size_t>(i)].group;
     if (group >= 0) rows_of_group_[static_cast<std::size_t>(group)].push_back(i);
@@ -59,7 +68,8 @@ double FeatureModel::modulus(std::size_t group, const material::ParameterSet& se
   return known_.emplace(key, result).first->second;
 }
 
-std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t group, const material::ParameterSet& set) const {
+std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t group,
+                                                                const material::ParameterSet& set) const {
   const Observation& g = observations_.groups[group];
   const tester::Simulation simulation{g.design, simulated_side(set), g.conditions, fidelity_};
   std::string key = tester::simulation_key(simulation, TestKind::modulus);
@@ -75,12 +85,15 @@ std::shared_ptr<const tester::ModulusProbe> FeatureModel::probe(std::size_t grou
   return shared;
 }
 
-void FeatureModel::put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
-  const double shown = std::log(measurement::observe_modulus(modulus_pa, set.extensions, {.batch_step = observations_.groups[group].batch_step}));
+void FeatureModel::put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set,
+                               Eigen::Ref<Eigen::VectorXd> rows) const {
+  const double shown = std::log(
+      measurement::observe_modulus(modulus_pa, set.extensions, {.batch_step = observations_.groups[group].batch_step}));
   for (const int row : rows_of_group_[group]) rows[row] = shown;
 }
 
-void FeatureModel::put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
+void FeatureModel::put_group(std::size_t group, const material::ParameterSet& set,
+                             Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
   if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
   const FeatureValues values = tensile_features(coupon_curve(g, set));
@@ -98,15 +111,19 @@ void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eig
     if (row.probe == Probe::mean) continue;
     rows[i] = 0.0;
     if (row.probe != Probe::batch || set.extensions.empty()) continue;
-    if (row.test == TestKind::toughness && surface_ != nullptr) rows[i] = value_of(surface_->batch_step(set), row.feature).value_or(0.0);
+    if (row.test == TestKind::toughness && surface_ != nullptr)
+      rows[i] = value_of(surface_->batch_step(set), row.feature).value_or(0.0);
     if (row.test == TestKind::toughness) continue;
-    // A stiffness in the middle of those that are printed stands for all: the machine's own spring makes the slope depend on it a little.
+    // A stiffness in the middle of those that are printed stands for all: the machine's own spring makes the slope
+    // depend on it a little.
     constexpr double kTypicalPa = 5e8;
-    rows[i] = std::log(measurement::observe_modulus(kTypicalPa, set.extensions, {.batch_step = 1.0}) / measurement::observe_modulus(kTypicalPa, set.extensions));
+    rows[i] = std::log(measurement::observe_modulus(kTypicalPa, set.extensions, {.batch_step = 1.0}) /
+                       measurement::observe_modulus(kTypicalPa, set.extensions));
   }
 }
 
-void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u, Eigen::Ref<Eigen::MatrixXd> y) const {
+void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u,
+                                  Eigen::Ref<Eigen::MatrixXd> y) const {
   const int groups = static_cast<int>(observations_.groups.size()), points = static_cast<int>(u.size());
   parallel_for(groups * points, [&](int job) {
     const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
@@ -119,7 +136,8 @@ void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eige
     put_history(set, y.col(p));
     if (surface_ == nullptr || !basis_.toughness) return;
     const Eigen::VectorXd values = surface_->predict(set);
-    for (std::size_t k = 0; k < surface_->rows().size(); ++k) y(surface_->rows()[k].row, p) = values[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < surface_->rows().size(); ++k)
+      y(surface_->rows()[k].row, p) = values[static_cast<Eigen::Index>(k)];
   });
 }
 
@@ -129,13 +147,15 @@ Eigen::MatrixXd FeatureModel::predict(const CoordinateMap& map, std::span<const 
   parallel_for(groups * points, [&](int job) {
     const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
     const Observation& g = observations_.groups[group];
-    if (g.test == TestKind::modulus && g.design.layout()) put_group(group, map.parameters(u[point]), y.col(static_cast<Eigen::Index>(point)));
+    if (g.test == TestKind::modulus && g.design.layout())
+      put_group(group, map.parameters(u[point]), y.col(static_cast<Eigen::Index>(point)));
   });
   predict_others(map, u, y);
   return y;
 }
 
-Eigen::MatrixXd FeatureModel::slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted, double step) const {
+Eigen::MatrixXd FeatureModel::slopes(const CoordinateMap& map, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& predicted, double step) const {
   std::vector<Eigen::VectorXd> points;
   Eigen::VectorXd steps(map.size());
   for (int i = 0; i < map.size(); ++i) {
@@ -166,9 +186,11 @@ Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen:
     const Observation& group = observations_.groups[static_cast<std::size_t>(i)];
     if (group.test != TestKind::modulus || !group.design.layout()) return;
     const auto result = tester::test_modulus({group.design, set, group.conditions, fidelity_}, {.refinement = 2});
-    if (!result) throw std::runtime_error(fmt::format("modulus of {} at h/2: {}", group.design.name(), result.error().message));
+    if (!result)
+      throw std::runtime_error(fmt::format("modulus of {} at h/2: {}", group.design.name(), result.error().message));
     const double finer = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
-    const double own = std::log(measurement::observe_modulus(modulus(static_cast<std::size_t>(i), set), set.extensions));
+    const double own =
+        std::log(measurement::observe_modulus(modulus(static_cast<std::size_t>(i), set), set.extensions));
     for (const int row : rows_of_group_[static_cast<std::size_t>(i)]) change[row] = finer - own;
   });
   return change;

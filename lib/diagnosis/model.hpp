@@ -15,23 +15,30 @@
 
 namespace nacre::diagnosis {
 
-/// The testers as a function of coordinates over the rows of a data set, measurement side included: moduli of layouts by the static tester
-/// itself, coupons by the material point, fracture tests by the emulator. Thread-safe; remembers moduli.
+/// The testers as a function of coordinates over the rows of a data set, measurement side included: moduli of layouts
+/// by the static tester itself, coupons by the material point, fracture tests by the emulator. Thread-safe; remembers
+/// moduli.
 class FeatureModel {
  public:
-  /// `observations` must outlive the model; `surface` is needed when there are fracture rows, and may learn more while the model lives.
-  FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity, const FractureSurface* surface = nullptr);
+  /// `observations` must outlive the model; `surface` is needed when there are fracture rows, and may learn more while
+  /// the model lives.
+  FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
+               const FractureSurface* surface = nullptr);
   const Basis& basis() const { return basis_; }
   CoordinateMap map(std::span<const std::string> effects) const { return CoordinateMap(basis_, effects); }
   CoordinateMap base_map() const { return CoordinateMap(basis_, {}); }
-  /// Predicted features, rows x coordinate vectors; all cores. Throws std::runtime_error when a simulation is impossible.
+  /// Predicted features, rows x coordinate vectors; all cores. Throws std::runtime_error when a simulation is
+  /// impossible.
   Eigen::MatrixXd predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const;
-  Eigen::VectorXd predict(const CoordinateMap& map, const Eigen::VectorXd& u) const { return predict(map, std::span(&u, 1)); }
-  /// Columns d row / d coordinate at u by one-sided differences of size `step` that stay inside the bounds; `predicted`: the rows at u. Moduli of
-  /// layouts need one solution each for all coordinates (tester::ModulusProbe).
-  Eigen::MatrixXd slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted, double step) const;
-  /// log E on elements of size h/2 less log E on the tester's elements, measurement side included; 0 in rows that are no modulus
-  /// of a layout. Not remembered.
+  Eigen::VectorXd predict(const CoordinateMap& map, const Eigen::VectorXd& u) const {
+    return predict(map, std::span(&u, 1));
+  }
+  /// Columns d row / d coordinate at u by one-sided differences of size `step` that stay inside the bounds;
+  /// `predicted`: the rows at u. Moduli of layouts need one solution each for all coordinates (tester::ModulusProbe).
+  Eigen::MatrixXd slopes(const CoordinateMap& map, const Eigen::VectorXd& u, const Eigen::VectorXd& predicted,
+                         double step) const;
+  /// log E on elements of size h/2 less log E on the tester's elements, measurement side included; 0 in rows that are
+  /// no modulus of a layout. Not remembered.
   Eigen::VectorXd mesh_change(const CoordinateMap& map, const Eigen::VectorXd& u) const;
   /// The curve of a coupon through the machine, along the strains that were measured. Throws std::runtime_error.
   tester::Curve coupon_curve(const Observation& group, const material::ParameterSet& set) const;
@@ -42,9 +49,11 @@ class FeatureModel {
   /// The probe of a layout there: that of the last solution where it is the same.
   std::shared_ptr<const tester::ModulusProbe> probe(std::size_t group, const material::ParameterSet& set) const;
   void put_group(std::size_t group, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
-  void put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
+  void put_modulus(std::size_t group, double modulus_pa, const material::ParameterSet& set,
+                   Eigen::Ref<Eigen::VectorXd> rows) const;
   /// All rows at `u` but those of moduli of layouts.
-  void predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u, Eigen::Ref<Eigen::MatrixXd> y) const;
+  void predict_others(const CoordinateMap& map, std::span<const Eigen::VectorXd> u,
+                      Eigen::Ref<Eigen::MatrixXd> y) const;
   void put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const;
 
   const Observations& observations_;

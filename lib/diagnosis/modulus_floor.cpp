@@ -12,7 +12,8 @@ ModulusFloor read_modulus_floor(const std::filesystem::path& file, tester::Fidel
   const auto number = [&](const char* key, double largest, std::optional<double> otherwise) {
     const auto value = section[key] ? section[key].value<double>() : otherwise;
     if (!value || !(*value >= 0.0) || *value > largest)
-      throw InputError::format("{}: expected [{}] {}, a number between 0 and {}", file.string(), tester::to_string(fidelity), key, largest);
+      throw InputError::format("{}: expected [{}] {}, a number between 0 and {}", file.string(),
+                               tester::to_string(fidelity), key, largest);
     return *value;
   };
   ModulusFloor floor;

@@ -13,7 +13,8 @@ Eigen::MatrixXd matrix(const toml::table& table, const char* key, std::size_t si
   Eigen::MatrixXd result(size, size);
   for (std::size_t i = 0; i < size; ++i) {
     const toml::array* row = rows->get(i)->as_array();
-    if (row == nullptr || row->size() != size) throw InputError::format("{} {}: expected {} numbers in row {}", place, key, size, i + 1);
+    if (row == nullptr || row->size() != size)
+      throw InputError::format("{} {}: expected {} numbers in row {}", place, key, size, i + 1);
     for (std::size_t j = 0; j < size; ++j) {
       const auto value = row->get(j)->value<double>();
       if (!value) throw InputError::format("{} {}: expected numbers in row {}", place, key, i + 1);
@@ -23,16 +24,19 @@ Eigen::MatrixXd matrix(const toml::table& table, const char* key, std::size_t si
   return result;
 }
 
-/// Sums over few parameter sets have directions without any variance, which four printed digits may turn into slightly negative ones; spread over
-/// all layouts these outweigh the scatter. They are set to nothing; a matrix that is no covariance at all is an error.
+/// Sums over few parameter sets have directions without any variance, which four printed digits may turn into slightly
+/// negative ones; spread over all layouts these outweigh the scatter. They are set to nothing; a matrix that is no
+/// covariance at all is an error.
 Eigen::MatrixXd as_covariance(const Eigen::MatrixXd& given, const char* key, const std::string& place) {
   constexpr double kRounding = 1e-3;
-  if (!given.isApprox(given.transpose(), 1e-6) || given.diagonal().minCoeff() <= 0.0) throw InputError::format("{} {}: expected a symmetric matrix with positive variances", place, key);
+  if (!given.isApprox(given.transpose(), 1e-6) || given.diagonal().minCoeff() <= 0.0)
+    throw InputError::format("{} {}: expected a symmetric matrix with positive variances", place, key);
   const Eigen::VectorXd deviation = given.diagonal().cwiseSqrt(), inverse = deviation.cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inverse.asDiagonal() * given * inverse.asDiagonal());
   if (parts.eigenvalues().minCoeff() < -kRounding * parts.eigenvalues().maxCoeff())
     throw InputError::format("{} {}: no covariance: some combination of features has a negative variance", place, key);
-  const Eigen::MatrixXd correlation = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() * parts.eigenvectors().transpose();
+  const Eigen::MatrixXd correlation =
+      parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() * parts.eigenvectors().transpose();
   return deviation.asDiagonal() * correlation * deviation.asDiagonal();
 }
 

@@ -9,13 +9,14 @@
 
 namespace nacre::diagnosis {
 
-/// What the elements of the fracture tester leave of an error in the features of a curve (data/numerics_floor.toml, table
-/// [FIDELITY.curve]; docs/studies/numerics-floor.md). Between layouts i and j, z = (rigid fraction - 0.675) / 0.1:
-/// covariance = shared + z_i z_j rigid + (i = j) layout.
+/// What the elements of the fracture tester leave of an error in the features of a curve (data/numerics_floor.toml,
+/// table [FIDELITY.curve]; docs/studies/numerics-floor.md). Between layouts i and j, z = (rigid fraction - 0.675) /
+/// 0.1: covariance = shared + z_i z_j rigid + (i = j) layout.
 struct FractureNumerics {
-  std::vector<Feature> features;  ///< empty: nothing known
+  std::vector<Feature> features;          ///< empty: nothing known
   Eigen::MatrixXd shared, rigid, layout;  ///< features x features
-  /// Covariance between feature a of one layout and feature b of another (or the same), 0 when one of them is not in the list.
+  /// Covariance between feature a of one layout and feature b of another (or the same), 0 when one of them is not in
+  /// the list.
   double covariance(Feature a, Feature b, double z_a, double z_b, bool same_layout) const;
 };
 

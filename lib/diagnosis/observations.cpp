@@ -21,7 +21,8 @@ using GroupKey = std::tuple<int, std::string, double, double, double>;
 
 GroupKey key_of(const SpecimenRecord& specimen) {
   const tester::TestConditions& c = specimen.conditions;
-  return {static_cast<int>(specimen.test), specimen.design.name(), c.orientation_deg, c.strain_rate_per_s, c.thickness_mm};
+  return {static_cast<int>(specimen.test), specimen.design.name(), c.orientation_deg, c.strain_rate_per_s,
+          c.thickness_mm};
 }
 
 bool has_coupons(const std::vector<SpecimenRecord>& specimens) {
@@ -31,18 +32,21 @@ bool has_coupons(const std::vector<SpecimenRecord>& specimens) {
 }
 
 bool has_layouts(const std::vector<SpecimenRecord>& specimens) {
-  return std::any_of(specimens.begin(), specimens.end(), [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
+  return std::any_of(specimens.begin(), specimens.end(),
+                     [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
 }
 
 FeatureValues features_of(const SpecimenRecord& specimen) {
   FeatureValues values;
   switch (specimen.test) {
     case TestKind::modulus:
-      if (const auto modulus = measurement::modulus_of(specimen); modulus && *modulus > 0.0) value_of(values, Feature::log_modulus) = std::log(*modulus);
+      if (const auto modulus = measurement::modulus_of(specimen); modulus && *modulus > 0.0)
+        value_of(values, Feature::log_modulus) = std::log(*modulus);
       break;
     case TestKind::toughness:
       values = fracture_features(specimen.curve);
-      if (const auto toughness = measurement::toughness_of(specimen); toughness && *toughness > 0.0) value_of(values, Feature::log_toughness) = std::log(*toughness);
+      if (const auto toughness = measurement::toughness_of(specimen); toughness && *toughness > 0.0)
+        value_of(values, Feature::log_toughness) = std::log(*toughness);
       break;
     case TestKind::tensile:
       values = tensile_features(specimen.curve);
@@ -55,14 +59,18 @@ FeatureValues features_of(const SpecimenRecord& specimen) {
 bool belongs(const SpecimenRecord& specimen, bool homogeneous_moduli) {
   if (!specimen.valid) return false;
   switch (specimen.test) {
-    case TestKind::modulus: return specimen.design.layout() != nullptr || homogeneous_moduli;
-    case TestKind::toughness: return specimen.design.layout() != nullptr;
-    case TestKind::tensile: return specimen.design.mixture() != nullptr;
+    case TestKind::modulus:
+      return specimen.design.layout() != nullptr || homogeneous_moduli;
+    case TestKind::toughness:
+      return specimen.design.layout() != nullptr;
+    case TestKind::tensile:
+      return specimen.design.mixture() != nullptr;
   }
   return false;
 }
 
-/// Coupons of one group are stopped at different strains: all are read as far as the first that stops. Nothing when one has no curve that can be cut.
+/// Coupons of one group are stopped at different strains: all are read as far as the first that stops. Nothing when one
+/// has no curve that can be cut.
 std::optional<double> common_strain(const std::vector<Measured>& replicates) {
   std::optional<double> common;
   for (const Measured& each : replicates) {
@@ -89,7 +97,8 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     // A feature that one replicate lacks says nothing of the group: groups of one kind are then alike.
     double sum = 0.0;
-    const bool all = std::all_of(replicates.begin(), replicates.end(), [f](const Measured& m) { return m.features[f].has_value(); });
+    const bool all =
+        std::all_of(replicates.begin(), replicates.end(), [f](const Measured& m) { return m.features[f].has_value(); });
     for (const Measured& each : replicates) sum += each.features[f].value_or(0.0);
     if (all) group.features[f] = sum / group.replicates;
   }
@@ -97,7 +106,8 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   for (const Measured& each : replicates)
     if (!each.specimen->curve.empty()) with_curve.push_back(&each);
   const auto peak = [](const Measured* m) { return value_of(m->features, Feature::log_peak).value_or(0.0); };
-  std::stable_sort(with_curve.begin(), with_curve.end(), [&](const Measured* a, const Measured* b) { return peak(a) < peak(b); });
+  std::stable_sort(with_curve.begin(), with_curve.end(),
+                   [&](const Measured* a, const Measured* b) { return peak(a) < peak(b); });
   if (!with_curve.empty()) group.curve = with_curve[with_curve.size() / 2]->specimen->curve;
   return group;
 }
@@ -107,7 +117,9 @@ double rigid_position(const Observation& group) { return (group.design.rigid_fra
 /// Scatter of every test, and of each material's coupons where their replicates say enough of it.
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
   constexpr int kLeastDof = 5;
-  for (int t = 0; t < 3; ++t) observations.scatter[static_cast<std::size_t>(t)] = pooled_scatter(groups, static_cast<TestKind>(t), observations.batches);
+  for (int t = 0; t < 3; ++t)
+    observations.scatter[static_cast<std::size_t>(t)] =
+        pooled_scatter(groups, static_cast<TestKind>(t), observations.batches);
   std::map<std::string, std::size_t> own;
   for (Row& row : observations.rows) {
     row.scatter = static_cast<std::size_t>(row.test);
@@ -128,7 +140,8 @@ void put_scatter(Observations& observations, const std::vector<std::vector<Measu
 }  // namespace
 
 Whitener::Whitener(const Eigen::MatrixXd& covariance) : factor_(covariance) {
-  if (!covariance.allFinite() || factor_.info() != Eigen::Success) throw std::runtime_error("the covariance of the data is not positive definite");
+  if (!covariance.allFinite() || factor_.info() != Eigen::Success)
+    throw std::runtime_error("the covariance of the data is not positive definite");
 }
 
 Whitener Whitener::independent(const Eigen::VectorXd& standard_deviations) {
@@ -146,7 +159,8 @@ bool Observations::has(TestKind test) const {
 int Observations::replicate_dof() const {
   int fewest = -1;
   for (int t = 0; t < 3; ++t) {
-    if (has(static_cast<TestKind>(t)) && (fewest < 0 || scatter[static_cast<std::size_t>(t)].dof < fewest)) fewest = scatter[static_cast<std::size_t>(t)].dof;
+    if (has(static_cast<TestKind>(t)) && (fewest < 0 || scatter[static_cast<std::size_t>(t)].dof < fewest))
+      fewest = scatter[static_cast<std::size_t>(t)].dof;
   }
   return std::max(fewest, 0);
 }
@@ -165,12 +179,17 @@ CovarianceParts Observations::covariance_parts() const {
     for (int j = 0; j <= i; ++j) {
       const Row& b = rows[static_cast<std::size_t>(j)];
       if (a.test != b.test || a.probe != b.probe) continue;
-      if (a.group == b.group) parts.scatter(i, j) = parts.scatter(j, i) = a.weight * scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
+      if (a.group == b.group)
+        parts.scatter(i, j) = parts.scatter(j, i) =
+            a.weight *
+            scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
       if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) continue;
       const bool same = group_of(i).design == group_of(j).design;
       double numerics = 0.0;
       if (a.test == TestKind::modulus && same) numerics = numerics_sd * numerics_sd;
-      if (a.test == TestKind::toughness) numerics = fracture_numerics.covariance(a.feature, b.feature, rigid_position(group_of(i)), rigid_position(group_of(j)), same);
+      if (a.test == TestKind::toughness)
+        numerics = fracture_numerics.covariance(a.feature, b.feature, rigid_position(group_of(i)),
+                                                rigid_position(group_of(j)), same);
       parts.fixed(i, j) = parts.fixed(j, i) = numerics;
     }
   }
@@ -179,14 +198,16 @@ CovarianceParts Observations::covariance_parts() const {
   return parts;
 }
 
-Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& at) const {
+Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows,
+                                              const std::vector<Eigen::Index>& at) const {
   if (numerics_shared.rows() != size()) return Eigen::VectorXd::Zero(size());
   const Eigen::MatrixXd all = covariance();
   const Eigen::VectorXd weights = all(at, at).llt().solve(residuals_at_rows);
   return numerics_shared * (numerics_shared(at, Eigen::all).transpose() * weights);
 }
 
-Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_numerics_sd, const FractureNumerics& fracture) {
+Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_numerics_sd,
+                     const FractureNumerics& fracture) {
   const bool homogeneous_moduli = has_coupons(specimens) || !has_layouts(specimens);
   // Replicates in the order of their names: the same bits whatever the order of arrival.
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
@@ -223,7 +244,8 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     const Observation& group = observations.groups[g];
     for (std::size_t f = 0; f < kFeatureCount; ++f) {
       if (!group.features[f]) continue;
-      observations.rows.push_back({static_cast<int>(g), static_cast<Feature>(f), Probe::mean, group.test, 1.0 / group.replicates});
+      observations.rows.push_back(
+          {static_cast<int>(g), static_cast<Feature>(f), Probe::mean, group.test, 1.0 / group.replicates});
       values.push_back(*group.features[f]);
     }
   }

@@ -16,12 +16,12 @@ struct Observation {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  FeatureValues features;     ///< means over the valid replicates
+  FeatureValues features;  ///< means over the valid replicates
   int replicates = 0;
-  double print_order = 0.0;   ///< mean, 0 when unknown
-  double batch_step = 0.0;    ///< mean number of the batch, the first is 0
-  std::string batch;          ///< empty when the replicates are of several batches
-  tester::Curve curve;        ///< of the replicate whose peak is the middle one; empty when none was recorded
+  double print_order = 0.0;      ///< mean, 0 when unknown
+  double batch_step = 0.0;       ///< mean number of the batch, the first is 0
+  std::string batch;             ///< empty when the replicates are of several batches
+  tester::Curve curve;           ///< of the replicate whose peak is the middle one; empty when none was recorded
   std::string material() const;  ///< "layout" or the name of the homogeneous material
 };
 
@@ -38,14 +38,16 @@ struct Row {
   Feature feature = Feature::log_modulus;
   Probe probe = Probe::mean;
   tester::TestKind test = tester::TestKind::modulus;
-  double weight = 1.0;  ///< variance of the row over that of a single specimen: 1/replicates of a mean
+  double weight = 1.0;      ///< variance of the row over that of a single specimen: 1/replicates of a mean
   std::size_t scatter = 0;  ///< how its replicates scatter: index in Observations::scatter
 };
 
-/// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of the covariance.
+/// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of
+/// the covariance.
 class Whitener {
  public:
-  /// Throws std::runtime_error when the matrix is not finite and positive definite: no statement about such data would mean anything.
+  /// Throws std::runtime_error when the matrix is not finite and positive definite: no statement about such data would
+  /// mean anything.
   explicit Whitener(const Eigen::MatrixXd& covariance);
   /// Of rows that are independent, with these standard deviations.
   static Whitener independent(const Eigen::VectorXd& standard_deviations);
@@ -75,44 +77,53 @@ struct ReplicateScatter {
 /// Factors on the replicate variances, in the order of Observations::scatter.
 using ScatterFactors = std::vector<double>;
 
-/// The covariance of the rows, taken apart: what scatters between replicates, and the rest. Rows of different scatter are independent in both parts.
+/// The covariance of the rows, taken apart: what scatters between replicates, and the rest. Rows of different scatter
+/// are independent in both parts.
 struct CovarianceParts {
   Eigen::MatrixXd fixed;
   Eigen::MatrixXd scatter;
 };
 
-/// The data of a measurement set: groups sorted by test, design and conditions; rows by group and feature, then those of history.
+/// The data of a measurement set: groups sorted by test, design and conditions; rows by group and feature, then those
+/// of history.
 struct Observations {
   std::vector<Observation> groups;
   std::vector<Row> rows;
-  Eigen::VectorXd values;                    ///< per row
-  /// By TestKind, and behind them coupons of one material each: soft ones are pulled farther than rigid ones, and scatter otherwise.
+  Eigen::VectorXd values;  ///< per row
+  /// By TestKind, and behind them coupons of one material each: soft ones are pulled farther than rigid ones, and
+  /// scatter otherwise.
   std::vector<ReplicateScatter> scatter = std::vector<ReplicateScatter>(3);
-  double numerics_sd = 0.0;                  ///< per layout, of log E, independent between layouts
-  FractureNumerics fracture_numerics;        ///< the same of the features of a fracture test
-  Eigen::MatrixXd numerics_shared;           ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
-  Eigen::VectorXd emulator_variance;         ///< per row; empty: none
-  int batches = 0;                           ///< different names of batches among the specimens used
+  double numerics_sd = 0.0;            ///< per layout, of log E, independent between layouts
+  FractureNumerics fracture_numerics;  ///< the same of the features of a fracture test
+  Eigen::MatrixXd
+      numerics_shared;  ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
+  Eigen::VectorXd emulator_variance;  ///< per row; empty: none
+  int batches = 0;                    ///< different names of batches among the specimens used
   int size() const { return static_cast<int>(rows.size()); }
-  const Observation& group_of(int row) const { return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)]; }
+  const Observation& group_of(int row) const {
+    return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)];
+  }
   bool has(tester::TestKind test) const;
   /// Fewest degrees of freedom behind the scatter of a test that is present.
   int replicate_dof() const;
   double replicate_sd(Feature feature, tester::TestKind test) const;
-  /// Covariance of the rows. What two numerics differ by is the same for all specimens of one layout under one test: rotated twins share
-  /// it. Along the shared directions all rows go together.
+  /// Covariance of the rows. What two numerics differ by is the same for all specimens of one layout under one test:
+  /// rotated twins share it. Along the shared directions all rows go together.
   CovarianceParts covariance_parts() const;
   Eigen::MatrixXd covariance() const {
     const CovarianceParts parts = covariance_parts();
     return parts.fixed + parts.scatter;
   }
-  /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given these
-  /// residuals at `rows`; for all rows.
-  Eigen::VectorXd shared_numerics(const Eigen::VectorXd& residuals_at_rows, const std::vector<Eigen::Index>& rows) const;
+  /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given
+  /// these residuals at `rows`; for all rows.
+  Eigen::VectorXd shared_numerics(const Eigen::VectorXd& residuals_at_rows,
+                                  const std::vector<Eigen::Index>& rows) const;
 };
 
-/// Groups the valid specimens: moduli and fracture tests of layouts, coupons pulled with a curve. Homogeneous moduli join only where
-/// such coupons are there too, or no layout: voxels do not have bulk constants (thesis 3.2.4). Notched homogeneous specimens are left out.
-Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_numerics_sd, const FractureNumerics& fracture);
+/// Groups the valid specimens: moduli and fracture tests of layouts, coupons pulled with a curve. Homogeneous moduli
+/// join only where such coupons are there too, or no layout: voxels do not have bulk constants (thesis 3.2.4). Notched
+/// homogeneous specimens are left out.
+Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_numerics_sd,
+                     const FractureNumerics& fracture);
 
 }  // namespace nacre::diagnosis

@@ -12,7 +12,8 @@ namespace nacre::diagnosis {
 namespace {
 
 /// Amplitudes that are tried, in standard deviations of a row; 0 is the base model.
-constexpr std::array kAmplitudes = {0.0, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 23.0, 32.0};
+constexpr std::array kAmplitudes = {0.0, 0.25, 0.35, 0.5, 0.7,  1.0,  1.4,  2.0,
+                                    2.8, 4.0,  5.6,  8.0, 11.0, 16.0, 23.0, 32.0};
 /// Enough to tell 3 %.
 constexpr int kMostDraws = 1000;
 
@@ -23,7 +24,8 @@ Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
     return std::tuple(row.feature, row.test, row.probe);
   };
-  for (int i = 0; i < observations.size(); ++i) sums[kind(i)].first += matrix(i, i), sums[kind(i)].second += noise(i, i);
+  for (int i = 0; i < observations.size(); ++i)
+    sums[kind(i)].first += matrix(i, i), sums[kind(i)].second += noise(i, i);
   Eigen::VectorXd scale(observations.size());
   for (int i = 0; i < observations.size(); ++i) {
     const auto& [own, wanted] = sums[kind(i)];
@@ -32,7 +34,8 @@ Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix
   return scale.asDiagonal() * matrix * scale.asDiagonal();
 }
 
-/// Residuals of one data set with the base's coordinates integrated out (their prior is Gaussian), under one covariance of the noise.
+/// Residuals of one data set with the base's coordinates integrated out (their prior is Gaussian), under one covariance
+/// of the noise.
 struct Marginal {
   Eigen::VectorXd residual;    ///< from the middle of the prior
   Eigen::MatrixXd covariance;  ///< noise and what the base can move
@@ -54,7 +57,8 @@ struct Amplitude {
   double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without outsider
 };
 
-/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have more than one hill.
+/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have more than one
+/// hill.
 Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
   Amplitude best;
   double reference = 0.0;
@@ -96,37 +100,48 @@ double best_chi2(const Marginal& data, const std::vector<Signature>& signatures,
 
 }  // namespace
 
-Eigen::MatrixXd outsider_covariance(const Observations& observations, const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise) {
+Eigen::MatrixXd outsider_covariance(const Observations& observations, const std::vector<ContrastDirection>& directions,
+                                    const Eigen::MatrixXd& noise) {
   Eigen::MatrixXd along = Eigen::MatrixXd::Zero(observations.size(), observations.size()), own = along;
   for (const ContrastDirection& direction : directions) along += direction.values * direction.values.transpose();
   for (int i = 0; i < observations.size(); ++i) {
     for (int j = 0; j < observations.size(); ++j) {
-      const Row &a = observations.rows[static_cast<std::size_t>(i)], &b = observations.rows[static_cast<std::size_t>(j)];
+      const Row &a = observations.rows[static_cast<std::size_t>(i)],
+                &b = observations.rows[static_cast<std::size_t>(j)];
       const bool alike = a.feature == b.feature && a.test == b.test && a.probe == b.probe;
-      if (alike && a.probe == Probe::mean && observations.group_of(i).design == observations.group_of(j).design) own(i, j) = 1.0;
+      if (alike && a.probe == Probe::mean && observations.group_of(i).design == observations.group_of(j).design)
+        own(i, j) = 1.0;
     }
   }
-  return 0.5 * in_units_of(noise, std::move(along), observations) + 0.5 * in_units_of(noise, std::move(own), observations);
+  return 0.5 * in_units_of(noise, std::move(along), observations) +
+         0.5 * in_units_of(noise, std::move(own), observations);
 }
 
 Outsider outsider_against(const Evidence& evidence, double chi2, int count) {
   const Observations& observations = evidence.observations;
   const DataSource source(observations);
   const Anchor anchor = source.combined(evidence.base);
-  const Eigen::MatrixXd by_rows = source.combined(outsider_covariance(observations, evidence.base.directions, observations.covariance()));
+  const Eigen::MatrixXd by_rows =
+      source.combined(outsider_covariance(observations, evidence.base.directions, observations.covariance()));
   const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
-  const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)), Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};
+  const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)),
+                       Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};
   const Amplitude own = most_probable(marginal(anchor.fit, data), unit);
   Outsider outsider{own.value, own.deviance - chi2, 1.0};
   const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
   std::vector<double> leads(static_cast<std::size_t>(draws));
-  const Eigen::MatrixXd spread = own.value * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) * Eigen::MatrixXd::Identity(unit.rows(), unit.cols())).llt().matrixL());
+  const Eigen::MatrixXd spread =
+      own.value * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) *
+                                              Eigen::MatrixXd::Identity(unit.rows(), unit.cols()))
+                                      .llt()
+                                      .matrixL());
   parallel_for(draws, [&](int i) {
     RandomStream random(evidence.settings.seed + 4, "outsider/" + std::to_string(i));
     Eigen::VectorXd cause(observations.size());
     for (double& value : cause) value = random.normal();
     const Marginal drawn = marginal(anchor.fit, source.draw(anchor.fit.predicted + spread * cause, random));
-    leads[static_cast<std::size_t>(i)] = most_probable(drawn, unit).deviance - best_chi2(drawn, anchor.signatures, count);
+    leads[static_cast<std::size_t>(i)] =
+        most_probable(drawn, unit).deviance - best_chi2(drawn, anchor.signatures, count);
   });
   outsider.p = exceedance(leads, outsider.lead);
   return outsider;

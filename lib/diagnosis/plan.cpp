@@ -28,11 +28,14 @@ void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& se
     specimen.modulus_pa.reset();
     specimen.toughness_pa.reset();
     if (specimen.test == TestKind::modulus) {
-      const auto result = tester::test_modulus({specimen.design, settings.start, specimen.conditions, settings.fidelity});
+      const auto result =
+          tester::test_modulus({specimen.design, settings.start, specimen.conditions, settings.fidelity});
       if (result) specimen.modulus_pa = result->modulus_pa;
     } else if (specimen.test == TestKind::tensile) {
       const std::vector<double> history = specimen.curve.empty() ? unload_history() : specimen.curve.strain;
-      if (auto curve = tester::test_tensile({specimen.design, settings.start, specimen.conditions, settings.fidelity}, history)) specimen.curve = *std::move(curve);
+      if (auto curve =
+              tester::test_tensile({specimen.design, settings.start, specimen.conditions, settings.fidelity}, history))
+        specimen.curve = *std::move(curve);
     } else if (specimen.design.layout()) {
       measurement::Replicates one;
       one.design = specimen.design;
@@ -59,7 +62,8 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   specimen.design = test.design;
   specimen.test = test.test;
   specimen.conditions = test.conditions;
-  specimen.specimen = fmt::format("added {} {} {} {} {} {}", test.design.name(), tester::to_string(test.test), test.conditions.orientation_deg, test.conditions.strain_rate_per_s,
+  specimen.specimen = fmt::format("added {} {} {} {} {} {}", test.design.name(), tester::to_string(test.test),
+                                  test.conditions.orientation_deg, test.conditions.strain_rate_per_s,
                                   test.conditions.thickness_mm, replicate);
   return specimen;
 }
@@ -88,15 +92,20 @@ void assume_scatter(Observations& observations, const PlannedScatter& scatter) {
     covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
     for (int i = 0; i < kFeatureCount; ++i) {
       const auto feature = static_cast<Feature>(i);
-      const bool of_strain = feature == Feature::log_peak_strain || feature == Feature::knee || feature == Feature::set_share || feature == Feature::toe_share;
-      const double sd = feature == Feature::log_modulus ? scatter.modulus : feature == Feature::toe_strain ? scatter.toe_strain : of_strain ? scatter.strain : scatter.stress;
+      const bool of_strain = feature == Feature::log_peak_strain || feature == Feature::knee ||
+                             feature == Feature::set_share || feature == Feature::toe_share;
+      const double sd = feature == Feature::log_modulus  ? scatter.modulus
+                        : feature == Feature::toe_strain ? scatter.toe_strain
+                        : of_strain                      ? scatter.strain
+                                                         : scatter.stress;
       covariance(i, i) = sd * sd;
     }
     // Stresses of one specimen go together: a thicker print is stiffer from the first strain to the last.
     constexpr double kTogether = 0.9;
     const auto stress = [](int i) {
       const auto f = static_cast<Feature>(i);
-      return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 || f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
+      return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 ||
+             f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
     };
     for (int i = 0; i < kFeatureCount; ++i)
       for (int j = 0; j < kFeatureCount; ++j)
@@ -119,12 +128,14 @@ Fit restricted(const Fit& fit, const std::vector<Eigen::Index>& rows) {
   return part;
 }
 
-/// Smallest size, as a strength, at which `judged` reaches `wanted`: between the sizes of a signature in log scale; nothing beyond them.
+/// Smallest size, as a strength, at which `judged` reaches `wanted`: between the sizes of a signature in log scale;
+/// nothing beyond them.
 std::optional<double> smallest(const std::vector<double>& judged, double wanted) {
   for (std::size_t i = 0; i < judged.size(); ++i) {
     if (judged[i] < wanted) continue;
     if (i == 0) return kSizes[0] * wanted / judged[0];
-    const double t = std::log(wanted / std::max(judged[i - 1], 1e-9)) / std::log(judged[i] / std::max(judged[i - 1], 1e-9));
+    const double t =
+        std::log(wanted / std::max(judged[i - 1], 1e-9)) / std::log(judged[i] / std::max(judged[i - 1], 1e-9));
     return std::exp(std::log(kSizes[i - 1]) + t * std::log(kSizes[i] / kSizes[i - 1]));
   }
   return std::nullopt;
@@ -143,8 +154,19 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
   }
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
-    PlannedEffect planned{std::string(effect.name), std::string(effect.family), std::string(effect.parameters.front().unit), "not_shown", {}, {}, 0.0, 0.0, "", 0.0, {}};
-    const auto found = std::find_if(sheet.signatures.begin(), sheet.signatures.end(), [&](const Signature& s) { return s.effect == effect.name; });
+    PlannedEffect planned{std::string(effect.name),
+                          std::string(effect.family),
+                          std::string(effect.parameters.front().unit),
+                          "not_shown",
+                          {},
+                          {},
+                          0.0,
+                          0.0,
+                          "",
+                          0.0,
+                          {}};
+    const auto found = std::find_if(sheet.signatures.begin(), sheet.signatures.end(),
+                                    [&](const Signature& s) { return s.effect == effect.name; });
     const auto k = static_cast<std::size_t>(found - sheet.signatures.begin());
     if (found == sheet.signatures.end() || projected[k].col(kTypicalSize).norm() < 1e-6) {
       effects.push_back(planned);
@@ -167,7 +189,9 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
       if (i == kTypicalSize) planned.nearest_rival = rival, planned.rival_cosine = nearest;
     }
     const material::EffectParameter& parameter = effect.parameters.front();
-    const auto value = [&](const std::optional<double>& strength) { return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt; };
+    const auto value = [&](const std::optional<double>& strength) {
+      return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
+    };
     planned.absorption = absorption[k];
     planned.signal_to_noise = signal[kTypicalSize];
     planned.signals = signal;
@@ -182,21 +206,26 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
 
 double strength_told_apart(const PlannedEffect& effect) {
   if (!effect.smallest_told_apart) return 1.0;
-  return std::clamp(material::strength_of(material::find_effect(effect.name)->parameters.front(), *effect.smallest_told_apart), 1e-3, 1.0);
+  return std::clamp(
+      material::strength_of(material::find_effect(effect.name)->parameters.front(), *effect.smallest_told_apart), 1e-3,
+      1.0);
 }
 
-PlannedAddition compare(const std::string& words, const std::vector<PossibleTest>& tests, const std::vector<PlannedEffect>& before, const std::vector<PlannedEffect>& after) {
+PlannedAddition compare(const std::string& words, const std::vector<PossibleTest>& tests,
+                        const std::vector<PlannedEffect>& before, const std::vector<PlannedEffect>& after) {
   PlannedAddition addition;
   addition.words = words;
   addition.replicates = kAddedReplicates;
   for (const PossibleTest& test : tests)
-    addition.specimens.push_back(fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(), test.conditions.orientation_deg,
-                                             test.conditions.strain_rate_per_s, test.conditions.thickness_mm));
+    addition.specimens.push_back(
+        fmt::format("{} of {} at {:.0f} degrees, {:.3g} /s, {} mm", tester::to_string(test.test), test.design.name(),
+                    test.conditions.orientation_deg, test.conditions.strain_rate_per_s, test.conditions.thickness_mm));
   for (std::size_t k = 0; k < before.size(); ++k) {
     const double gained = std::log(strength_told_apart(before[k]) / strength_told_apart(after[k]));
     addition.score += std::max(gained, 0.0);
     const bool worth_telling = before[k].status != after[k].status || gained > std::log(1.5);
-    if (worth_telling) addition.changes.push_back({before[k].name, before[k].status, after[k].status, after[k].smallest_told_apart});
+    if (worth_telling)
+      addition.changes.push_back({before[k].name, before[k].status, after[k].status, after[k].smallest_told_apart});
   }
   return addition;
 }
@@ -211,7 +240,8 @@ double signal_at(const PlannedEffect& effect, double strength) {
   return low * std::pow(high / low, std::log(strength / kSizes[i - 1]) / std::log(kSizes[i] / kSizes[i - 1]));
 }
 
-Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings, const PlannedScatter& scatter, bool additions) {
+Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings,
+                    const PlannedScatter& scatter, bool additions) {
   fill_in(specimens, settings);
   const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics);
   const auto added = additions ? bundles(alone, settings.fidelity) : std::map<std::string, std::vector<PossibleTest>>{};
@@ -239,8 +269,13 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i) {
       const Row& row = observations.rows[static_cast<std::size_t>(i)];
-      const auto is = [&](const auto& other) { return other.design == observations.group_of(i).design && other.test == row.test && other.conditions == observations.group_of(i).conditions; };
-      if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is) || std::any_of(tests.begin(), tests.end(), is)) rows.push_back(i);
+      const auto is = [&](const auto& other) {
+        return other.design == observations.group_of(i).design && other.test == row.test &&
+               other.conditions == observations.group_of(i).conditions;
+      };
+      if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is) ||
+          std::any_of(tests.begin(), tests.end(), is))
+        rows.push_back(i);
     }
     return rows;
   };
@@ -252,24 +287,43 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
     PlannedAddition addition = compare(words, tests, plan.effects, judge(sheet, rows_with(tests)));
     if (!addition.changes.empty()) plan.additions.push_back(std::move(addition));
   }
-  std::stable_sort(plan.additions.begin(), plan.additions.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::stable_sort(plan.additions.begin(), plan.additions.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
   return plan;
 }
 
 std::string to_json(const Plan& plan) {
   using nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(nullptr); };
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+  };
   ordered_json effects = ordered_json::array(), additions = ordered_json::array();
   for (const PlannedEffect& e : plan.effects) {
-    effects.push_back({{"name", e.name}, {"family", e.family}, {"status", e.status}, {"smallest_seen", or_null(e.smallest_seen)}, {"smallest_told_apart", or_null(e.smallest_told_apart)},
-                       {"unit", e.unit}, {"absorption", e.absorption}, {"signal_to_noise", e.signal_to_noise}, {"nearest_rival", e.nearest_rival}, {"rival_cosine", e.rival_cosine}});
+    effects.push_back({{"name", e.name},
+                       {"family", e.family},
+                       {"status", e.status},
+                       {"smallest_seen", or_null(e.smallest_seen)},
+                       {"smallest_told_apart", or_null(e.smallest_told_apart)},
+                       {"unit", e.unit},
+                       {"absorption", e.absorption},
+                       {"signal_to_noise", e.signal_to_noise},
+                       {"nearest_rival", e.nearest_rival},
+                       {"rival_cosine", e.rival_cosine}});
   }
   for (const PlannedAddition& a : plan.additions) {
     ordered_json changes = ordered_json::array();
-    for (const auto& c : a.changes) changes.push_back({{"effect", c.effect}, {"from", c.from}, {"to", c.to}, {"smallest_told_apart", or_null(c.told_apart_from)}});
-    additions.push_back({{"words", a.words}, {"specimens", a.specimens}, {"replicates", a.replicates}, {"score", a.score}, {"changes", changes}});
+    for (const auto& c : a.changes)
+      changes.push_back(
+          {{"effect", c.effect}, {"from", c.from}, {"to", c.to}, {"smallest_told_apart", or_null(c.told_apart_from)}});
+    additions.push_back({{"words", a.words},
+                         {"specimens", a.specimens},
+                         {"replicates", a.replicates},
+                         {"score", a.score},
+                         {"changes", changes}});
   }
-  return ordered_json{{"specimens", plan.specimens}, {"groups", plan.groups}, {"effects", effects}, {"additions", additions}}.dump(2);
+  return ordered_json{
+      {"specimens", plan.specimens}, {"groups", plan.groups}, {"effects", effects}, {"additions", additions}}
+      .dump(2);
 }
 
 }  // namespace nacre::diagnosis

@@ -1,5 +1,6 @@
 #pragma once
-// Before anything is printed: which causes a set of specimens could tell apart, and which few more would change that most.
+// Before anything is printed: which causes a set of specimens could tell apart, and which few more would change that
+// most.
 
 #include <optional>
 #include <string>
@@ -12,14 +13,14 @@ namespace nacre::diagnosis {
 /// What a plan can say of one effect. Sizes are values of the effect's first parameter, in its unit.
 struct PlannedEffect {
   std::string name, family, unit;
-  std::string status;                       ///< told_apart, visible (but like a rival), invisible, not_shown
-  std::optional<double> smallest_seen;      ///< from here on it is told from nothing with 5 % error
+  std::string status;                         ///< told_apart, visible (but like a rival), invisible, not_shown
+  std::optional<double> smallest_seen;        ///< from here on it is told from nothing with 5 % error
   std::optional<double> smallest_told_apart;  ///< and from every rival
-  double absorption = 0.0;                  ///< share of its signature that the base imitates, at a typical size
-  double signal_to_noise = 0.0;             ///< at a typical size (0.3 of its range)
+  double absorption = 0.0;                    ///< share of its signature that the base imitates, at a typical size
+  double signal_to_noise = 0.0;               ///< at a typical size (0.3 of its range)
   std::string nearest_rival;
   double rival_cosine = 0.0;
-  std::vector<double> signals;              ///< signal-to-noise at the strengths kSizes (workbench.hpp); empty: not shown
+  std::vector<double> signals;  ///< signal-to-noise at the strengths kSizes (workbench.hpp); empty: not shown
 };
 
 /// Signal-to-noise of an effect at a strength, between those of `signals` in log scale.
@@ -31,11 +32,11 @@ struct PlannedAddition {
   std::vector<std::string> specimens;  ///< design, test and conditions of each, in words
   int replicates = 3;
   struct Change {
-    std::string effect, from, to;      ///< status before and after
+    std::string effect, from, to;           ///< status before and after
     std::optional<double> told_apart_from;  ///< smallest_told_apart after
   };
   std::vector<Change> changes;
-  double score = 0.0;                  ///< sum over effects of log of how much smaller a size is told apart
+  double score = 0.0;  ///< sum over effects of log of how much smaller a size is told apart
 };
 
 struct Plan {
@@ -49,9 +50,11 @@ struct PlannedScatter {
   double modulus = 0.02, stress = 0.05, strain = 0.01, toe_strain = 2e-4;
 };
 
-/// `specimens`: with or without measured values; only what they are and how they are tested is used. Start parameters stand for the truth; fracture tests are
-/// simulated around them as in a diagnosis (and kept in the store). Without `additions` only what the specimens themselves can tell. Throws InputError as diagnose() does.
-Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings, const PlannedScatter& scatter = {}, bool additions = true);
+/// `specimens`: with or without measured values; only what they are and how they are tested is used. Start parameters
+/// stand for the truth; fracture tests are simulated around them as in a diagnosis (and kept in the store). Without
+/// `additions` only what the specimens themselves can tell. Throws InputError as diagnose() does.
+Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings,
+                    const PlannedScatter& scatter = {}, bool additions = true);
 
 /// The JSON document of `nacre diagnose --plan --json`.
 std::string to_json(const Plan& plan);

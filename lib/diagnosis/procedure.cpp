@@ -10,11 +10,13 @@
 namespace nacre::diagnosis {
 
 std::string procedure_text(const DiagnosisSettings& settings) {
-  std::string text = fmt::format("kernel {}\nlevels {} {} {}\nsignal {} {} distance {} absorption {}\n", tester::kKernelVersion, settings.name_level, settings.unexplained_level, kOutsiderLevel, kVisibleSignal,
-                                 kNameableSignal, kToldApart, kInvisibleAbsorption);
+  std::string text = fmt::format("kernel {}\nlevels {} {} {}\nsignal {} {} distance {} absorption {}\n",
+                                 tester::kKernelVersion, settings.name_level, settings.unexplained_level,
+                                 kOutsiderLevel, kVisibleSignal, kNameableSignal, kToldApart, kInvisibleAbsorption);
   for (const material::Effect& effect : material::effect_library()) {
     text += fmt::format("effect {} {}", effect.name, effect.family);
-    for (const material::EffectParameter& p : effect.parameters) text += fmt::format(" [{} {:a} {:a}]", p.unit, p.minimum, p.maximum);
+    for (const material::EffectParameter& p : effect.parameters)
+      text += fmt::format(" [{} {:a} {:a}]", p.unit, p.minimum, p.maximum);
     text += "\n";
   }
   for (int i = 0; i < kFeatureCount; ++i) text += fmt::format("feature {}\n", to_string(static_cast<Feature>(i)));
@@ -22,6 +24,8 @@ std::string procedure_text(const DiagnosisSettings& settings) {
   return text;
 }
 
-std::string procedure_hash(const DiagnosisSettings& settings) { return content_hash(procedure_text(settings)).substr(0, 16); }
+std::string procedure_hash(const DiagnosisSettings& settings) {
+  return content_hash(procedure_text(settings)).substr(0, 16);
+}
 
 }  // namespace nacre::diagnosis

@@ -6,7 +6,8 @@
 
 namespace nacre::diagnosis {
 
-/// Everything that a verdict rests on beside the data, as text: the library of effects with its ranges, features, contrasts, levels.
+/// Everything that a verdict rests on beside the data, as text: the library of effects with its ranges, features,
+/// contrasts, levels.
 std::string procedure_text(const DiagnosisSettings& settings);
 
 /// Content hash of that text, 16 hex digits.

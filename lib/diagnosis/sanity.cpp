@@ -17,7 +17,8 @@ struct Variant {
 };
 
 std::vector<Variant> variants() {
-  Variant step{"half the time step", {}}, rate{"half the simulated rate", {}}, recording{"doubled recording", {}}, element{"half the element size", {}, 4.0};
+  Variant step{"half the time step", {}}, rate{"half the simulated rate", {}}, recording{"doubled recording", {}},
+      element{"half the element size", {}, 4.0};
   step.numerics.time_step_scale = 0.5;
   rate.numerics.rate_scale = 0.5;
   recording.numerics.recording_scale = 2;
@@ -30,21 +31,25 @@ std::vector<int> three_groups(const Observations& observations, TestKind test) {
   std::vector<int> groups;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
-    if (group.test == test && group.design.layout() && group.conditions == tester::TestConditions{}) groups.push_back(static_cast<int>(g));
+    if (group.test == test && group.design.layout() && group.conditions == tester::TestConditions{})
+      groups.push_back(static_cast<int>(g));
   }
   std::stable_sort(groups.begin(), groups.end(), [&](int a, int b) {
-    return observations.groups[static_cast<std::size_t>(a)].design.rigid_fraction() < observations.groups[static_cast<std::size_t>(b)].design.rigid_fraction();
+    return observations.groups[static_cast<std::size_t>(a)].design.rigid_fraction() <
+           observations.groups[static_cast<std::size_t>(b)].design.rigid_fraction();
   });
   if (groups.size() <= 3) return groups;
   return {groups.front(), groups[groups.size() / 2], groups.back()};
 }
 
-FeatureValues features_with(const Observation& group, material::ParameterSet set, tester::Fidelity fidelity, const Variant& variant) {
+FeatureValues features_with(const Observation& group, material::ParameterSet set, tester::Fidelity fidelity,
+                            const Variant& variant) {
   FeatureValues values;
   set.toughness.gamma_per_s *= variant.gamma;
   const tester::Simulation simulation{group.design, set, group.conditions, fidelity};
   if (group.test == TestKind::modulus) {
-    if (const auto result = tester::test_modulus(simulation, variant.numerics)) value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
+    if (const auto result = tester::test_modulus(simulation, variant.numerics))
+      value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
   } else if (const auto result = tester::test_toughness(simulation, variant.numerics)) {
     values = fracture_features(result->curve);
   }
@@ -53,7 +58,8 @@ FeatureValues features_with(const Observation& group, material::ParameterSet set
 
 }  // namespace
 
-std::vector<SanityCheck> check_numerics(const Observations& observations, const material::ParameterSet& set, tester::Fidelity fidelity) {
+std::vector<SanityCheck> check_numerics(const Observations& observations, const material::ParameterSet& set,
+                                        tester::Fidelity fidelity) {
   std::vector<Variant> tried = {{"", {}, 1.0}};
   for (const Variant& variant : variants()) tried.push_back(variant);
   const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
@@ -62,7 +68,8 @@ std::vector<SanityCheck> check_numerics(const Observations& observations, const 
     const std::vector<int> groups = three_groups(observations, test);
     std::vector<std::vector<FeatureValues>> values(groups.size(), std::vector<FeatureValues>(tried.size()));
     parallel_for(static_cast<int>(groups.size() * tried.size()), [&](int job) {
-      const std::size_t g = static_cast<std::size_t>(job) / tried.size(), v = static_cast<std::size_t>(job) % tried.size();
+      const std::size_t g = static_cast<std::size_t>(job) / tried.size(),
+                        v = static_cast<std::size_t>(job) % tried.size();
       // A static test has neither time step nor rate.
       if (test == TestKind::modulus && v != 0 && tried[v].numerics.refinement == 1) return;
       values[g][v] = features_with(observations.groups[static_cast<std::size_t>(groups[g])], set, fidelity, tried[v]);
@@ -76,7 +83,8 @@ std::vector<SanityCheck> check_numerics(const Observations& observations, const 
           check.largest = std::max(check.largest, std::abs(*after - *before));
           for (int i = 0; i < observations.size(); ++i) {
             const Row& row = observations.rows[static_cast<std::size_t>(i)];
-            if (row.group == groups[g] && row.feature == feature) check.allowed = std::max(check.allowed, deviations[i]);
+            if (row.group == groups[g] && row.feature == feature)
+              check.allowed = std::max(check.allowed, deviations[i]);
           }
         }
         if (check.allowed == 0.0) continue;

@@ -10,8 +10,9 @@ namespace {
 
 /// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
 constexpr double kAssumedSd = 0.02;
-/// Replicates that agree better than a testing machine reads say nothing about scatter; exactly equal ones would leave a singular
-/// covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and ISO 9513). Strains: as a strain.
+/// Replicates that agree better than a testing machine reads say nothing about scatter; exactly equal ones would leave
+/// a singular covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and
+/// ISO 9513). Strains: as a strain.
 constexpr double kLeastSd = 1e-4, kLeastCurveSd = 2e-3, kLeastStrainSd = 2e-5;
 
 double least_sd(std::size_t f) {
@@ -27,7 +28,8 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
     if (groups[g].size() < 2 || groups[g].front().specimen->test != test) continue;
     FeatureValues mean;
     for (std::size_t f = 0; f < kFeatureCount; ++f) {
-      const bool all = std::all_of(groups[g].begin(), groups[g].end(), [f](const Measured& m) { return m.features[f].has_value(); });
+      const bool all =
+          std::all_of(groups[g].begin(), groups[g].end(), [f](const Measured& m) { return m.features[f].has_value(); });
       if (!all) continue;
       double sum = 0.0;
       for (const Measured& each : groups[g]) sum += *each.features[f];
@@ -43,7 +45,8 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
   return deviations;
 }
 
-ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches, const std::string& design) {
+ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
+                                const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
   std::map<int, int> group_sizes;
   for (const Deviation& d : deviations) ++group_sizes[d.group];
@@ -82,7 +85,8 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
       for (const Deviation& d : deviations)
         if (d.from_mean[f] && d.from_mean[g]) sum += *d.from_mean[f] * *d.from_mean[g], ++known;
       const double value = scatter.dof > 0 ? sum / scatter.dof : 0.0;
-      scatter.covariance(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g)) = scatter.covariance(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(f)) = value;
+      scatter.covariance(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g)) =
+          scatter.covariance(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(f)) = value;
     }
     features += known > 0;
   }

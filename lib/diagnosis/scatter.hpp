@@ -22,9 +22,10 @@ struct Deviation {
 };
 std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& groups, tester::TestKind test);
 
-/// Scatter of the replicates of one test, pooled over its groups: what batches have in common counts as history, not as scatter. Correlations
-/// are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of every logarithm is assumed. With a name of a design, only
-/// its groups are pooled.
-ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches, const std::string& design = "");
+/// Scatter of the replicates of one test, pooled over its groups: what batches have in common counts as history, not as
+/// scatter. Correlations are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of every
+/// logarithm is assumed. With a name of a design, only its groups are pooled.
+ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
+                                const std::string& design = "");
 
 }  // namespace nacre::diagnosis

@@ -36,7 +36,8 @@ std::vector<std::pair<std::string, Column>> numeric_columns(const std::filesyste
   return columns;
 }
 
-const Column& column_named(const std::vector<std::pair<std::string, Column>>& columns, const std::string& name, const std::filesystem::path& table) {
+const Column& column_named(const std::vector<std::pair<std::string, Column>>& columns, const std::string& name,
+                           const std::filesystem::path& table) {
   for (const auto& [each, values] : columns) {
     if (each == name) return values;
   }
@@ -52,8 +53,8 @@ struct Pairing {
 
 }  // namespace
 
-std::vector<Trend> table_trends(const std::filesystem::path& table, const std::string& measured, const std::string& predicted, std::uint64_t seed,
-                                int permutations) {
+std::vector<Trend> table_trends(const std::filesystem::path& table, const std::string& measured,
+                                const std::string& predicted, std::uint64_t seed, int permutations) {
   const auto columns = numeric_columns(table);
   const Column& y = column_named(columns, measured, table);
   const Column& f = column_named(columns, predicted, table);
@@ -62,7 +63,8 @@ std::vector<Trend> table_trends(const std::filesystem::path& table, const std::s
     if (y[r] && f[r] && *y[r] > 0.0 && *f[r] > 0.0) residual[r] = std::log(*y[r] / *f[r]);
   }
   if (residual.size() < kLeastRows) {
-    throw InputError::format("{}: only {} rows have positive numbers in {} and {}, expected at least {}", table.string(), residual.size(), measured, predicted, kLeastRows);
+    throw InputError::format("{}: only {} rows have positive numbers in {} and {}, expected at least {}",
+                             table.string(), residual.size(), measured, predicted, kLeastRows);
   }
   std::vector<Pairing> pairings;
   for (const auto& [name, values] : columns) {
@@ -74,11 +76,13 @@ std::vector<Trend> table_trends(const std::filesystem::path& table, const std::s
       pairing.residuals.push_back(value);
       pairing.rows.push_back(row);
     }
-    const bool varies = std::any_of(pairing.values.begin(), pairing.values.end(), [&](double v) { return v != pairing.values.front(); });
+    const bool varies = std::any_of(pairing.values.begin(), pairing.values.end(),
+                                    [&](double v) { return v != pairing.values.front(); });
     if (pairing.values.size() >= kLeastRows && varies) pairings.push_back(std::move(pairing));
   }
   std::vector<Trend> trends;
-  for (const Pairing& p : pairings) trends.push_back({p.name, rank_correlation(p.values, p.residuals), 1.0, static_cast<int>(p.rows.size())});
+  for (const Pairing& p : pairings)
+    trends.push_back({p.name, rank_correlation(p.values, p.residuals), 1.0, static_cast<int>(p.rows.size())});
   // Rows are permuted as a whole, so that columns that go together stay together.
   RandomStream random(seed, "table trends");
   std::vector<std::size_t> rows;
@@ -86,7 +90,8 @@ std::vector<Trend> table_trends(const std::filesystem::path& table, const std::s
   std::vector<int> larger(pairings.size(), 0);
   for (int draw = 0; draw < permutations; ++draw) {
     std::vector<std::size_t> shuffled = rows;
-    for (std::size_t i = shuffled.size(); i > 1; --i) std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+    for (std::size_t i = shuffled.size(); i > 1; --i)
+      std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
     std::map<std::size_t, double> moved;
     for (std::size_t i = 0; i < rows.size(); ++i) moved[rows[i]] = residual.at(shuffled[i]);
     double strongest = 0.0;
@@ -98,7 +103,8 @@ std::vector<Trend> table_trends(const std::filesystem::path& table, const std::s
     for (std::size_t k = 0; k < pairings.size(); ++k) larger[k] += strongest >= std::abs(trends[k].spearman);
   }
   for (std::size_t k = 0; k < trends.size(); ++k) trends[k].p_family_wise = (1.0 + larger[k]) / (1.0 + permutations);
-  std::stable_sort(trends.begin(), trends.end(), [](const Trend& a, const Trend& b) { return std::abs(a.spearman) > std::abs(b.spearman); });
+  std::stable_sort(trends.begin(), trends.end(),
+                   [](const Trend& a, const Trend& b) { return std::abs(a.spearman) > std::abs(b.spearman); });
   return trends;
 }
 

@@ -16,9 +16,9 @@ struct Trend {
   int rows = 0;                ///< rows with a number in all three columns
 };
 
-/// Trends of a CSV table, strongest first; the predicted values themselves are one of the columns. Rows without two positive
-/// numbers are left out. Throws InputError when a column is missing or fewer than five rows are usable.
-std::vector<Trend> table_trends(const std::filesystem::path& table, const std::string& measured, const std::string& predicted,
-                                std::uint64_t seed, int permutations = 2000);
+/// Trends of a CSV table, strongest first; the predicted values themselves are one of the columns. Rows without two
+/// positive numbers are left out. Throws InputError when a column is missing or fewer than five rows are usable.
+std::vector<Trend> table_trends(const std::filesystem::path& table, const std::string& measured,
+                                const std::string& predicted, std::uint64_t seed, int permutations = 2000);
 
 }  // namespace nacre::diagnosis

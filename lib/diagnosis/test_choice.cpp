@@ -29,9 +29,9 @@ void buy(Bought& bought, const TestValue& test, std::size_t pair) {
 
 /// What one more test is worth.
 struct Worth {
-  double fall = 0.0;    ///< of the chance of confusion, summed over the pairs
-  double errors = 0.0;  ///< the largest separation
-  std::size_t pair = 0; ///< that gains most
+  double fall = 0.0;     ///< of the chance of confusion, summed over the pairs
+  double errors = 0.0;   ///< the largest separation
+  std::size_t pair = 0;  ///< that gains most
   bool operator>(const Worth& other) const {
     const double mine = std::max(fall, kLeastFall), its = std::max(other.fall, kLeastFall);
     return mine != its ? mine > its : errors > other.errors;

@@ -25,10 +25,11 @@ struct TestChoice {
   std::size_t test = 0, pair = 0;
 };
 
-/// At most `count` tests, chosen one after another so that the chance of taking one model of a pair for the other falls most, summed over
-/// the pairs. It is that of two normal distributions d standard deviations apart, Phi(-d/2); d^2 sums the squared errors of the best test of
-/// each way, none counted as more than four standard errors: models foretell only so well what nobody has tested. Where no chance falls any
-/// more, the largest separation comes first. What separates no pair by a standard error is never chosen.
+/// At most `count` tests, chosen one after another so that the chance of taking one model of a pair for the other falls
+/// most, summed over the pairs. It is that of two normal distributions d standard deviations apart, Phi(-d/2); d^2 sums
+/// the squared errors of the best test of each way, none counted as more than four standard errors: models foretell
+/// only so well what nobody has tested. Where no chance falls any more, the largest separation comes first. What
+/// separates no pair by a standard error is never chosen.
 std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count);
 
 }  // namespace nacre::diagnosis

@@ -24,38 +24,46 @@ std::vector<double> over_draws(const std::vector<DrawStatistics>& draws, Value v
 
 /// Contrasts of the base model's residuals with family-wise chances, strongest first.
 std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
-  const std::vector<double> largest = over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_contrast(); });
+  const std::vector<double> largest =
+      over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_contrast(); });
   std::vector<Contrast> contrasts;
   for (std::size_t i = 0; i < evidence.base.directions.size(); ++i) {
     const double statistic = evidence.base_statistics.contrasts[i];
     contrasts.push_back({evidence.base.directions[i].name, statistic, exceedance(largest, statistic)});
   }
-  std::stable_sort(contrasts.begin(), contrasts.end(), [](const Contrast& a, const Contrast& b) { return a.statistic > b.statistic; });
+  std::stable_sort(contrasts.begin(), contrasts.end(),
+                   [](const Contrast& a, const Contrast& b) { return a.statistic > b.statistic; });
   return contrasts;
 }
 
-/// Chance of a misfit as large as this model leaves when it is true: the smaller of the omnibus and the contrast test, doubled
-/// because there are two of them.
+/// Chance of a misfit as large as this model leaves when it is true: the smaller of the omnibus and the contrast test,
+/// doubled because there are two of them.
 double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
   const Anchor anchor{fit, {}, contrast_directions(evidence.observations, fit.predicted)};
-  const std::vector<DrawStatistics> draws = bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
+  const std::vector<DrawStatistics> draws =
+      bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
   const double omnibus = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.chi2; }), fit.chi2);
-  const DrawStatistics own = anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())});
-  const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }), own.largest_contrast());
+  const DrawStatistics own =
+      anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())});
+  const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }),
+                                     own.largest_contrast());
   return std::min(1.0, 2.0 * std::min(omnibus, contrast));
 }
 
 bool usable(const Fit& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
 
-/// Models that the data cannot tell from the best one: each fits by itself, and data drawn from it would let another model win by
-/// as much as was seen often enough.
-std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals, const std::vector<double>& p_fit) {
-  const double least = std::min_element(rivals.begin(), rivals.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; })->chi2;
+/// Models that the data cannot tell from the best one: each fits by itself, and data drawn from it would let another
+/// model win by as much as was seen often enough.
+std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals,
+                                const std::vector<double>& p_fit) {
+  const double least =
+      std::min_element(rivals.begin(), rivals.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; })->chi2;
   std::vector<Fit> kept;
   for (std::size_t k = 0; k < rivals.size(); ++k) {
     if (!usable(rivals[k], p_fit[k], kExclusionLevel)) continue;
     if (rivals[k].chi2 > least) {
-      const RivalStatistics draws = bootstrap_rival(rivals, k, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
+      const RivalStatistics draws =
+          bootstrap_rival(rivals, k, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
       if (exceedance(draws.lead_of_best_other, rivals[k].chi2 - least) < kExclusionLevel) continue;
     }
     kept.push_back(rivals[k]);
@@ -71,8 +79,9 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
     if (effect != single.effects.front()) others.push_back(effect);
   }
   const Anchor anchor{single, signatures_on(evidence.model, single, others), {}};
-  const std::vector<double> largest = over_draws(bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 3),
-                                                 [](const DrawStatistics& d) { return d.largest_drop(); });
+  const std::vector<double> largest = over_draws(
+      bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 3),
+      [](const DrawStatistics& d) { return d.largest_drop(); });
   std::vector<Fit> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
     const std::vector<std::string> names = {single.effects.front(), others[k]};
@@ -87,8 +96,9 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
   return pairs;
 }
 
-/// Fits the effect that all pairs share once more by itself, from where each pair ended: a pair may have found the way that its first effect missed
-/// alone, and what it gains must not be better optimisation. True when the effect fits better now.
+/// Fits the effect that all pairs share once more by itself, from where each pair ended: a pair may have found the way
+/// that its first effect missed alone, and what it gains must not be better optimisation. True when the effect fits
+/// better now.
 bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vector<Fit>& pairs) {
   constexpr double kBetter = 1.0;
   Fit& single = evidence.singles[effect];
@@ -104,18 +114,20 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
   decision.verdict = Verdict::unexplained;
   decision.reason = std::move(reason);
   if (!tried.empty()) {
-    decision.partial = *std::min_element(tried.begin(), tried.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+    decision.partial =
+        *std::min_element(tried.begin(), tried.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
   }
   return decision;
 }
 
-/// Signal-to-noise of what a model adds to the base, beyond what the base imitates, or would were its constants not on the bounds of their ranges: what
-/// an effect only repairs of a range is no trace of its own.
+/// Signal-to-noise of what a model adds to the base, beyond what the base imitates, or would were its constants not on
+/// the bounds of their ranges: what an effect only repairs of a range is no trace of its own.
 double signal_of(const Evidence& evidence, const Fit& fit) {
   Fit base = evidence.base.fit;
   base.free.resize(static_cast<std::size_t>(base.u.size()));
   std::iota(base.free.begin(), base.free.end(), 0);
-  return signature_size(base, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance())).projected;
+  return signature_size(base, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance()))
+      .projected;
 }
 
 /// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.
@@ -126,12 +138,15 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
   const std::string nearest = in_words(best.effects) + " comes nearest";
   if (signal < kNameableSignal) {
     return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but its traces are only {:.1f} times the noise: a cause that the library does not hold could look the same (a name needs {:.1f})", nearest, signal, kNameableSignal));
+                       fmt::format("{}, but its traces are only {:.1f} times the noise: a cause that the library does "
+                                   "not hold could look the same (a name needs {:.1f})",
+                                   nearest, signal, kNameableSignal));
   }
   if (decision.p_outside > kOutsiderLevel) {
     return unexplained(std::move(decision), possible,
-                       fmt::format("{}, but a cause that the library does not hold could follow the same differences between these specimens (chance {:.2f}, a name needs {:.2f})", nearest,
-                                   decision.p_outside, kOutsiderLevel));
+                       fmt::format("{}, but a cause that the library does not hold could follow the same differences "
+                                   "between these specimens (chance {:.2f}, a name needs {:.2f})",
+                                   nearest, decision.p_outside, kOutsiderLevel));
   }
   decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
   decision.possible = std::move(possible);
@@ -147,25 +162,32 @@ Decision decide(Evidence& evidence) {
   };
   Decision decision;
   decision.contrasts = judged_contrasts(evidence);
-  const std::vector<double> largest_drops = over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_drop(); });
-  const double omnibus = exceedance(over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.chi2; }), evidence.base.fit.chi2);
+  const std::vector<double> largest_drops =
+      over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_drop(); });
+  const double omnibus = exceedance(over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.chi2; }),
+                                    evidence.base.fit.chi2);
   const double contrast = decision.contrasts.empty() ? 1.0 : decision.contrasts.front().p_family_wise;
   decision.p_misfit = std::min(1.0, 2.0 * std::min(omnibus, contrast));
   for (const Fit& single : evidence.singles) {
     decision.p_family_wise.push_back(exceedance(largest_drops, evidence.base.fit.chi2 - single.chi2));
     decision.p_fit.push_back(1.0);
   }
-  const double best_p = decision.p_family_wise.empty() ? 1.0 : *std::min_element(decision.p_family_wise.begin(), decision.p_family_wise.end());
+  const double best_p = decision.p_family_wise.empty()
+                            ? 1.0
+                            : *std::min_element(decision.p_family_wise.begin(), decision.p_family_wise.end());
   if (best_p > evidence.settings.name_level) {
     if (decision.p_misfit >= evidence.settings.unexplained_level) {
       decision.reason = "no effect improves the fit beyond chance and the residuals look like noise";
       return decision;
     }
-    return unexplained(std::move(decision), evidence.singles, "the residuals are larger than noise, but no effect of the library explains them");
+    return unexplained(std::move(decision), evidence.singles,
+                       "the residuals are larger than noise, but no effect of the library explains them");
   }
   report(0.8, "testing what each effect leaves");
-  const std::size_t best = static_cast<std::size_t>(
-      std::min_element(evidence.singles.begin(), evidence.singles.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; }) - evidence.singles.begin());
+  const std::size_t best =
+      static_cast<std::size_t>(std::min_element(evidence.singles.begin(), evidence.singles.end(),
+                                                [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; }) -
+                               evidence.singles.begin());
   for (std::size_t k = 0; k < evidence.singles.size(); ++k) {
     // What lies far behind the best cannot be in the set: its misfit is not bootstrapped.
     const bool in_reach = evidence.singles[k].chi2 <= evidence.singles[best].chi2 + kOutOfReach;
@@ -174,21 +196,25 @@ Decision decide(Evidence& evidence) {
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
     std::vector<Fit> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
-    return settled(evidence, std::move(decision), std::move(possible), "one effect fitted jointly with the base explains the data");
+    return settled(evidence, std::move(decision), std::move(possible),
+                   "one effect fitted jointly with the base explains the data");
   }
   report(0.9, "fitting pairs of effects");
   std::vector<Fit> pairs = significant_pairs(evidence, evidence.singles[best]);
   if (fitted_better_alone(evidence, best, pairs)) return decide(evidence);
   std::vector<double> pair_p;
   for (const Fit& pair : pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
-  const bool some_pair_fits = std::any_of(pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.unexplained_level; });
+  const bool some_pair_fits =
+      std::any_of(pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.unexplained_level; });
   std::vector<Fit> possible = some_pair_fits ? confidence_set(evidence, pairs, pair_p) : std::vector<Fit>{};
   if (possible.empty()) {
     std::vector<Fit> tried = evidence.singles;
     tried.insert(tried.end(), pairs.begin(), pairs.end());
-    return unexplained(std::move(decision), tried, "even the best effects of the library leave a misfit larger than noise");
+    return unexplained(std::move(decision), tried,
+                       "even the best effects of the library leave a misfit larger than noise");
   }
-  return settled(evidence, std::move(decision), std::move(possible), "no single effect suffices; two together explain the data");
+  return settled(evidence, std::move(decision), std::move(possible),
+                 "no single effect suffices; two together explain the data");
 }
 
 }  // namespace nacre::diagnosis

@@ -26,24 +26,27 @@ struct Evidence {
 struct Decision {
   Verdict verdict = Verdict::base_sufficient;
   std::vector<Fit> possible;
-  std::optional<Fit> partial;           ///< best model of an unexplained misfit
-  std::vector<double> p_fit;            ///< per effect: chance of a misfit as large when base + effect is true; 1 when not tested
-  std::vector<double> p_family_wise;    ///< per effect
+  std::optional<Fit> partial;  ///< best model of an unexplained misfit
+  std::vector<double> p_fit;  ///< per effect: chance of a misfit as large when base + effect is true; 1 when not tested
+  std::vector<double> p_family_wise;  ///< per effect
   double p_misfit = 1.0;
-  double p_outside = 1.0;               ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1 when not tested
-  std::vector<Contrast> contrasts;      ///< of the base model's residuals, strongest first
-  std::string reason;                   ///< the step that decided, in words
+  double p_outside = 1.0;  ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1
+                           ///< when not tested
+  std::vector<Contrast> contrasts;  ///< of the base model's residuals, strongest first
+  std::string reason;               ///< the step that decided, in words
 };
 
-/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure. With a floor that has a common direction
-/// the fits are done first with independent layouts and again with the directions along which finer elements move these models.
+/// Fits base and single effects and bootstraps the base: steps 2 to 6 of the procedure. With a floor that has a common
+/// direction the fits are done first with independent layouts and again with the directions along which finer elements
+/// move these models.
 Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings);
 
 /// Signatures of every effect on top of a fitted model, at several sizes each.
-std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor, const std::vector<std::string>& effects);
+std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor,
+                                     const std::vector<std::string>& effects);
 
-/// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits. A single effect that fits better from where a
-/// pair ended is replaced in the evidence.
+/// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits. A single
+/// effect that fits better from where a pair ended is replaced in the evidence.
 Decision decide(Evidence& evidence);
 
 }  // namespace nacre::diagnosis

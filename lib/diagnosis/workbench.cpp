@@ -20,15 +20,17 @@ constexpr double kJitter = 0.05;
 
 constexpr double kNothing = 1e-9;
 
-/// Effects that blind trials showed to be told by moduli alone, and those of the machine; the others need a test beside moduli to be named by.
+/// Effects that blind trials showed to be told by moduli alone, and those of the machine; the others need a test beside
+/// moduli to be named by.
 bool tells_on_moduli(const material::Effect& effect) {
-  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" || effect.name == "droplet_mixing" ||
-         effect.name == "rigid_overprint";
+  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" ||
+         effect.name == "droplet_mixing" || effect.name == "rigid_overprint";
 }
 
 void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
   material::ToughnessVector eta = to_vector(parameters);
-  for (std::size_t k = 0; k < searched_eta().size(); ++k) eta[static_cast<std::size_t>(searched_eta()[k])] *= std::exp(sign * spread * normal[k]);
+  for (std::size_t k = 0; k < searched_eta().size(); ++k)
+    eta[static_cast<std::size_t>(searched_eta()[k])] *= std::exp(sign * spread * normal[k]);
   parameters = material::toughness_from_vector(eta);
 }
 
@@ -77,7 +79,8 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   std::vector<int> others;
   for (int i = 0; i < observations.size(); ++i) {
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
-    if (row.probe != Probe::mean || row.test != tester::TestKind::modulus || !observations.group_of(i).design.layout()) others.push_back(i);
+    if (row.probe != Probe::mean || row.test != tester::TestKind::modulus || !observations.group_of(i).design.layout())
+      others.push_back(i);
   }
   std::vector<std::string> acting;
   for (const material::Effect& effect : material::effect_library()) {
@@ -93,19 +96,25 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
       u[own] = std::clamp(size, map.lower(own), map.upper(own));
       change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
     }
-    const bool seen = tells_on_moduli(effect) ? change.maxCoeff() > kNothing : std::any_of(others.begin(), others.end(), [&](int i) { return change[i] > kNothing; });
+    const bool seen = tells_on_moduli(effect)
+                          ? change.maxCoeff() > kNothing
+                          : std::any_of(others.begin(), others.end(), [&](int i) { return change[i] > kNothing; });
     if (seen) acting.push_back(names.front());
   }
   return acting;
 }
 
 Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings)
-    : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics)), fidelity_(settings.fidelity) {
-  const auto layouts = std::count_if(observations_.groups.begin(), observations_.groups.end(), [](const Observation& g) { return g.design.layout() != nullptr; });
+    : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics)),
+      fidelity_(settings.fidelity) {
+  const auto layouts = std::count_if(observations_.groups.begin(), observations_.groups.end(),
+                                     [](const Observation& g) { return g.design.layout() != nullptr; });
   const auto coupons = static_cast<std::ptrdiff_t>(observations_.groups.size()) - layouts;
   if (layouts < kLeastGroups && coupons < kLeastCoupons) {
-    throw InputError::format("a diagnosis needs at least {} designs with a valid modulus or toughness, or {} coupons with a curve; there are {} and {}", kLeastGroups, kLeastCoupons,
-                             layouts, coupons);
+    throw InputError::format(
+        "a diagnosis needs at least {} designs with a valid modulus or toughness, or {} coupons with a curve; there "
+        "are {} and {}",
+        kLeastGroups, kLeastCoupons, layouts, coupons);
   }
   material::ParameterSet centre = settings.start;
   centre.extensions.clear();
@@ -114,10 +123,12 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
     const auto searching = [&](double share, std::string_view) {
       if (settings.progress) settings.progress(0.15 * share, "calibrating the fracture tester");
     };
-    if (settings.search_budget > 0) centre.toughness = runs_->search(settings.start, settings.search_budget, settings.seed, searching);
+    if (settings.search_budget > 0)
+      centre.toughness = runs_->search(settings.start, settings.search_budget, settings.seed, searching);
     surface_ = std::make_unique<FractureSurface>(observations_, *runs_, centre.toughness);
   }
-  model_ = std::make_unique<FeatureModel>(observations_, basis_for(observations_, centre), settings.fidelity, surface_.get());
+  model_ = std::make_unique<FeatureModel>(observations_, basis_for(observations_, centre), settings.fidelity,
+                                          surface_.get());
   if (runs_) simulate_around(settings);
   effects_ = acting_effects(*model_, observations_);
 }
@@ -128,7 +139,9 @@ void Workbench::simulate_around(const DiagnosisSettings& settings) {
   int count = 0;
   runs_->add(sets, [&] {
     ++count;
-    if (settings.progress) settings.progress(0.15 + 0.4 * std::min(1.0, count / all), fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
+    if (settings.progress)
+      settings.progress(0.15 + 0.4 * std::min(1.0, count / all),
+                        fmt::format("fracture tests around the calibration: {} of at most {:.0f}", count, all));
   });
   learn();
 }
@@ -136,7 +149,9 @@ void Workbench::simulate_around(const DiagnosisSettings& settings) {
 void Workbench::learn() {
   surface_->learn();
   observations_.emulator_variance = Eigen::VectorXd::Zero(observations_.size());
-  for (std::size_t k = 0; k < surface_->rows().size(); ++k) observations_.emulator_variance[surface_->rows()[k].row] = surface_->cross_validated_variance()[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < surface_->rows().size(); ++k)
+    observations_.emulator_variance[surface_->rows()[k].row] =
+        surface_->cross_validated_variance()[static_cast<Eigen::Index>(k)];
 }
 
 double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
@@ -148,15 +163,21 @@ double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
   double largest = 0.0;
   for (std::size_t k = before; k < runs_->runs().size(); ++k) {
     const FractureRun& run = runs_->runs()[k];
-    const auto own = std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return simulated_side(set).toughness == run.parameters.toughness && simulated_side(set).extensions == run.parameters.extensions; });
+    const auto own = std::find_if(sets.begin(), sets.end(), [&](const auto& set) {
+      return simulated_side(set).toughness == run.parameters.toughness &&
+             simulated_side(set).extensions == run.parameters.extensions;
+    });
     double squares = 0.0;
     int count = 0;
     for (std::size_t r = 0; r < surface_->rows().size(); ++r) {
       const SurfaceRow& row = surface_->rows()[r];
-      const auto value = value_of(shown_features(run.predictions[static_cast<std::size_t>(row.group)], {}), row.feature);
+      const auto value =
+          value_of(shown_features(run.predictions[static_cast<std::size_t>(row.group)], {}), row.feature);
       const double variance = surface_->cross_validated_variance()[static_cast<Eigen::Index>(r)];
       if (!value || variance <= 0.0) continue;
-      squares += std::pow(*value - expected[static_cast<std::size_t>(own - sets.begin())][static_cast<Eigen::Index>(r)], 2) / variance;
+      squares +=
+          std::pow(*value - expected[static_cast<std::size_t>(own - sets.begin())][static_cast<Eigen::Index>(r)], 2) /
+          variance;
       ++count;
     }
     if (count > 0) largest = std::max(largest, std::sqrt(squares / count));
@@ -167,7 +188,8 @@ double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
 
 tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
   const Observation& g = observations_.groups[static_cast<std::size_t>(group)];
-  if (g.test == tester::TestKind::tensile) return model_->coupon_curve(g, model_->map(fit.effects).coupon_parameters(fit.u));
+  if (g.test == tester::TestKind::tensile)
+    return model_->coupon_curve(g, model_->map(fit.effects).coupon_parameters(fit.u));
   if (g.test != tester::TestKind::toughness) return {};
   const material::ParameterSet simulated = simulated_side(fit.parameters);
   const auto eta = to_vector(simulated.toughness);
@@ -176,9 +198,12 @@ tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
   for (const FractureRun& run : runs_->runs()) {
     double distance = 0.0;
     const auto other = to_vector(run.parameters.toughness);
-    for (const int i : searched_eta()) distance += std::pow(std::log(eta[static_cast<std::size_t>(i)] / other[static_cast<std::size_t>(i)]), 2);
+    for (const int i : searched_eta())
+      distance += std::pow(std::log(eta[static_cast<std::size_t>(i)] / other[static_cast<std::size_t>(i)]), 2);
     for (const material::Effect& effect : material::effect_library()) {
-      const auto strength = [&](const material::ParameterSet& set) { return material::strength_of(effect.parameters.front(), material::extension_value(set.extensions, effect.name)); };
+      const auto strength = [&](const material::ParameterSet& set) {
+        return material::strength_of(effect.parameters.front(), material::extension_value(set.extensions, effect.name));
+      };
       distance += std::pow((strength(simulated) - strength(run.parameters)) / 0.1, 2);
     }
     if (nearest == nullptr || distance < least) least = distance, nearest = &run;

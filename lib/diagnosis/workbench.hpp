@@ -12,18 +12,20 @@ namespace nacre::diagnosis {
 /// Data, testers and emulator of one diagnosis, tied together.
 class Workbench {
  public:
-  /// Groups the specimens; where there are fracture tests finds the eta to look around and simulates around it. Throws InputError when
-  /// there are too few groups.
+  /// Groups the specimens; where there are fracture tests finds the eta to look around and simulates around it. Throws
+  /// InputError when there are too few groups.
   Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
   Observations& observations() { return observations_; }
   const FeatureModel& model() const { return *model_; }
   const std::vector<std::string>& effects() const { return effects_; }
   bool has_fractures() const { return runs_ != nullptr; }
   const FractureRuns* runs() const { return runs_.get(); }
-  /// Simulates the fracture tests at these parameters too and learns from them; the emulator's error in the data's covariance follows.
-  /// Nothing to do without fracture tests. Returns the largest error of the emulator at the new points, in its own standard deviations.
+  /// Simulates the fracture tests at these parameters too and learns from them; the emulator's error in the data's
+  /// covariance follows. Nothing to do without fracture tests. Returns the largest error of the emulator at the new
+  /// points, in its own standard deviations.
   double refine(const std::vector<material::ParameterSet>& sets);
-  /// The curve of a group as a fit would show it: of the nearest run, machine included, or of the coupon; empty for a modulus.
+  /// The curve of a group as a fit would show it: of the nearest run, machine included, or of the coupon; empty for a
+  /// modulus.
   tester::Curve curve_at(int group, const Fit& fit) const;
 
  private:
@@ -41,7 +43,8 @@ class Workbench {
 /// Effects whose signature is not zero in these rows, in the order of the library.
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations);
 
-/// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is needed.
+/// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is
+/// needed.
 inline constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
 
 }  // namespace nacre::diagnosis

@@ -59,7 +59,8 @@ class Programme {
       for (int to = 0; to < kFreePixels; ++to) {
         right_.push_back(0.0);
         const int equality = first_equality + static_cast<int>(k - 1) * kFreePixels + to;
-        for (int flow = 0; flow < first_flows_ / kFreePixels; ++flow) add_entry(equality, flow * kFreePixels + to, -1.0);
+        for (int flow = 0; flow < first_flows_ / kFreePixels; ++flow)
+          add_entry(equality, flow * kFreePixels + to, -1.0);
       }
     }
   }
@@ -102,7 +103,8 @@ class Programme {
 std::uint64_t cut_at(double height, const std::vector<double>& earth) {
   std::uint64_t soft = 0;
   for (int i = 0; i < kFreePixels; ++i)
-    if (earth[static_cast<std::size_t>(i)] / quarter_cells(i) >= height * (1.0 - kRounding)) soft |= std::uint64_t{1} << i;
+    if (earth[static_cast<std::size_t>(i)] / quarter_cells(i) >= height * (1.0 - kRounding))
+      soft |= std::uint64_t{1} << i;
   return soft;
 }
 
@@ -111,7 +113,8 @@ std::uint64_t highest(double cells, const std::vector<double>& earth) {
   std::vector<int> order;
   for (int i = 0; i < kFreePixels; ++i)
     if (earth[static_cast<std::size_t>(i)] > kRounding) order.push_back(i);
-  std::ranges::stable_sort(order, std::greater{}, [&](int i) { return earth[static_cast<std::size_t>(i)] / quarter_cells(i); });
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](int i) { return earth[static_cast<std::size_t>(i)] / quarter_cells(i); });
   std::uint64_t soft = 0;
   double taken = 0.0;
   for (const int i : order) {

@@ -26,7 +26,8 @@ void check(const std::vector<Column>& features, const Column& outcome, const std
   const auto fits = [&](const Column& column) { return column.values.size() == outcome.values.size(); };
   if (!std::ranges::all_of(features, fits) || !std::ranges::all_of(controls, fits) ||
       outcome.values.size() < controls.size() + 5)
-    throw InputError::format("associations: expected columns of equal length with at least {} rows", controls.size() + 5);
+    throw InputError::format("associations: expected columns of equal length with at least {} rows",
+                             controls.size() + 5);
 }
 
 }  // namespace
@@ -36,7 +37,8 @@ std::vector<Association> associations(const std::vector<Column>& features, const
   check(features, outcome, controls);
   const Eigen::Index rows = static_cast<Eigen::Index>(outcome.values.size());
   Eigen::MatrixXd known(rows, static_cast<Eigen::Index>(controls.size()));
-  for (std::size_t k = 0; k < controls.size(); ++k) known.col(static_cast<Eigen::Index>(k)) = centred_ranks(controls[k].values);
+  for (std::size_t k = 0; k < controls.size(); ++k)
+    known.col(static_cast<Eigen::Index>(k)) = centred_ranks(controls[k].values);
   const auto remainder = [&](const std::vector<double>& values) -> Eigen::VectorXd {
     const Eigen::VectorXd ranks = centred_ranks(values);
     if (known.cols() == 0) return ranks;
@@ -59,7 +61,8 @@ std::vector<Association> associations(const std::vector<Column>& features, const
     for (const Eigen::VectorXd& feature : remainders) strongest = std::max(strongest, std::abs(cosine(feature, left)));
     for (std::size_t f = 0; f < features.size(); ++f) as_large[f] += strongest >= std::abs(result[f].partial) - 1e-12;
   }
-  for (std::size_t f = 0; f < features.size(); ++f) result[f].p_family_wise = (1.0 + as_large[f]) / (1.0 + permutations);
+  for (std::size_t f = 0; f < features.size(); ++f)
+    result[f].p_family_wise = (1.0 + as_large[f]) / (1.0 + permutations);
   std::ranges::stable_sort(result, std::greater{}, [](const Association& a) { return std::abs(a.partial); });
   return result;
 }

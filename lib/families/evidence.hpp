@@ -12,17 +12,19 @@ struct Column {
   std::vector<double> values;
 };
 
-/// How a feature goes with an outcome over a family. Evidence, not cause: patterns were not drawn to vary this feature alone.
+/// How a feature goes with an outcome over a family. Evidence, not cause: patterns were not drawn to vary this feature
+/// alone.
 struct Association {
   std::string feature;
-  double spearman = 0.0;         ///< rank correlation as it is
-  double partial = 0.0;          ///< with the ranks of the controls taken out of both
-  double p_family_wise = 1.0;    ///< chance that the strongest partial correlation of all features is as large when none is real
+  double spearman = 0.0;  ///< rank correlation as it is
+  double partial = 0.0;   ///< with the ranks of the controls taken out of both
+  double p_family_wise =
+      1.0;  ///< chance that the strongest partial correlation of all features is as large when none is real
 };
 
-/// Associations of every feature with `outcome`, strongest partial correlation first; ranks of the controls are regressed out of
-/// both sides, the p value comes from `permutations` of the outcome's remainder. Columns of equal length, at least five
-/// rows more than controls; throws InputError otherwise.
+/// Associations of every feature with `outcome`, strongest partial correlation first; ranks of the controls are
+/// regressed out of both sides, the p value comes from `permutations` of the outcome's remainder. Columns of equal
+/// length, at least five rows more than controls; throws InputError otherwise.
 std::vector<Association> associations(const std::vector<Column>& features, const Column& outcome,
                                       const std::vector<Column>& controls, std::uint64_t seed, int permutations = 2000);
 

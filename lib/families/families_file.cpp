@@ -14,7 +14,8 @@ namespace {
 }
 
 bool is_name(const std::string& text) {
-  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+  return !text.empty() &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
 }
 
 pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
@@ -40,7 +41,8 @@ Family family_of(const toml::table& table, const std::string& source) {
 
 std::string to_toml(const std::vector<Family>& families) {
   std::string text =
-      "# Families of near-Pareto designs. Move seeds, rename or merge families as you see them; `nacre families` reads this file.\n";
+      "# Families of near-Pareto designs. Move seeds, rename or merge families as you see them; `nacre families` reads "
+      "this file.\n";
   for (const Family& family : families) {
     text += fmt::format("\n[[family]]\nname = \"{}\"\nseeds = [", family.name);
     for (std::size_t i = 0; i < family.seeds.size(); ++i)
@@ -63,11 +65,14 @@ std::vector<Family> parse_families(std::string_view text, const std::string& sou
     if (!names.insert(families.back().name).second)
       refuse(source, node, fmt::format("family '{}' stands here for the second time", families.back().name));
     for (const pattern::Pattern& seed : families.back().seeds)
-      if (!seeds.insert(seed).second) refuse(source, node, fmt::format("seed '{}' belongs to two families", seed.key()));
+      if (!seeds.insert(seed).second)
+        refuse(source, node, fmt::format("seed '{}' belongs to two families", seed.key()));
   }
   return families;
 }
 
-std::vector<Family> read_families(const std::filesystem::path& file) { return parse_families(read_file(file), file.string()); }
+std::vector<Family> read_families(const std::filesystem::path& file) {
+  return parse_families(read_file(file), file.string());
+}
 
 }  // namespace nacre::families

@@ -38,7 +38,8 @@ DistanceMatrix distances_between(std::span<const Member> designs) {
   for (std::size_t i = 0; i < designs.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const optimize::Performance &a = designs[i].performance, &b = designs[j].performance;
-      property.set(i, j, std::hypot((a.modulus_pa - b.modulus_pa) / moduli, (a.toughness_pa - b.toughness_pa) / toughnesses));
+      property.set(i, j,
+                   std::hypot((a.modulus_pa - b.modulus_pa) / moduli, (a.toughness_pa - b.toughness_pa) / toughnesses));
     }
   normalise(shape);
   normalise(property);
@@ -47,7 +48,8 @@ DistanceMatrix distances_between(std::span<const Member> designs) {
   return shape;
 }
 
-double mean_distance(const DistanceMatrix& distances, const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
+double mean_distance(const DistanceMatrix& distances, const std::vector<std::size_t>& a,
+                     const std::vector<std::size_t>& b) {
   double sum = 0.0;
   for (const std::size_t i : a)
     for (const std::size_t j : b) sum += distances(i, j);
@@ -67,8 +69,8 @@ void merge_nearest(const DistanceMatrix& distances, Groups& groups) {
   groups.erase(groups.begin() + static_cast<long>(second));
 }
 
-/// Mean of (b - a) / max(a, b) over all designs, a the mean distance to one's own group, b to the nearest other one; 0 for a
-/// design that is alone.
+/// Mean of (b - a) / max(a, b) over all designs, a the mean distance to one's own group, b to the nearest other one; 0
+/// for a design that is alone.
 double mean_silhouette(const DistanceMatrix& distances, const Groups& groups) {
   double sum = 0.0;
   for (const auto& own : groups) {

@@ -71,7 +71,8 @@ std::vector<Pattern> interpolated(const Pattern& seed, std::span<const Pattern> 
   std::vector<Pattern> result;
   for (const std::vector<Pattern>& patterns : found) {
     for (const Pattern& pattern : patterns) {
-      const bool usable = pattern::pixel_difference(pattern, seed) <= settings.radius_pixels && pattern::is_feasible(pattern);
+      const bool usable =
+          pattern::pixel_difference(pattern, seed) <= settings.radius_pixels && pattern::is_feasible(pattern);
       if (usable && known.insert(pattern.bits()).second) result.push_back(pattern);
     }
   }

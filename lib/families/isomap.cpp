@@ -182,9 +182,8 @@ Embedding isomap(const DistanceMatrix& distances, int neighbours) {
   embedding.bridges = bridge_parts(graph, distances, far_away);
   const Eigen::Index count = static_cast<Eigen::Index>(distances.count());
   Eigen::MatrixXd geodesics(count, count);
-  parallel_for(static_cast<int>(count), [&](int i) {
-    shortest_paths(graph, static_cast<std::size_t>(i), geodesics.col(i));
-  });
+  parallel_for(static_cast<int>(count),
+               [&](int i) { shortest_paths(graph, static_cast<std::size_t>(i), geodesics.col(i)); });
   embedding.points = scaled(geodesics);
   embedding.residual_variance = residual_variance(geodesics, embedding.points);
   return embedding;

@@ -13,9 +13,9 @@ struct Embedding {
   double residual_variance = 0.0;  ///< 1 - r^2 between geodesic and embedded distances: 0 is a perfect map
 };
 
-/// Embeds in two dimensions. Every pattern is joined to its `neighbours` nearest ones; parts that hang together nowhere are
-/// joined at their nearest pair, shortest bridge first. Infinite distances count as ten times the largest finite one.
-/// Throws InputError below four patterns or when neighbours < 1.
+/// Embeds in two dimensions. Every pattern is joined to its `neighbours` nearest ones; parts that hang together nowhere
+/// are joined at their nearest pair, shortest bridge first. Infinite distances count as ten times the largest finite
+/// one. Throws InputError below four patterns or when neighbours < 1.
 Embedding isomap(const DistanceMatrix& distances, int neighbours = 10);
 
 }  // namespace nacre::families

@@ -9,14 +9,16 @@ namespace {
 constexpr double kLevel = 0.05;
 constexpr int kFewestDesigns = 3;
 
-void add_error(std::vector<ForetoldError>& errors, const std::string& design, double measured, const std::optional<double>& adopted, const std::optional<double>& extended) {
+void add_error(std::vector<ForetoldError>& errors, const std::string& design, double measured,
+               const std::optional<double>& adopted, const std::optional<double>& extended) {
   if (!(measured > 0.0) || !adopted || !extended || !(*adopted > 0.0) || !(*extended > 0.0)) return;
   errors.push_back({design, std::abs(std::log(*adopted / measured)), std::abs(std::log(*extended / measured))});
 }
 
 }  // namespace
 
-void TrialErrors::add(const std::vector<measurement::Replicates>& measured, const std::map<std::string, sysid::Prediction>& adopted,
+void TrialErrors::add(const std::vector<measurement::Replicates>& measured,
+                      const std::map<std::string, sysid::Prediction>& adopted,
                       const std::map<std::string, sysid::Prediction>& extended) {
   for (const measurement::Replicates& each : measured) {
     const std::string name = each.design.name();
@@ -44,7 +46,9 @@ TrialGain gain_of(std::span<const ForetoldError> errors, double least) {
   TrialGain gain;
   gain.designs = static_cast<int>(errors.size());
   if (gain.designs < 2) return gain;
-  const auto factor = [least](const ForetoldError& each) { return std::log((each.adopted + least) / (each.extended + least)); };
+  const auto factor = [least](const ForetoldError& each) {
+    return std::log((each.adopted + least) / (each.extended + least));
+  };
   double mean = 0.0, squares = 0.0;
   for (const ForetoldError& each : errors) {
     gain.adopted += each.adopted / gain.designs;
@@ -61,7 +65,8 @@ TrialGain gain_of(std::span<const ForetoldError> errors, double least) {
 
 bool gain_is_established(const TrialErrors& errors, int rounds) {
   const double level = kLevel / std::max(rounds, 1);
-  const TrialGain modulus = gain_of(errors.modulus, kLeastModulusError), toughness = gain_of(errors.toughness, kLeastToughnessError);
+  const TrialGain modulus = gain_of(errors.modulus, kLeastModulusError),
+                  toughness = gain_of(errors.toughness, kLeastToughnessError);
   return modulus.designs >= kFewestDesigns && modulus.p_gain <= level && toughness.p_loss > level;
 }
 

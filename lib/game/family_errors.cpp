@@ -5,7 +5,8 @@
 namespace nacre::game {
 namespace {
 
-sysid::PredictionErrors errors_of(std::span<const FamilyDesign> designs, bool seeds, DesignValues FamilyDesign::*model) {
+sysid::PredictionErrors errors_of(std::span<const FamilyDesign> designs, bool seeds,
+                                  DesignValues FamilyDesign::*model) {
   std::vector<measurement::Replicates> measured;
   std::vector<sysid::Prediction> predictions;
   for (const FamilyDesign& design : designs) {
@@ -16,7 +17,8 @@ sysid::PredictionErrors errors_of(std::span<const FamilyDesign> designs, bool se
     one.toughness_count = design.measured.toughness_pa.has_value();
     one.modulus_pa = design.measured.modulus_pa.value_or(0.0);
     one.toughness_pa = design.measured.toughness_pa.value_or(0.0);
-    predictions.push_back({.modulus_pa = (design.*model).modulus_pa, .toughness_pa = (design.*model).toughness_pa, .curve = {}});
+    predictions.push_back(
+        {.modulus_pa = (design.*model).modulus_pa, .toughness_pa = (design.*model).toughness_pa, .curve = {}});
   }
   return sysid::prediction_errors(measured, predictions);
 }

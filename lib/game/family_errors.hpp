@@ -19,7 +19,7 @@ struct DesignValues {
 /// A design of a family, as in a row of Tables A.5 and A.6.
 struct FamilyDesign {
   pattern::Pattern pattern;
-  bool is_seed = false;       ///< a measured design that the family grew from; else chosen from its variants
+  bool is_seed = false;  ///< a measured design that the family grew from; else chosen from its variants
   DesignValues measured;
   DesignValues global_model;  ///< predicted by the model of the game's last round
   DesignValues family_model;  ///< and by the family's own; of chosen designs before they were measured

@@ -19,7 +19,8 @@ int whole(const NamedTable& table, std::size_t row, const std::string& column) {
 }
 
 std::vector<ThesisSample> read_samples(const std::filesystem::path& folder) {
-  const NamedTable modulus(folder / "microstructures_modulus.csv", {"sample", "round", "rigid_fraction_percent", "measured_gpa"});
+  const NamedTable modulus(folder / "microstructures_modulus.csv",
+                           {"sample", "round", "rigid_fraction_percent", "measured_gpa"});
   const NamedTable toughness(folder / "microstructures_toughness.csv", {"sample", "measured_mpa"});
   std::vector<ThesisSample> samples;
   for (std::size_t row = 0; row < modulus.size(); ++row) {
@@ -29,7 +30,8 @@ std::vector<ThesisSample> read_samples(const std::filesystem::path& folder) {
     sample.number = whole(modulus, row, "sample");
     sample.round = whole(modulus, row, "round");
     sample.rigid_fraction = 0.01 * modulus.positive(row, "rigid_fraction_percent");
-    sample.measured = {kPaPerGpa * modulus.positive(row, "measured_gpa"), kPaPerMpa * toughness.positive(row, "measured_mpa")};
+    sample.measured = {kPaPerGpa * modulus.positive(row, "measured_gpa"),
+                       kPaPerMpa * toughness.positive(row, "measured_mpa")};
     for (std::size_t model = 0; model < kModels.size(); ++model) {
       sample.simulated[model] = {
           scaled(modulus.positive_or_empty(row, fmt::format("simulated_gpa_{}", kModels[model])), kPaPerGpa),
@@ -39,24 +41,26 @@ std::vector<ThesisSample> read_samples(const std::filesystem::path& folder) {
   return samples;
 }
 
-DesignValues pair_of(const NamedTable& table, std::size_t row, const std::string& modulus, const std::string& toughness) {
+DesignValues pair_of(const NamedTable& table, std::size_t row, const std::string& modulus,
+                     const std::string& toughness) {
   return {kPaPerGpa * table.positive(row, modulus), kPaPerMpa * table.positive(row, toughness)};
 }
 
 std::vector<ThesisFamilySample> read_family_samples(const std::filesystem::path& folder) {
   const NamedTable table(folder / "families.csv",
-                         {"role", "family", "sample", "rigid_fraction_percent", "measured_modulus_gpa", "measured_toughness_mpa",
-                          "simulated_modulus_gpa_r4", "simulated_toughness_mpa_r4", "simulated_modulus_gpa_family",
-                          "simulated_toughness_mpa_family"});
+                         {"role", "family", "sample", "rigid_fraction_percent", "measured_modulus_gpa",
+                          "measured_toughness_mpa", "simulated_modulus_gpa_r4", "simulated_toughness_mpa_r4",
+                          "simulated_modulus_gpa_family", "simulated_toughness_mpa_family"});
   std::vector<ThesisFamilySample> samples;
   for (std::size_t row = 0; row < table.size(); ++row) {
-    samples.push_back({.family = whole(table, row, "family"),
-                       .is_seed = table.text(row, "role") == "seed",
-                       .name = table.text(row, "sample"),
-                       .rigid_fraction = 0.01 * table.positive(row, "rigid_fraction_percent"),
-                       .measured = pair_of(table, row, "measured_modulus_gpa", "measured_toughness_mpa"),
-                       .global_model = pair_of(table, row, "simulated_modulus_gpa_r4", "simulated_toughness_mpa_r4"),
-                       .family_model = pair_of(table, row, "simulated_modulus_gpa_family", "simulated_toughness_mpa_family")});
+    samples.push_back(
+        {.family = whole(table, row, "family"),
+         .is_seed = table.text(row, "role") == "seed",
+         .name = table.text(row, "sample"),
+         .rigid_fraction = 0.01 * table.positive(row, "rigid_fraction_percent"),
+         .measured = pair_of(table, row, "measured_modulus_gpa", "measured_toughness_mpa"),
+         .global_model = pair_of(table, row, "simulated_modulus_gpa_r4", "simulated_toughness_mpa_r4"),
+         .family_model = pair_of(table, row, "simulated_modulus_gpa_family", "simulated_toughness_mpa_family")});
   }
   return samples;
 }
@@ -76,7 +80,8 @@ std::vector<ThesisMaterial> read_materials(const std::filesystem::path& folder) 
 }  // namespace
 
 ThesisTables read_thesis_tables(const std::filesystem::path& folder) {
-  return {.samples = read_samples(folder), .families = read_family_samples(folder), .materials = read_materials(folder)};
+  return {
+      .samples = read_samples(folder), .families = read_family_samples(folder), .materials = read_materials(folder)};
 }
 
 }  // namespace nacre::game

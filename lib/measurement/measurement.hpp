@@ -83,9 +83,9 @@ struct PrintContext {
 /// (batch-2 before batch-10); a specimen without batch counts to the first.
 std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& specimens);
 
-/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`, printed
-/// in that context. Stiffness drifts by the batch, E (1 + d)^step; a machine of compliance c (1/Pa) is a spring in series,
-/// 1/E_shown = 1/E + c; the load cell shows 1 + g of the force. Exactly the identity without extensions.
+/// Measurement-side extensions: what the testing machine shows of a specimen whose true modulus is `modulus_pa`,
+/// printed in that context. Stiffness drifts by the batch, E (1 + d)^step; a machine of compliance c (1/Pa) is a spring
+/// in series, 1/E_shown = 1/E + c; the load cell shows 1 + g of the force. Exactly the identity without extensions.
 double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context = {});
 /// The same for a curve: strain_shown = slack + strain + c stress, with a first point (0, 0) before the slack is taken
 /// up. Strain may decrease where stress falls steeply.

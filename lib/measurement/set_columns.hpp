@@ -32,7 +32,7 @@ inline constexpr std::array<std::string_view, kColumnCount> kColumns = {
 
 /// What else `nacre import` writes: kept with the specimen like any other column, but known.
 inline constexpr std::array<std::string_view, 10> kHistoryColumns = {
-    "date",     "operator",       "machine",        "path",       "order_id",
-    "tray",     "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};
+    "date", "operator",       "machine",        "path",       "order_id",
+    "tray", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};
 
 }  // namespace nacre::measurement

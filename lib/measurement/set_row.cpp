@@ -12,7 +12,8 @@ namespace {
 /// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
 class RowParser {
  public:
-  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned, const CurveSource& curves)
+  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned,
+            const CurveSource& curves)
       : folder_(folder), heading_(heading), row_(row), planned_(planned), curves_(curves) {}
 
   tl::expected<SpecimenRecord, RejectedRow> parse() {

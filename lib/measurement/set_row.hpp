@@ -30,9 +30,10 @@ std::string lower_case(std::string_view text);
 /// Where the curve that a row names is read from, by its name there.
 using CurveSource = std::function<Result<tester::Curve>(const std::string& name)>;
 
-/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`, curves too unless `curves` has
-/// them. `planned`: a row needs no measured value.
+/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`, curves too unless
+/// `curves` has them. `planned`: a row needs no measured value.
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
-                                                    const CsvRow& row, bool planned = false, const CurveSource& curves = {});
+                                                    const CsvRow& row, bool planned = false,
+                                                    const CurveSource& curves = {});
 
 }  // namespace nacre::measurement

@@ -111,10 +111,14 @@ class SheetReader {
       return {};
     }
     std::error_code unreadable;  // a name may be too long to be a file's
-    const std::filesystem::path path = std::filesystem::exists(folder_ / name, unreadable) ? folder_ / name : std::filesystem::path(name);
+    const std::filesystem::path path =
+        std::filesystem::exists(folder_ / name, unreadable) ? folder_ / name : std::filesystem::path(name);
     const std::filesystem::file_status status = std::filesystem::status(path, unreadable);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // a terminal or a pipe would wait for ever
-      reject("pattern", fmt::format("`{}` is no regular file, expected a pattern file, a key, rigid, soft, interface or mix:F", name));
+    if (std::filesystem::exists(status) &&
+        !std::filesystem::is_regular_file(status)) {  // a terminal or a pipe would wait for ever
+      reject("pattern",
+             fmt::format("`{}` is no regular file, expected a pattern file, a key, rigid, soft, interface or mix:F",
+                         name));
       return {};
     }
     try {

@@ -19,9 +19,7 @@ GroupKey group_of(const SpecimenRecord& specimen) {
   return {specimen.design.name(), conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm};
 }
 
-double mean_of(std::span<const double> values) {
-  return values.empty() ? 0.0 : mean(values);
-}
+double mean_of(std::span<const double> values) { return values.empty() ? 0.0 : mean(values); }
 
 /// The thesis' representative curve (2.2.2), chosen as that of the specimen nearest to the mean toughness.
 tester::Curve representative(std::span<const SpecimenRecord* const> specimens, double mean_toughness_pa) {

@@ -211,8 +211,8 @@ Result<std::unique_ptr<Bus>> Bus::open(BusOptions options) {
 }
 
 Result<void> Bus::subscribe(const std::vector<std::string>& channels) {
-  // Before the first subscription: this starts LCM's receive thread and its self-test. A subscription that fails because of
-  // it comes back as an object around a null pointer, which the next call on it would follow.
+  // Before the first subscription: this starts LCM's receive thread and its self-test. A subscription that fails
+  // because of it comes back as an object around a null pointer, which the next call on it would follow.
   if (state_->lcm->getFileno() < 0) {
     // What the library has left of itself then cannot even be destroyed: kept, not lost.
     static std::atomic<const lcm::LCM*> broken;

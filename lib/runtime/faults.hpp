@@ -1,6 +1,6 @@
 #pragma once
-// Seeded faults: what a bad network does, on the receiving side, reproducibly and on machines without packet filters; and
-// a clock that somebody sets.
+// Seeded faults: what a bad network does, on the receiving side, reproducibly and on machines without packet filters;
+// and a clock that somebody sets.
 
 #include <cstdint>
 #include <functional>

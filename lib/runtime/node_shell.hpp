@@ -49,7 +49,7 @@ int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::
 struct NodeProgram {
   std::unique_ptr<NodeCore> core;
   std::map<std::string, WorkFunction> work;
-  int default_threads = 0;  ///< for long work when --threads is not given; 0 all allowed cores
+  int default_threads = 0;     ///< for long work when --threads is not given; 0 all allowed cores
   MakeExecutor executor = {};  ///< instead of threads
 };
 using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scenario&)>;

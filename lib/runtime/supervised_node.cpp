@@ -58,7 +58,8 @@ void SupervisedNode::rotate_log() {
   log_ = nullptr;
   const auto old = [&](int number) { return fmt::format("{}.{}", settings_.log_file.string(), number); };
   std::error_code ignored;  // a file that cannot be renamed is written on
-  for (int number = kOldFiles - 1; number >= 1; --number) std::filesystem::rename(old(number), old(number + 1), ignored);
+  for (int number = kOldFiles - 1; number >= 1; --number)
+    std::filesystem::rename(old(number), old(number + 1), ignored);
   std::filesystem::rename(settings_.log_file, old(1), ignored);
   open_log();
 }

@@ -13,7 +13,9 @@ namespace nacre::store {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError::format("{} cannot be used: {}. It is made from the analyser's journal: `nacre rebuild` makes it anew", path.string(), reason);
+  throw InputError::format(
+      "{} cannot be used: {}. It is made from the analyser's journal: `nacre rebuild` makes it anew", path.string(),
+      reason);
 }
 
 /// Binds values in order and runs the statement.
@@ -29,9 +31,11 @@ void run(SQLite::Database& database, const char* sql, const Values&... values) {
     } else if constexpr (std::is_same_v<Value, bool>) {
       statement.bind(index, value ? 1 : 0);
     } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
-      statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()), static_cast<int>(value.size() * sizeof(double)));
+      statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()),
+                     static_cast<int>(value.size() * sizeof(double)));
     } else if constexpr (std::is_same_v<Value, std::vector<std::int32_t>>) {
-      statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()), static_cast<int>(value.size() * sizeof(std::int32_t)));
+      statement.bind(index, value.empty() ? "" : static_cast<const void*>(value.data()),
+                     static_cast<int>(value.size() * sizeof(std::int32_t)));
     } else if constexpr (std::is_same_v<Value, std::string_view>) {
       statement.bind(index, std::string(value));
     } else {
@@ -57,12 +61,13 @@ bool is_closed_for_good(SQLite::Database& db, int round) {
 
 void keep(SQLite::Database& db, const wire::RoundSummary& r) {
   if (!r.last && is_closed_for_good(db, r.round)) return;
-  run(db, "INSERT OR REPLACE INTO round VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)", r.round, tester::to_string(r.fidelity), r.calibration_count,
-      r.measured_hypervolume_staircase, r.measured_hypervolume_polygon, r.gamut_hypervolume_staircase, r.gamut_hypervolume_polygon, r.gap, r.signed_gap,
-      r.hypervolume_error, r.equilibrium, r.last, r.decided_by);
+  run(db, "INSERT OR REPLACE INTO round VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)", r.round, tester::to_string(r.fidelity),
+      r.calibration_count, r.measured_hypervolume_staircase, r.measured_hypervolume_polygon,
+      r.gamut_hypervolume_staircase, r.gamut_hypervolume_polygon, r.gap, r.signed_gap, r.hypervolume_error,
+      r.equilibrium, r.last, r.decided_by);
   const auto errors = [&](std::string_view moment, const sysid::PredictionErrors& e) {
-    run(db, "INSERT OR REPLACE INTO prediction_error VALUES (?,?,?,?,?,?,?,?,?)", r.round, moment, e.modulus_count, e.modulus_mean, e.modulus_max,
-        e.toughness_count, e.toughness_mean, e.toughness_max, e.toughness_spearman);
+    run(db, "INSERT OR REPLACE INTO prediction_error VALUES (?,?,?,?,?,?,?,?,?)", r.round, moment, e.modulus_count,
+        e.modulus_mean, e.modulus_max, e.toughness_count, e.toughness_mean, e.toughness_max, e.toughness_spearman);
   };
   errors("before", r.before);
   errors("after", r.after);
@@ -73,39 +78,48 @@ void keep(SQLite::Database& db, const wire::RoundSummary& r) {
 template <class KeepOne>
 void each_parameter(const material::ParameterSet& parameters, const KeepOne& keep_one) {
   const auto theta = to_vector(parameters.modulus);
-  for (std::size_t i = 0; i < theta.size(); ++i) keep_one("modulus." + std::string(material::modulus_parameter_names()[i]), theta[i]);
+  for (std::size_t i = 0; i < theta.size(); ++i)
+    keep_one("modulus." + std::string(material::modulus_parameter_names()[i]), theta[i]);
   const auto eta = to_vector(parameters.toughness);
-  for (std::size_t i = 0; i < eta.size(); ++i) keep_one("toughness." + std::string(material::toughness_parameter_names()[i]), eta[i]);
+  for (std::size_t i = 0; i < eta.size(); ++i)
+    keep_one("toughness." + std::string(material::toughness_parameter_names()[i]), eta[i]);
   for (const auto& [name, values] : parameters.extensions) {
-    for (std::size_t i = 0; i < values.size(); ++i) keep_one(fmt::format("extension.{}{}", name, values.size() > 1 ? fmt::format(".{}", i) : ""), values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      keep_one(fmt::format("extension.{}{}", name, values.size() > 1 ? fmt::format(".{}", i) : ""), values[i]);
   }
 }
 
 void keep(SQLite::Database& db, const wire::AdoptedModel& m) {
-  each_parameter(m.parameters, [&](const std::string& name, double value) { run(db, "INSERT OR REPLACE INTO parameter VALUES (?,?,?)", m.round, name, value); });
+  each_parameter(m.parameters, [&](const std::string& name, double value) {
+    run(db, "INSERT OR REPLACE INTO parameter VALUES (?,?,?)", m.round, name, value);
+  });
   for (std::size_t i = 0; i < m.benchmark.size(); ++i) {
-    run(db, "INSERT OR REPLACE INTO benchmark VALUES (?,?,?,?)", m.round, static_cast<int>(i), m.benchmark[i].modulus_pa, m.benchmark[i].toughness_pa);
+    run(db, "INSERT OR REPLACE INTO benchmark VALUES (?,?,?,?)", m.round, static_cast<int>(i),
+        m.benchmark[i].modulus_pa, m.benchmark[i].toughness_pa);
   }
 }
 
 void keep(SQLite::Database& db, const wire::GamutChunk& g) {
   for (const explore::Evaluated& sample : g.samples) {
-    run(db, "INSERT OR REPLACE INTO gamut VALUES (?,?,?,?)", g.round, sample.pattern.key(), sample.performance.modulus_pa, sample.performance.toughness_pa);
+    run(db, "INSERT OR REPLACE INTO gamut VALUES (?,?,?,?)", g.round, sample.pattern.key(),
+        sample.performance.modulus_pa, sample.performance.toughness_pa);
   }
 }
 
 void keep(SQLite::Database& db, const wire::Proposal& p) {
   for (std::size_t i = 0; i < p.designs.size(); ++i) {
     const wire::ProposedDesign& d = p.designs[i];
-    run(db, "INSERT OR REPLACE INTO proposal VALUES (?,?,?,?,?,?,?)", p.round, d.design.name(), static_cast<int>(i), d.modulus_pa, d.toughness_pa, d.bin, d.reason);
+    run(db, "INSERT OR REPLACE INTO proposal VALUES (?,?,?,?,?,?,?)", p.round, d.design.name(), static_cast<int>(i),
+        d.modulus_pa, d.toughness_pa, d.bin, d.reason);
   }
 }
 
 void keep(SQLite::Database& db, const wire::Measurement& m) {
   const measurement::SpecimenRecord& r = m.record;
   // The first report of a specimen stands: a different one with the same name is refused by the validation agent, too.
-  run(db, "INSERT OR IGNORE INTO measurement VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", r.specimen, m.round, m.order_id, r.design.name(), tester::to_string(r.test),
-      r.conditions.orientation_deg, r.conditions.strain_rate_per_s, r.conditions.thickness_mm, r.batch, r.print_order, r.modulus_pa, r.toughness_pa, r.valid, r.note,
+  run(db, "INSERT OR IGNORE INTO measurement VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", r.specimen, m.round, m.order_id,
+      r.design.name(), tester::to_string(r.test), r.conditions.orientation_deg, r.conditions.strain_rate_per_s,
+      r.conditions.thickness_mm, r.batch, r.print_order, r.modulus_pa, r.toughness_pa, r.valid, r.note,
       packed(r.curve));
 }
 
@@ -115,48 +129,57 @@ void keep(SQLite::Database& db, const review_t& r) {
 
 void keep(SQLite::Database& db, const diagnosis_t& d) {
   const auto when_gained = [&](double value) { return d.has_gain ? std::optional<double>(value) : std::nullopt; };
-  run(db, "INSERT OR REPLACE INTO diagnosis VALUES (?,?,?,?,?,?)", d.round, d.verdict, d.summary, when_gained(d.held_out_error_before),
-      when_gained(d.held_out_error_after), when_gained(d.relative_reduction));
+  run(db, "INSERT OR REPLACE INTO diagnosis VALUES (?,?,?,?,?,?)", d.round, d.verdict, d.summary,
+      when_gained(d.held_out_error_before), when_gained(d.held_out_error_after), when_gained(d.relative_reduction));
   for (const effect_t& e : d.effects) {
-    run(db, "INSERT OR REPLACE INTO diagnosis_effect VALUES (?,?,?,?,?,?)", d.round, e.name, e.parameter, e.interval_low, e.interval_high, e.unit);
+    run(db, "INSERT OR REPLACE INTO diagnosis_effect VALUES (?,?,?,?,?,?)", d.round, e.name, e.parameter,
+        e.interval_low, e.interval_high, e.unit);
   }
   for (const candidate_t& c : d.candidates) {
-    run(db, "INSERT OR REPLACE INTO diagnosis_candidate VALUES (?,?,?,?,?,?)", d.round, c.name, c.status, c.statistic, c.p_family_wise, c.absorption);
+    run(db, "INSERT OR REPLACE INTO diagnosis_candidate VALUES (?,?,?,?,?,?)", d.round, c.name, c.status, c.statistic,
+        c.p_family_wise, c.absorption);
   }
 }
 
 /// The number N of `question`, which holds %d and ends with %n, when an answer belongs to it.
 std::optional<int> number_in(const std::string& request_id, const char* question) {
   int number = 0, matched = 0;
-  return std::sscanf(request_id.c_str(), question, &number, &matched) == 1 && matched > 0 ? std::optional(number) : std::nullopt;
+  return std::sscanf(request_id.c_str(), question, &number, &matched) == 1 && matched > 0 ? std::optional(number)
+                                                                                          : std::nullopt;
 }
 
-/// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured designs.
+/// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured
+/// designs.
 void keep(SQLite::Database& db, const wire::SimulateResult& s) {
   const auto round = number_in(s.request_id, "analyser/r%d/measured%n");
   if (!round) return;
   for (const wire::SimulatedDesign& d : s.results) {
-    run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", *round, d.design.name(), d.modulus_pa, d.toughness_pa, d.failure, packed(d.curve));
+    run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", *round, d.design.name(), d.modulus_pa,
+        d.toughness_pa, d.failure, packed(d.curve));
   }
 }
 
 void keep_crack(SQLite::Database& db, const char* table, int number, const wire::Fracture& f) {
-  const auto of_path = [&](auto value) { return f.crack.path ? std::optional<double>(value(*f.crack.path)) : std::nullopt; };
+  const auto of_path = [&](auto value) {
+    return f.crack.path ? std::optional<double>(value(*f.crack.path)) : std::nullopt;
+  };
   std::vector<std::int32_t> path, breaks;
   if (f.crack.path) path.assign(f.crack.path->elements.begin(), f.crack.path->elements.end());
   for (const tester::Break& broken : f.crack.order) breaks.push_back(broken.element);
   const std::string insert = fmt::format("INSERT OR REPLACE INTO {} VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", table);
-  run(db, insert.c_str(), number, f.design.name(), f.film, f.crack.columns, f.crack.rows,
-      f.broken, f.crack.branches, f.crack.separate_cracks, of_path([](const auto& p) { return p.length_m; }),
-      of_path([](const auto& p) { return p.straight_length_m; }), of_path([](const auto& p) { return p.bridged_share; }),
-      of_path([](const auto& p) { return p.material[0]; }), of_path([](const auto& p) { return p.material[1]; }),
-      of_path([](const auto& p) { return p.material[2]; }), f.crack.path && f.crack.path->crosses, path, breaks);
+  run(db, insert.c_str(), number, f.design.name(), f.film, f.crack.columns, f.crack.rows, f.broken, f.crack.branches,
+      f.crack.separate_cracks, of_path([](const auto& p) { return p.length_m; }),
+      of_path([](const auto& p) { return p.straight_length_m; }),
+      of_path([](const auto& p) { return p.bridged_share; }), of_path([](const auto& p) { return p.material[0]; }),
+      of_path([](const auto& p) { return p.material[1]; }), of_path([](const auto& p) { return p.material[2]; }),
+      f.crack.path && f.crack.path->crosses, path, breaks);
 }
 
 /// Answers to the analyser's own questions: how the designs proposed in round N break, and those of family N.
 void keep(SQLite::Database& db, const wire::Fracture& f) {
   if (const auto round = number_in(f.request_id, "analyser/r%d/films%n")) keep_crack(db, "crack", *round, f);
-  if (const auto family = number_in(f.request_id, "analyser/family%d/films%n")) keep_crack(db, "family_crack", *family, f);
+  if (const auto family = number_in(f.request_id, "analyser/family%d/films%n"))
+    keep_crack(db, "family_crack", *family, f);
 }
 
 /// A family that is validated is not put back by an older word of it.
@@ -164,18 +187,23 @@ void keep(SQLite::Database& db, const wire::Family& f) {
   SQLite::Statement known(db, "SELECT is_validated FROM family WHERE number = ?");
   known.bind(1, f.number);
   if (known.executeStep() && known.getColumn(0).getInt() != 0 && !f.is_validated) return;
-  run(db, "INSERT OR REPLACE INTO family VALUES (?,?,?,?,?,?,?,?)", f.number, f.name, f.round, tester::to_string(f.fidelity), f.count, f.is_validated, f.simulations, f.samples);
-  each_parameter(f.parameters, [&](const std::string& name, double value) { run(db, "INSERT OR REPLACE INTO family_parameter VALUES (?,?,?)", f.number, name, value); });
+  run(db, "INSERT OR REPLACE INTO family VALUES (?,?,?,?,?,?,?,?)", f.number, f.name, f.round,
+      tester::to_string(f.fidelity), f.count, f.is_validated, f.simulations, f.samples);
+  each_parameter(f.parameters, [&](const std::string& name, double value) {
+    run(db, "INSERT OR REPLACE INTO family_parameter VALUES (?,?,?)", f.number, name, value);
+  });
   for (std::size_t i = 0; i < f.designs.size(); ++i) {
     const game::FamilyDesign& d = f.designs[i];
-    run(db, "INSERT OR REPLACE INTO family_design VALUES (?,?,?,?,?,?,?,?,?,?)", f.number, d.pattern.key(), static_cast<int>(i), d.is_seed, d.measured.modulus_pa,
-        d.measured.toughness_pa, d.global_model.modulus_pa, d.global_model.toughness_pa, d.family_model.modulus_pa, d.family_model.toughness_pa);
+    run(db, "INSERT OR REPLACE INTO family_design VALUES (?,?,?,?,?,?,?,?,?,?)", f.number, d.pattern.key(),
+        static_cast<int>(i), d.is_seed, d.measured.modulus_pa, d.measured.toughness_pa, d.global_model.modulus_pa,
+        d.global_model.toughness_pa, d.family_model.modulus_pa, d.family_model.toughness_pa);
   }
 }
 
 void keep(SQLite::Database& db, const wire::FamilyGamut& g) {
   for (const explore::Evaluated& sample : g.samples) {
-    run(db, "INSERT OR REPLACE INTO family_gamut VALUES (?,?,?,?)", g.number, sample.pattern.key(), sample.performance.modulus_pa, sample.performance.toughness_pa);
+    run(db, "INSERT OR REPLACE INTO family_gamut VALUES (?,?,?,?)", g.number, sample.pattern.key(),
+        sample.performance.modulus_pa, sample.performance.toughness_pa);
   }
 }
 

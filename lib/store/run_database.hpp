@@ -1,6 +1,6 @@
 #pragma once
-// logs/RUN/run.db: the messages of a run as tables, for reports and for any SQLite tool. A projection: it can always be made anew
-// from the analyser's journal. Written by the analyser alone.
+// logs/RUN/run.db: the messages of a run as tables, for reports and for any SQLite tool. A projection: it can always be
+// made anew from the analyser's journal. Written by the analyser alone.
 
 #include <filesystem>
 #include <memory>
@@ -19,8 +19,8 @@ class RunDatabase {
   explicit RunDatabase(const std::filesystem::path& path);
   ~RunDatabase();
 
-  /// Takes one message of the run (payload without header). The same message twice changes nothing; channels that are not kept, and
-  /// payloads that do not decode, are ignored. Throws InputError when the file cannot be written.
+  /// Takes one message of the run (payload without header). The same message twice changes nothing; channels that are
+  /// not kept, and payloads that do not decode, are ignored. Throws InputError when the file cannot be written.
   void project(const std::string& channel, const std::string& payload);
 
   /// Moves everything into the one file, so that a copy of it alone is whole.

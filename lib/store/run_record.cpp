@@ -72,19 +72,28 @@ void read_gamuts(SQLite::Database& db, RunRecord& run) {
 }
 
 void read_model(SQLite::Database& db, RunRecord& run) {
-  each_row(db, "SELECT round, name, value FROM parameter",
-           [&](SQLite::Statement& q) { run.rounds[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble(); });
-  each_row(db, "SELECT round, modulus_pa, toughness_pa FROM benchmark ORDER BY round, position", [&](SQLite::Statement& q) {
-    run.rounds[q.getColumn(0).getInt()].benchmark.push_back({q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
+  each_row(db, "SELECT round, name, value FROM parameter", [&](SQLite::Statement& q) {
+    run.rounds[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble();
   });
-  each_row(db, "SELECT round, design, reason, modulus_pa, toughness_pa FROM proposal ORDER BY round, position", [&](SQLite::Statement& q) {
-    run.rounds[q.getColumn(0).getInt()].proposals.push_back(
-        {q.getColumn(1).getString(), q.getColumn(2).getString(), {q.getColumn(3).getDouble(), q.getColumn(4).getDouble()}});
-  });
-  each_row(db, "SELECT round, design, modulus_pa, toughness_pa, failure, curve FROM simulated", [&](SQLite::Statement& q) {
-    run.rounds[q.getColumn(0).getInt()].simulated[q.getColumn(1).getString()] = {
-        {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}, q.getColumn(4).getString(), unpacked(q.getColumn(5))};
-  });
+  each_row(db, "SELECT round, modulus_pa, toughness_pa FROM benchmark ORDER BY round, position",
+           [&](SQLite::Statement& q) {
+             run.rounds[q.getColumn(0).getInt()].benchmark.push_back(
+                 {q.getColumn(1).getDouble(), q.getColumn(2).getDouble()});
+           });
+  each_row(db, "SELECT round, design, reason, modulus_pa, toughness_pa FROM proposal ORDER BY round, position",
+           [&](SQLite::Statement& q) {
+             run.rounds[q.getColumn(0).getInt()].proposals.push_back(
+                 {q.getColumn(1).getString(),
+                  q.getColumn(2).getString(),
+                  {q.getColumn(3).getDouble(), q.getColumn(4).getDouble()}});
+           });
+  each_row(db, "SELECT round, design, modulus_pa, toughness_pa, failure, curve FROM simulated",
+           [&](SQLite::Statement& q) {
+             run.rounds[q.getColumn(0).getInt()].simulated[q.getColumn(1).getString()] = {
+                 {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()},
+                 q.getColumn(4).getString(),
+                 unpacked(q.getColumn(5))};
+           });
 }
 
 std::vector<std::int32_t> elements(const SQLite::Column& blob) {
@@ -97,7 +106,8 @@ std::vector<std::int32_t> elements(const SQLite::Column& blob) {
 template <class Keep>
 void each_crack(SQLite::Database& db, const char* table, const char* number, const Keep& keep) {
   const std::string cracks = fmt::format(
-      "SELECT {}, design, film, columns, rows, broken, branches, separate_cracks, path, breaks, path_length_m, straight_length_m, bridged_share, "
+      "SELECT {}, design, film, columns, rows, broken, branches, separate_cracks, path, breaks, path_length_m, "
+      "straight_length_m, bridged_share, "
       "soft_share, rigid_share, interface_share, crosses FROM {}",
       number, table);
   each_row(db, cracks.c_str(), [&](SQLite::Statement& q) {
@@ -110,12 +120,13 @@ void each_crack(SQLite::Database& db, const char* table, const char* number, con
     for (const std::int32_t element : elements(q.getColumn(9))) record.order.push_back({element, 0.0});
     if (!q.getColumn(10).isNull()) {
       const std::vector<std::int32_t> path = elements(q.getColumn(8));
-      record.path = crack::Path{.elements = {path.begin(), path.end()},
-                                .length_m = q.getColumn(10).getDouble(),
-                                .straight_length_m = q.getColumn(11).getDouble(),
-                                .bridged_share = q.getColumn(12).getDouble(),
-                                .material = {q.getColumn(13).getDouble(), q.getColumn(14).getDouble(), q.getColumn(15).getDouble()},
-                                .crosses = q.getColumn(16).getInt() != 0};
+      record.path = crack::Path{
+          .elements = {path.begin(), path.end()},
+          .length_m = q.getColumn(10).getDouble(),
+          .straight_length_m = q.getColumn(11).getDouble(),
+          .bridged_share = q.getColumn(12).getDouble(),
+          .material = {q.getColumn(13).getDouble(), q.getColumn(14).getDouble(), q.getColumn(15).getDouble()},
+          .crosses = q.getColumn(16).getInt() != 0};
     }
     keep(q.getColumn(0).getInt(), q.getColumn(1).getString(), std::move(recorded));
   });
@@ -128,58 +139,78 @@ void read_cracks(SQLite::Database& db, RunRecord& run) {
 }
 
 void read_diagnoses(SQLite::Database& db, RunRecord& run) {
-  each_row(db, "SELECT round, verdict, summary, held_out_error_before, held_out_error_after FROM diagnosis", [&](SQLite::Statement& q) {
-    RecordedDiagnosis diagnosis;
-    diagnosis.verdict = q.getColumn(1).getString();
-    diagnosis.summary = q.getColumn(2).getString();
-    diagnosis.held_out_error_before = optional_double(q.getColumn(3));
-    diagnosis.held_out_error_after = optional_double(q.getColumn(4));
-    run.rounds[q.getColumn(0).getInt()].diagnosis = diagnosis;
-  });
-  each_row(db, "SELECT round, name, unit, parameter, interval_low, interval_high FROM diagnosis_effect", [&](SQLite::Statement& q) {
-    if (auto& diagnosis = run.rounds[q.getColumn(0).getInt()].diagnosis) {
-      diagnosis->effects.push_back({q.getColumn(1).getString(), q.getColumn(2).getString(), q.getColumn(3).getDouble(), q.getColumn(4).getDouble(), q.getColumn(5).getDouble()});
-    }
-  });
-  each_row(db, "SELECT round, name, status, statistic, p_family_wise, absorption FROM diagnosis_candidate", [&](SQLite::Statement& q) {
-    if (auto& diagnosis = run.rounds[q.getColumn(0).getInt()].diagnosis) {
-      diagnosis->candidates.push_back({q.getColumn(1).getString(), q.getColumn(2).getString(), q.getColumn(3).getDouble(), q.getColumn(4).getDouble(), q.getColumn(5).getDouble()});
-    }
-  });
+  each_row(db, "SELECT round, verdict, summary, held_out_error_before, held_out_error_after FROM diagnosis",
+           [&](SQLite::Statement& q) {
+             RecordedDiagnosis diagnosis;
+             diagnosis.verdict = q.getColumn(1).getString();
+             diagnosis.summary = q.getColumn(2).getString();
+             diagnosis.held_out_error_before = optional_double(q.getColumn(3));
+             diagnosis.held_out_error_after = optional_double(q.getColumn(4));
+             run.rounds[q.getColumn(0).getInt()].diagnosis = diagnosis;
+           });
+  each_row(db, "SELECT round, name, unit, parameter, interval_low, interval_high FROM diagnosis_effect",
+           [&](SQLite::Statement& q) {
+             if (auto& diagnosis = run.rounds[q.getColumn(0).getInt()].diagnosis) {
+               diagnosis->effects.push_back({q.getColumn(1).getString(), q.getColumn(2).getString(),
+                                             q.getColumn(3).getDouble(), q.getColumn(4).getDouble(),
+                                             q.getColumn(5).getDouble()});
+             }
+           });
+  each_row(db, "SELECT round, name, status, statistic, p_family_wise, absorption FROM diagnosis_candidate",
+           [&](SQLite::Statement& q) {
+             if (auto& diagnosis = run.rounds[q.getColumn(0).getInt()].diagnosis) {
+               diagnosis->candidates.push_back({q.getColumn(1).getString(), q.getColumn(2).getString(),
+                                                q.getColumn(3).getDouble(), q.getColumn(4).getDouble(),
+                                                q.getColumn(5).getDouble()});
+             }
+           });
 }
 
 game::FamilyDesign family_design(SQLite::Statement& q) {
   const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
   const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
-  const auto values = [&](int first) { return game::DesignValues{optional_double(q.getColumn(first)), optional_double(q.getColumn(first + 1))}; };
-  return {.pattern = known.value_or(pattern::Pattern()), .is_seed = q.getColumn(2).getInt() != 0, .measured = values(3), .global_model = values(5), .family_model = values(7)};
+  const auto values = [&](int first) {
+    return game::DesignValues{optional_double(q.getColumn(first)), optional_double(q.getColumn(first + 1))};
+  };
+  return {.pattern = known.value_or(pattern::Pattern()),
+          .is_seed = q.getColumn(2).getInt() != 0,
+          .measured = values(3),
+          .global_model = values(5),
+          .family_model = values(7)};
 }
 
 void read_families(SQLite::Database& db, RunRecord& run) {
   if (!db.tableExists("family")) return;  // a run of an earlier version
   std::map<int, RecordedFamily> families;
-  each_row(db, "SELECT number, name, round, fidelity, count, is_validated, simulations, samples FROM family", [&](SQLite::Statement& q) {
-    wire::Family& stated = families[q.getColumn(0).getInt()].stated;
-    stated.number = q.getColumn(0).getInt();
-    stated.name = q.getColumn(1).getString();
-    stated.round = q.getColumn(2).getInt();
-    stated.fidelity = tester::fidelity_from_string(q.getColumn(3).getString()).value_or(tester::Fidelity::tiny);
-    stated.count = q.getColumn(4).getInt();
-    stated.is_validated = q.getColumn(5).getInt() != 0;
-    stated.simulations = q.getColumn(6).getInt();
-    stated.samples = q.getColumn(7).getInt();
+  each_row(db, "SELECT number, name, round, fidelity, count, is_validated, simulations, samples FROM family",
+           [&](SQLite::Statement& q) {
+             wire::Family& stated = families[q.getColumn(0).getInt()].stated;
+             stated.number = q.getColumn(0).getInt();
+             stated.name = q.getColumn(1).getString();
+             stated.round = q.getColumn(2).getInt();
+             stated.fidelity =
+                 tester::fidelity_from_string(q.getColumn(3).getString()).value_or(tester::Fidelity::tiny);
+             stated.count = q.getColumn(4).getInt();
+             stated.is_validated = q.getColumn(5).getInt() != 0;
+             stated.simulations = q.getColumn(6).getInt();
+             stated.samples = q.getColumn(7).getInt();
+           });
+  each_row(db, "SELECT number, name, value FROM family_parameter", [&](SQLite::Statement& q) {
+    families[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble();
   });
-  each_row(db, "SELECT number, name, value FROM family_parameter",
-           [&](SQLite::Statement& q) { families[q.getColumn(0).getInt()].parameters[q.getColumn(1).getString()] = q.getColumn(2).getDouble(); });
   each_row(db,
-           "SELECT number, pattern, is_seed, measured_modulus_pa, measured_toughness_pa, global_modulus_pa, global_toughness_pa, family_modulus_pa, "
+           "SELECT number, pattern, is_seed, measured_modulus_pa, measured_toughness_pa, global_modulus_pa, "
+           "global_toughness_pa, family_modulus_pa, "
            "family_toughness_pa FROM family_design ORDER BY number, position",
            [&](SQLite::Statement& q) { families[q.getColumn(0).getInt()].stated.designs.push_back(family_design(q)); });
-  each_row(db, "SELECT number, pattern, modulus_pa, toughness_pa FROM family_gamut ORDER BY number, pattern", [&](SQLite::Statement& q) {
-    const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
-    const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
-    if (known) families[q.getColumn(0).getInt()].gamut.push_back({*known, {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}});
-  });
+  each_row(db, "SELECT number, pattern, modulus_pa, toughness_pa FROM family_gamut ORDER BY number, pattern",
+           [&](SQLite::Statement& q) {
+             const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
+             const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+             if (known)
+               families[q.getColumn(0).getInt()].gamut.push_back(
+                   {*known, {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}});
+           });
   if (db.tableExists("family_crack")) {  // absent in a run of an earlier version
     each_crack(db, "family_crack", "number", [&](int number, const std::string& design, RecordedCrack crack) {
       if (families.contains(number)) families[number].cracks[design] = std::move(crack);

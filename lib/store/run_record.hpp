@@ -48,7 +48,7 @@ struct RecordedSimulation {
 struct RecordedCrack {
   crack::Record crack;  ///< order without strains
   int broken = 0;
-  std::string film;     ///< file in RUN/films; empty when there is none
+  std::string film;  ///< file in RUN/films; empty when there is none
 };
 
 /// One round; parts that have not been heard of yet are empty.
@@ -78,12 +78,12 @@ struct RecordedFamily {
 
 struct RunRecord {
   std::map<int, RoundRecord> rounds;
-  std::vector<RecordedFamily> families;  ///< by number; empty where no stage was played
+  std::vector<RecordedFamily> families;     ///< by number; empty where no stage was played
   std::vector<MeasuredSpecimen> specimens;  ///< by name
 };
 
-/// `with_gamuts`: the gamuts, too, which are most of a large run (read_gamut() has one with its patterns). Throws InputError
-/// naming the file when it cannot be read.
+/// `with_gamuts`: the gamuts, too, which are most of a large run (read_gamut() has one with its patterns). Throws
+/// InputError naming the file when it cannot be read.
 RunRecord read_run_record(const std::filesystem::path& path, bool with_gamuts = true);
 
 /// The patterns that the search of a round evaluated, by key; two columns of equal length.

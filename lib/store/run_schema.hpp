@@ -4,7 +4,8 @@ namespace nacre::store {
 
 inline constexpr int kRunSchemaVersion = 3;
 
-/// Tables of run.db. SI units; hypervolumes and gap in GPa MPa; curves as pairs (strain, stress_pa) of double, little-endian.
+/// Tables of run.db. SI units; hypervolumes and gap in GPa MPa; curves as pairs (strain, stress_pa) of double,
+/// little-endian.
 inline constexpr const char* kRunSchema = R"sql(
   CREATE TABLE round (
     round INTEGER PRIMARY KEY, fidelity TEXT NOT NULL, calibration_count INTEGER NOT NULL,
@@ -76,8 +77,8 @@ inline constexpr const char* kFamilySchema = R"sql(
   ) STRICT, WITHOUT ROWID;
 )sql";
 
-/// How designs break by a model, {1} saying which: `crack` has proposals by the model of their round, `family_crack` the designs of a
-/// family by its own. Path and breaks: int32 elements; film: file in films/.
+/// How designs break by a model, {1} saying which: `crack` has proposals by the model of their round, `family_crack`
+/// the designs of a family by its own. Path and breaks: int32 elements; film: file in films/.
 inline constexpr const char* kCrackSchema = R"sql(
   CREATE TABLE IF NOT EXISTS {0} (
     {1} INTEGER NOT NULL, design TEXT NOT NULL, film TEXT NOT NULL, columns INTEGER NOT NULL, rows INTEGER NOT NULL, broken INTEGER NOT NULL,

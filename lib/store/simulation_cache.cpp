@@ -37,8 +37,10 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError::format(
-      "the simulation cache {0} cannot be used: {1}. `nacre rebuild --cache {0}` saves what is sound. Nothing else depends "
-      "on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations are done anew",
+      "the simulation cache {0} cannot be used: {1}. `nacre rebuild --cache {0}` saves what is sound. Nothing else "
+      "depends "
+      "on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations are done "
+      "anew",
       path.string(), reason);
 }
 
@@ -143,10 +145,10 @@ SimulationCache::~SimulationCache() = default;
 std::optional<CachedSimulation> SimulationCache::find(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   return guarded(path_, [&]() -> std::optional<CachedSimulation> {
-    SQLite::Statement query(
-        *database_,
-        "SELECT key, failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve, checksum FROM simulation "
-        "WHERE key = ?");
+    SQLite::Statement query(*database_,
+                            "SELECT key, failure, modulus_pa, toughness_pa, peak_stress_pa, failure_strain, curve, "
+                            "checksum FROM simulation "
+                            "WHERE key = ?");
     query.bind(1, key);
     if (!query.executeStep()) return std::nullopt;
     if (checksum_of_simulation(query) != query.getColumn(7).getInt64()) {

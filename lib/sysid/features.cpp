@@ -8,7 +8,8 @@ namespace {
 
 double square(double x) { return x * x; }
 
-/// Of a logarithm: no measurement is written with more digits, and replicates that agree exactly have no scatter at all.
+/// Of a logarithm: no measurement is written with more digits, and replicates that agree exactly have no scatter at
+/// all.
 constexpr double kSmallestVariance = 1e-12;
 
 /// Of a mean of `count` replicates.

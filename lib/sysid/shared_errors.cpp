@@ -18,7 +18,8 @@ Eigen::VectorXd centred_fractions(const std::vector<measurement::Replicates>& me
 
 }  // namespace
 
-Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>& measured, const NumericsFloor& floor) {
+Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>& measured,
+                                      const NumericsFloor& floor) {
   Eigen::VectorXd fraction = centred_fractions(measured);
   const Eigen::Index designs = fraction.size();
   const double spread = designs > 0 ? std::sqrt(fraction.squaredNorm() / static_cast<double>(designs)) : 0.0;
@@ -26,7 +27,8 @@ Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>
   return Eigen::VectorXd::Constant(designs, floor.log_modulus_common_sd) - fraction;
 }
 
-Eigen::MatrixXd shared_fracture_errors(const std::vector<measurement::Replicates>& measured, const NumericsFloor& floor) {
+Eigen::MatrixXd shared_fracture_errors(const std::vector<measurement::Replicates>& measured,
+                                       const NumericsFloor& floor) {
   const Eigen::VectorXd fraction = centred_fractions(measured) / kTrendUnit;
   const Eigen::Index designs = fraction.size();
   Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(2 * designs, 3);

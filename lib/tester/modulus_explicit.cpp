@@ -10,8 +10,8 @@ namespace {
 
 /// Share of the stability limit h / c at which the solver runs.
 constexpr double kStabilityShare = 0.8;
-/// Steps over which a specimen is judged to be at rest: 0.1 ms, in which motion that is not overdamped decays by e^-5 at
-/// gamma = 1e5 /s, so that an oscillation cannot pass for rest.
+/// Steps over which a specimen is judged to be at rest: 0.1 ms, in which motion that is not overdamped decays by e^-5
+/// at gamma = 1e5 /s, so that an oscillation cannot pass for rest.
 constexpr int kRestSteps = 1000;
 constexpr int kMostSteps = 1'000'000;
 

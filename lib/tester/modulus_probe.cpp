@@ -17,14 +17,16 @@ fem::Grid grid_of(const Simulation& simulation, const material::ParameterSet& pa
 }
 
 double at_rate(const Simulation& simulation, const material::ParameterSet& parameters) {
-  return material::rate_stiffening(material::law_extensions(parameters.extensions), simulation.conditions.strain_rate_per_s);
+  return material::rate_stiffening(material::law_extensions(parameters.extensions),
+                                   simulation.conditions.strain_rate_per_s);
 }
 
 }  // namespace
 
 Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
   if (simulation.design.mixture() != nullptr) return fail("modulus probe: expected a layout");
-  if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty()) return fail("modulus probe: {}", fault);
+  if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty())
+    return fail("modulus probe: {}", fault);
   const fem::Grid grid = grid_of(simulation, simulation.parameters);
   const Result<fem::StaticSolution> solution = fem::pull(grid, thesis::kModulusStrain);
   if (!solution) return fail("modulus probe: {}", solution.error().message);
@@ -36,7 +38,8 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
       fem::ElementVector moved;
       int a = 0;
       for (const int node : fem::element_nodes(grid, row, column)) {
-        for (int direction = 0; direction < 2; ++direction) moved[2 * a + direction] = solution->displacement[static_cast<std::size_t>(2 * node + direction)];
+        for (int direction = 0; direction < 2; ++direction)
+          moved[2 * a + direction] = solution->displacement[static_cast<std::size_t>(2 * node + direction)];
         ++a;
       }
       probe.shear_.push_back(0.5 * moved.dot(fem::unit_stiffness().shear * moved));
@@ -54,6 +57,8 @@ double ModulusProbe::energy(const material::ParameterSet& parameters) const {
   return sum * at_rate(simulation_, parameters);
 }
 
-double ModulusProbe::nearby(const material::ParameterSet& parameters) const { return modulus_pa_ * energy(parameters) / energy_; }
+double ModulusProbe::nearby(const material::ParameterSet& parameters) const {
+  return modulus_pa_ * energy(parameters) / energy_;
+}
 
 }  // namespace nacre::tester

@@ -1,7 +1,7 @@
 #pragma once
-// The slopes of a modulus for the price of one solution. In equilibrium the elastic energy does not change to first order with the
-// displacements (Hellmann-Feynman); so the energy of other constants on the same displacements gives E with an error of second order
-// in their change. A derivative by differences needs no further solution.
+// The slopes of a modulus for the price of one solution. In equilibrium the elastic energy does not change to first
+// order with the displacements (Hellmann-Feynman); so the energy of other constants on the same displacements gives E
+// with an error of second order in their change. A derivative by differences needs no further solution.
 
 #include <vector>
 
@@ -15,8 +15,8 @@ class ModulusProbe {
   static Result<ModulusProbe> at(const Simulation& simulation);
   /// E of test_modulus() at these parameters, Pa.
   double modulus_pa() const { return modulus_pa_; }
-  /// E of the same specimen with other parameters, exact to first order in their change, never too small to second order.
-  /// The parameters must be usable (material::parameter_fault empty). Cost: an assembly.
+  /// E of the same specimen with other parameters, exact to first order in their change, never too small to second
+  /// order. The parameters must be usable (material::parameter_fault empty). Cost: an assembly.
   double nearby(const material::ParameterSet& parameters) const;
 
  private:

@@ -169,10 +169,10 @@ struct Family {
   int number = 0;  ///< 0..count - 1
   int count = 1;
   std::string name;
-  bool is_validated = false;        ///< the chosen designs are measured
-  material::ParameterSet parameters;  ///< of the family's own model
-  int simulations = 0;              ///< spent on its calibration
-  int samples = 0;                  ///< patterns simulated around the seeds
+  bool is_validated = false;                ///< the chosen designs are measured
+  material::ParameterSet parameters;        ///< of the family's own model
+  int simulations = 0;                      ///< spent on its calibration
+  int samples = 0;                          ///< patterns simulated around the seeds
   std::vector<game::FamilyDesign> designs;  ///< seeds, then chosen ones
   bool operator==(const Family&) const = default;
 };

@@ -15,14 +15,10 @@ std::optional<double> value_or_none(double value_pa) {
 }
 
 family_design_t to_wire_design(const FamilyDesign& design) {
-  return {static_cast<std::int64_t>(design.pattern.bits()),
-          design.is_seed,
-          design.measured.modulus_pa.value_or(0.0),
-          design.measured.toughness_pa.value_or(0.0),
-          design.global_model.modulus_pa.value_or(0.0),
-          design.global_model.toughness_pa.value_or(0.0),
-          design.family_model.modulus_pa.value_or(0.0),
-          design.family_model.toughness_pa.value_or(0.0)};
+  return {static_cast<std::int64_t>(design.pattern.bits()), design.is_seed,
+          design.measured.modulus_pa.value_or(0.0),         design.measured.toughness_pa.value_or(0.0),
+          design.global_model.modulus_pa.value_or(0.0),     design.global_model.toughness_pa.value_or(0.0),
+          design.family_model.modulus_pa.value_or(0.0),     design.family_model.toughness_pa.value_or(0.0)};
 }
 
 Result<FamilyDesign> design_of(const family_design_t& message) {

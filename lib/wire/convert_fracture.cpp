@@ -57,7 +57,8 @@ void add_path(fracture_t& message, const crack::Path& path) {
 /// Whoever opens the file looks in RUN/films and nowhere else.
 Result<void> expect_file_of_films(std::string_view name) {
   const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
   };
   const bool is_name = name.size() <= 200 && !name.starts_with('.') && std::ranges::all_of(name, is_plain);
   if (name.empty() || (is_name && name.ends_with(".film"))) return {};
@@ -98,14 +99,14 @@ Result<Fracture> from_wire(const fracture_t& message) {
                                     expect_range("rows", message.rows, 1, kLargestGridSide));
   if (!shape) return fail("{}: {}", type, shape.error().message);
   const int element_count = message.columns * message.rows;
-  const Result<void> sound = all_of(expect_name("request_id", message.request_id),
-                                    expect_range("design_index", message.design_index, 0, kMaximumDesigns - 1.0),
-                                    expect_range("branches", message.branches, 0, element_count),
-                                    expect_range("separate_cracks", message.separate_cracks, 0, element_count),
-                                    expect_range("broken", message.broken, message.n_order, element_count),
-                                    expect_range("n_order", message.n_order, 0, static_cast<double>(kMaximumBreaks)),
-                                    expect_elements("element", message.element, element_count),
-                                    expect_file_of_films(message.film));
+  const Result<void> sound =
+      all_of(expect_name("request_id", message.request_id),
+             expect_range("design_index", message.design_index, 0, kMaximumDesigns - 1.0),
+             expect_range("branches", message.branches, 0, element_count),
+             expect_range("separate_cracks", message.separate_cracks, 0, element_count),
+             expect_range("broken", message.broken, message.n_order, element_count),
+             expect_range("n_order", message.n_order, 0, static_cast<double>(kMaximumBreaks)),
+             expect_elements("element", message.element, element_count), expect_file_of_films(message.film));
   if (!sound) return fail("{}: {}", type, sound.error().message);
   Fracture fracture{.request_id = message.request_id,
                     .design_index = message.design_index,

@@ -20,8 +20,8 @@ inline constexpr int kCurvePoints = 64;
 
 /// Keeps every message of the game in run.db (Compute kind "store"), answers DIAGNOSE with DIAGNOSIS (kind "diagnose")
 /// once all measurements meant have arrived, asks the farm at the end of each round what the round's model says about
-/// the measured designs, and of proposed designs and those of families how they break (films in RUN/films), and then has
-/// the report written (kind "report"). See works.hpp.
+/// the measured designs, and of proposed designs and those of families how they break (films in RUN/films), and then
+/// has the report written (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
   AnalyserCore(const game::Scenario& scenario, const diagnosis::ModulusFloor& floor);
@@ -40,7 +40,8 @@ class AnalyserCore : public runtime::NodeCore {
   void accept_measurement(const std::string& payload);
   void ask_about_measured_designs();
   void ask_for_films();
-  void ask_for_films_of(const std::string& whose, const material::ParameterSet& model, std::vector<pattern::Design> designs);
+  void ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
+                        std::vector<pattern::Design> designs);
   void ask(const wire::SimulateRequest& request);
   void close_when_complete(const std::string& request_id);
   void report_when_ready();

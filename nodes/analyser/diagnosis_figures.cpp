@@ -17,15 +17,23 @@ using diagnosis::ResidualRow;
 
 bool is_strain(Feature f) { return f == Feature::toe_strain; }
 bool is_logarithm(Feature f) {
-  return !is_strain(f) && f != Feature::knee && f != Feature::tail && f != Feature::drop && f != Feature::set_share && f != Feature::toe_share;
+  return !is_strain(f) && f != Feature::knee && f != Feature::tail && f != Feature::drop && f != Feature::set_share &&
+         f != Feature::toe_share;
 }
 
 /// Per cent for logarithms and strains, else as it is.
-double shown(Feature feature, double residual) { return is_logarithm(feature) ? 100.0 * std::expm1(residual) : 100.0 * residual; }
+double shown(Feature feature, double residual) {
+  return is_logarithm(feature) ? 100.0 * std::expm1(residual) : 100.0 * residual;
+}
 
-std::string unit_of(Feature feature) { return is_logarithm(feature) ? "measured over predicted, %" : is_strain(feature) ? "measured less predicted, % strain" : "measured less predicted, x 100"; }
+std::string unit_of(Feature feature) {
+  return is_logarithm(feature) ? "measured over predicted, %"
+         : is_strain(feature)  ? "measured less predicted, % strain"
+                               : "measured less predicted, x 100";
+}
 
-/// How strongly residuals of one feature line up with one descriptor: |correlation| times their size in standard errors.
+/// How strongly residuals of one feature line up with one descriptor: |correlation| times their size in standard
+/// errors.
 struct View {
   Feature feature;
   std::size_t descriptor;
@@ -42,7 +50,8 @@ std::vector<const ResidualRow*> rows_of(const Diagnosis& d, Feature feature) {
 double strength_of(const std::vector<const ResidualRow*>& rows, std::size_t descriptor) {
   double mx = 0.0, my = 0.0;
   const double n = static_cast<double>(rows.size());
-  for (const ResidualRow* row : rows) mx += row->descriptors[descriptor] / n, my += (row->measured - row->base) / row->standard_error / n;
+  for (const ResidualRow* row : rows)
+    mx += row->descriptors[descriptor] / n, my += (row->measured - row->base) / row->standard_error / n;
   double xx = 0.0, xy = 0.0;
   for (const ResidualRow* row : rows) {
     const double x = row->descriptors[descriptor] - mx, y = (row->measured - row->base) / row->standard_error - my;
@@ -73,7 +82,8 @@ std::string residual_figure(const Diagnosis& d, const View& view) {
     ys.push_back(extended.back().y);
   }
   Plot plot({.title = std::string(in_words(view.feature)),
-             .x_label = d.descriptors[view.descriptor] + (d.descriptors[view.descriptor] == "strain rate" ? " (log of 1/s)" : ""),
+             .x_label = d.descriptors[view.descriptor] +
+                        (d.descriptors[view.descriptor] == "strain rate" ? " (log of 1/s)" : ""),
              .y_label = unit_of(view.feature),
              .x = padded(xs),
              .y = padded(ys)});
@@ -97,7 +107,8 @@ std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
     for (const Point& p : points_of(*curve)) xs.push_back(p.x), ys.push_back(p.y);
   }
   const std::string name = curves.design.size() > 16 ? curves.design.substr(0, 12) + "…" : curves.design;
-  Plot plot({.title = fmt::format("{}, {:.2g} /s{}", name, curves.conditions.strain_rate_per_s, curves.conditions.orientation_deg == 90.0 ? ", turned" : ""),
+  Plot plot({.title = fmt::format("{}, {:.2g} /s{}", name, curves.conditions.strain_rate_per_s,
+                                  curves.conditions.orientation_deg == 90.0 ? ", turned" : ""),
              .x_label = "strain, %",
              .y_label = "stress, MPa",
              .x = padded(xs),
@@ -112,7 +123,8 @@ std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
 
 std::vector<std::string> residual_figures(const Diagnosis& d, std::size_t most) {
   std::vector<View> views;
-  for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak, Feature::log_tangent_30, Feature::toe_strain, Feature::toe_share}) {
+  for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak,
+                                Feature::log_tangent_30, Feature::toe_strain, Feature::toe_share}) {
     const auto rows = rows_of(d, feature);
     if (rows.size() < 3) continue;
     for (std::size_t k = 0; k < d.descriptors.size(); ++k) {
@@ -151,7 +163,13 @@ std::string feature_figure(const Diagnosis& d) {
   }
   std::string legend;
   for (const std::string& hint : hints) legend += (legend.empty() ? "" : "; ") + hint;
-  Plot plot({.title = "Where in the curve", .x_label = "feature (numbers below)", .y_label = "residual, standard errors", .x = {0.0, x}, .y = padded(ys), .width = 520, .whole_numbers_x = true});
+  Plot plot({.title = "Where in the curve",
+             .x_label = "feature (numbers below)",
+             .y_label = "residual, standard errors",
+             .x = {0.0, x},
+             .y = padded(ys),
+             .width = 520,
+             .whole_numbers_x = true});
   plot.zero_line();
   plot.dots(base, Ink::measured, "base model", hints);
   if (d.extended_fit != d.base_fit) plot.rings(extended, Ink::simulated, "extended model", hints);
@@ -163,7 +181,8 @@ std::vector<std::string> diagnosis_curve_figures(const Diagnosis& d, std::size_t
   for (const diagnosis::GroupCurves& curves : d.curves) {
     double squares = 0.0;
     for (const ResidualRow& row : d.residuals) {
-      if (row.design == curves.design && row.test == curves.test && row.conditions == curves.conditions) squares += std::pow((row.measured - row.base) / row.standard_error, 2);
+      if (row.design == curves.design && row.test == curves.test && row.conditions == curves.conditions)
+        squares += std::pow((row.measured - row.base) / row.standard_error, 2);
     }
     order.emplace_back(squares, &curves);
   }

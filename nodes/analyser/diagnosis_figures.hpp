@@ -8,10 +8,12 @@
 
 namespace nacre::analyser {
 
-/// Measured over predicted of one feature against one descriptor of the specimens, base and extended: what varies and matters most first.
+/// Measured over predicted of one feature against one descriptor of the specimens, base and extended: what varies and
+/// matters most first.
 std::vector<std::string> residual_figures(const diagnosis::Diagnosis& diagnosis, std::size_t most);
 
-/// Root mean square residual of every feature in standard errors, base and extended: where in the curve the simulation is off.
+/// Root mean square residual of every feature in standard errors, base and extended: where in the curve the simulation
+/// is off.
 std::string feature_figure(const diagnosis::Diagnosis& diagnosis);
 
 /// Measured, base and extended curves of the groups in which the base is off most.

@@ -23,14 +23,17 @@ std::string spaced(const std::string& name) { return escaped(material::effect_in
 
 std::string headline(const Diagnosis& d) {
   switch (d.verdict) {
-    case Verdict::base_sufficient: return "Nothing is wrong beyond noise";
+    case Verdict::base_sufficient:
+      return "Nothing is wrong beyond noise";
     case Verdict::named: {
       std::string names;
       for (const auto& effect : d.effects) names += (names.empty() ? "" : " and ") + spaced(effect.name);
       return "The cause is " + names;
     }
-    case Verdict::ambiguous: return "Something is wrong; these data leave several causes";
-    case Verdict::unexplained: break;
+    case Verdict::ambiguous:
+      return "Something is wrong; these data leave several causes";
+    case Verdict::unexplained:
+      break;
   }
   return "Something is wrong that no known cause explains";
 }
@@ -44,22 +47,33 @@ std::string figures(const std::vector<std::string>& svgs) {
 std::string where_section(const Diagnosis& d) {
   std::string content;
   if (d.verdict == Verdict::base_sufficient) {
-    content += paragraph("What is left between measurement and simulation is of the size of scatter and numerics, and lines up with nothing.");
+    content += paragraph(
+        "What is left between measurement and simulation is of the size of scatter and numerics, and lines up with "
+        "nothing.");
   } else if (!d.contrasts.empty()) {
     const auto& c = d.contrasts.front();
-    content += paragraph(fmt::format("What is left after the best fit of the base model lines up most with <strong>{}</strong>: {} standard deviations, where chance alone gives as much in a share {} of cases.",
-                                     escaped(c.name), figure(c.statistic), chance(c.p_family_wise)));
+    content += paragraph(
+        fmt::format("What is left after the best fit of the base model lines up most with <strong>{}</strong>: {} "
+                    "standard deviations, where chance alone gives as much in a share {} of cases.",
+                    escaped(c.name), figure(c.statistic), chance(c.p_family_wise)));
   }
   std::vector<std::string> pictures = residual_figures(d, 6);
   if (const std::string whole = feature_figure(d); !whole.empty()) pictures.push_back(whole);
   content += figures(pictures);
-  content += paragraph("Each mark is one group of replicates; bars are one standard error, from the replicates and from what the simulation's own elements leave open.", "quiet");
+  content += paragraph(
+      "Each mark is one group of replicates; bars are one standard error, from the replicates and from what the "
+      "simulation's own elements leave open.",
+      "quiet");
   return section("where", "Where the simulation is off", content);
 }
 
 std::string curve_part(const Diagnosis& d) {
   if (d.curves.empty()) return "";
-  return section("curves", "Curves, measured and simulated", figures(diagnosis_curve_figures(d, 6)) + paragraph("The groups in which the base model is off most. Simulated curves are those of the nearest parameters that were run.", "quiet"));
+  return section(
+      "curves", "Curves, measured and simulated",
+      figures(diagnosis_curve_figures(d, 6)) + paragraph("The groups in which the base model is off most. Simulated "
+                                                         "curves are those of the nearest parameters that were run.",
+                                                         "quiet"));
 }
 
 std::string cause_section(const Diagnosis& d) {
@@ -69,11 +83,16 @@ std::string cause_section(const Diagnosis& d) {
     content += fmt::format("<h3>{}</h3>\n", spaced(named.name));
     if (effect != nullptr) content += paragraph(escaped(effect->explanation));
     const std::string meaning = effect != nullptr ? escaped(effect->parameters.front().meaning) : "";
-    content += paragraph(fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.", quantity(named.parameter), escaped(material::unit_behind_number(named.unit)), quantity(named.interval_low),
-                                     quantity(named.interval_high), meaning));
+    content +=
+        paragraph(fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
+                              quantity(named.parameter), escaped(material::unit_behind_number(named.unit)),
+                              quantity(named.interval_low), quantity(named.interval_high), meaning));
     if (effect != nullptr)
-      content += paragraph(effect->side == material::EffectSide::measurement ? "This is a fault of the measurement, not of the material: it corrects comparisons, designs are not to be chosen by it."
-                                                                             : "This is physics of the material or the print: from now on the simulator can carry it.");
+      content +=
+          paragraph(effect->side == material::EffectSide::measurement
+                        ? "This is a fault of the measurement, not of the material: it corrects comparisons, designs "
+                          "are not to be chosen by it."
+                        : "This is physics of the material or the print: from now on the simulator can carry it.");
   }
   if (d.verdict == Verdict::ambiguous) {
     std::string list;
@@ -86,8 +105,13 @@ std::string cause_section(const Diagnosis& d) {
     if (!d.common_ground.empty()) content += paragraph("Common to all of them: " + spaced(d.common_ground) + ".");
   }
   if (d.verdict == Verdict::unexplained) {
-    content += paragraph("No cause is named; the sentence above says why. The simulation should not be extended by the one that comes nearest: it may predict better for the wrong reason.");
-    if (d.partial_gain) content += paragraph(fmt::format("(The nearest would take held-out errors from {} to {}.)", percent(d.partial_gain->held_out_error_before), percent(d.partial_gain->held_out_error_after)));
+    content += paragraph(
+        "No cause is named; the sentence above says why. The simulation should not be extended by the one that comes "
+        "nearest: it may predict better for the wrong reason.");
+    if (d.partial_gain)
+      content += paragraph(fmt::format("(The nearest would take held-out errors from {} to {}.)",
+                                       percent(d.partial_gain->held_out_error_before),
+                                       percent(d.partial_gain->held_out_error_after)));
   }
   if (content.empty()) content = paragraph("No cause is needed.");
   return section("cause", "The cause", content);
@@ -95,7 +119,8 @@ std::string cause_section(const Diagnosis& d) {
 
 std::string status_words(const Candidate& c, Verdict verdict) {
   if (c.status == "in_set") return "<strong>explains it</strong>";
-  const char* helps = verdict == Verdict::unexplained ? "helps, but cannot be named" : "helps, but others explain it better";
+  const char* helps =
+      verdict == Verdict::unexplained ? "helps, but cannot be named" : "helps, but others explain it better";
   if (c.status == "excluded") return c.p_family_wise <= 0.003 ? helps : "no sign of it";
   if (c.status == "invisible") return "invisible on these data (not: absent)";
   return "these tests cannot say";
@@ -105,47 +130,72 @@ std::string rivals_section(const Diagnosis& d) {
   std::string rows;
   for (const Candidate& c : d.candidates) {
     const bool acts = c.status != "not_applicable";
-    rows += table_row({spaced(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–", acts ? percent(c.absorption) : "–", c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", spaced(c.nearest_rival), figure(c.rival_cosine)),
-                       acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
+    rows += table_row(
+        {spaced(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–",
+         acts ? percent(c.absorption) : "–",
+         c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", spaced(c.nearest_rival), figure(c.rival_cosine)),
+         acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
   }
-  return section("rivals", "What else could explain it",
-                 table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "most like (cosine)", "drop of χ²", "chance"}), rows, "words") +
-                     paragraph("Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found; below 3.8 it cannot be told from nothing. Hidden by the base: share of its traces that other constants of the "
-                               "materials imitate. Cosine 1: two causes look alike on these specimens. Chance: how often the best of all causes would look as good by accident.",
-                               "quiet"));
+  return section(
+      "rivals", "What else could explain it",
+      table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "most like (cosine)",
+                        "drop of χ²", "chance"}),
+            rows, "words") +
+          paragraph(
+              "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found; below "
+              "3.8 it cannot be told from nothing. Hidden by the base: share of its traces that other constants of the "
+              "materials imitate. Cosine 1: two causes look alike on these specimens. Chance: how often the best of "
+              "all causes would look as good by accident.",
+              "quiet"));
 }
 
 std::string gain_section(const Diagnosis& d) {
   if (!d.gain) return "";
   std::string rows;
-  for (const auto& g : d.gain->features) rows += table_row({std::string(in_words(g.feature)), figure(100 * g.before), figure(100 * g.after), figure(100 * g.noise)});
+  for (const auto& g : d.gain->features)
+    rows += table_row(
+        {std::string(in_words(g.feature)), figure(100 * g.before), figure(100 * g.after), figure(100 * g.noise)});
   return section("gain", "What the extended model gains",
-                 paragraph(fmt::format("On designs that were left out of the fit, the mean error falls from {} to <strong>{}</strong>: {} less (90 % interval: {} to {}).", percent(d.gain->held_out_error_before),
-                                       percent(d.gain->held_out_error_after), percent(d.gain->relative_reduction), percent(d.gain->interval_low), percent(d.gain->interval_high))) +
+                 paragraph(fmt::format("On designs that were left out of the fit, the mean error falls from {} to "
+                                       "<strong>{}</strong>: {} less (90 % interval: {} to {}).",
+                                       percent(d.gain->held_out_error_before), percent(d.gain->held_out_error_after),
+                                       percent(d.gain->relative_reduction), percent(d.gain->interval_low),
+                                       percent(d.gain->interval_high))) +
                      table(header_row({"mean error on held-out designs, %", "base", "extended", "noise alone"}), rows));
 }
 
 std::string next_section(const Diagnosis& d) {
   std::string list;
   for (const auto& e : d.next_experiments) {
-    list += fmt::format("<li><strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens. {}.</li>\n", tester::to_string(e.test), design_name(e.design.name()), e.conditions.orientation_deg,
+    list += fmt::format("<li><strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens. {}.</li>\n",
+                        tester::to_string(e.test), design_name(e.design.name()), e.conditions.orientation_deg,
                         e.conditions.strain_rate_per_s, e.conditions.thickness_mm, e.replicates, escaped(e.reason));
   }
-  return section("next", "The next test", list.empty() ? paragraph("Nothing is open that another specimen would settle.") : "<ol>\n" + list + "</ol>\n");
+  return section(
+      "next", "The next test",
+      list.empty() ? paragraph("Nothing is open that another specimen would settle.") : "<ol>\n" + list + "</ol>\n");
 }
 
 }  // namespace
 
 std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, tester::Fidelity fidelity) {
   const std::string title = fmt::format("Diagnosis of {}", escaped(set));
-  std::string page = fmt::format("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n", title, report_style());
+  std::string page = fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width, "
+      "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
+      title, report_style());
   page += fmt::format("<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", title, headline(d));
   page += paragraph(escaped(d.summary), "standing");
-  if (!d.noise_known) page += paragraph("There are no replicates: all statements hang on an assumed scatter of 2 %.", "warning");
-  if (fidelity == tester::Fidelity::tiny) page += paragraph("Tiny fidelity: specimens of a single unit. The figures serve tests of the program.", "warning");
+  if (!d.noise_known)
+    page += paragraph("There are no replicates: all statements hang on an assumed scatter of 2 %.", "warning");
+  if (fidelity == tester::Fidelity::tiny)
+    page += paragraph("Tiny fidelity: specimens of a single unit. The figures serve tests of the program.", "warning");
   page += where_section(d) + curve_part(d) + cause_section(d) + rivals_section(d) + gain_section(d) + next_section(d);
-  page += paragraph(fmt::format("Replicates scatter by {}; the simulation's elements leave {} of a modulus. Fidelity {}; {} fracture simulations. Procedure {}.", percent(d.replicate_sd), percent(d.numerics_sd),
-                                tester::to_string(fidelity), d.simulations, escaped(d.procedure)),
+  page += paragraph(fmt::format("Replicates scatter by {}; the simulation's elements leave {} of a modulus. Fidelity "
+                                "{}; {} fracture simulations. Procedure {}.",
+                                percent(d.replicate_sd), percent(d.numerics_sd), tester::to_string(fidelity),
+                                d.simulations, escaped(d.procedure)),
                     "quiet");
   return page + "</main>\n</body>\n</html>\n";
 }

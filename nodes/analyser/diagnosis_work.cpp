@@ -25,7 +25,9 @@ DiagnosisTask task_from(const std::string& spec) {
   task.request = expected(wire::read<wire::DiagnoseRequest>(fields.at(0)));
   task.bootstraps = std::stoi(fields.at(1));
   task.seed = std::stoull(fields.at(2));
-  task.floor = {.log_modulus_sd = std::stod(fields.at(3)), .mesh_amplitude = std::stod(fields.at(4)), .mesh_remainder_sd = std::stod(fields.at(5))};
+  task.floor = {.log_modulus_sd = std::stod(fields.at(3)),
+                .mesh_amplitude = std::stod(fields.at(4)),
+                .mesh_remainder_sd = std::stod(fields.at(5))};
   task.measurements.assign(fields.begin() + kFixedFields, fields.end());
   return task;
 }
@@ -82,9 +84,12 @@ diagnosis_t undecided(int round, const std::string& why) {
 }  // namespace
 
 std::string diagnosis_spec(const DiagnosisTask& task) {
-  std::vector<std::string> fields = {wire::write(task.request), std::to_string(task.bootstraps),
-                                     std::to_string(task.seed), fmt::format("{}", task.floor.log_modulus_sd),
-                                     fmt::format("{}", task.floor.mesh_amplitude), fmt::format("{}", task.floor.mesh_remainder_sd)};
+  std::vector<std::string> fields = {wire::write(task.request),
+                                     std::to_string(task.bootstraps),
+                                     std::to_string(task.seed),
+                                     fmt::format("{}", task.floor.log_modulus_sd),
+                                     fmt::format("{}", task.floor.mesh_amplitude),
+                                     fmt::format("{}", task.floor.mesh_remainder_sd)};
   fields.insert(fields.end(), task.measurements.begin(), task.measurements.end());
   return runtime::pack(fields);
 }

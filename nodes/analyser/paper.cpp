@@ -32,7 +32,8 @@ std::string csv_of(const PaperTable& table) {
 
 std::string html_of(const PaperTable& table) {
   std::string header = "<tr>", rows;
-  for (const Column& column : table.columns) header += fmt::format("<th scope=\"col\">{}</th>", escaped(column.heading));
+  for (const Column& column : table.columns)
+    header += fmt::format("<th scope=\"col\">{}</th>", escaped(column.heading));
   bool before = false;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const bool is_thesis = i < table.is_thesis.size() && table.is_thesis[i];
@@ -98,31 +99,37 @@ void PaperTable::add(std::vector<Cell> row, bool thesis) {
 }
 
 std::vector<Exhibit> exhibits_of(const PaperSource& source) {
-  return {gamut_exhibit(source),          hypervolume_exhibit(source),    best_exhibit(source),
-          base_material_exhibit(source),  error_exhibit(source),          search_exhibit(source),
-          family_exhibit(source),         family_curve_exhibit(source),   seed_error_exhibit(source),
-          family_gamut_exhibit(source),   validation_exhibit(source),     map_exhibit(source),
-          interpolation_exhibit(source),  refinement_exhibit(source),     modulus_appendix(source),
-          toughness_appendix(source),     family_modulus_appendix(source), family_toughness_appendix(source),
+  return {gamut_exhibit(source),         hypervolume_exhibit(source),     best_exhibit(source),
+          base_material_exhibit(source), error_exhibit(source),           search_exhibit(source),
+          family_exhibit(source),        family_curve_exhibit(source),    seed_error_exhibit(source),
+          family_gamut_exhibit(source),  validation_exhibit(source),      map_exhibit(source),
+          interpolation_exhibit(source), refinement_exhibit(source),      modulus_appendix(source),
+          toughness_appendix(source),    family_modulus_appendix(source), family_toughness_appendix(source),
           growth_appendix(source)};
 }
 
 std::string render_paper(const PaperSource& source, const std::vector<Exhibit>& exhibits) {
   constexpr std::string_view kExtraStyle =
-      ".design { display: inline-flex; align-items: center; gap: 8px; } figure { margin: 0; max-width: 220px; font-size: 13px; } "
-      "figcaption { color: var(--quiet); } td { font-size: 13px; } td:first-child { white-space: nowrap; } @media print { .files { display: none; } }";
+      ".design { display: inline-flex; align-items: center; gap: 8px; } figure { margin: 0; max-width: 220px; "
+      "font-size: 13px; } "
+      "figcaption { color: var(--quiet); } td { font-size: 13px; } td:first-child { white-space: nowrap; } @media "
+      "print { .files { display: none; } }";
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
       "<title>{} – figures and tables – nacre</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n",
       escaped(source.run_id), report_style(), kExtraStyle);
-  page += fmt::format("<header>\n<p class=\"eyebrow\">nacre, figures and tables of the thesis from a run of one's own</p>\n<h1>{}</h1>\n",
-                      escaped(source.run_id));
+  page += fmt::format(
+      "<header>\n<p class=\"eyebrow\">nacre, figures and tables of the thesis from a run of one's "
+      "own</p>\n<h1>{}</h1>\n",
+      escaped(source.run_id));
   page += standing_sentences(source.run);
   page += paragraph(
-      "Numbers and order are those of the thesis; what this run does not hold is said in its place. Rows and lines marked "
-      "<em>thesis</em> are its printed figures, from real specimens: a run against the virtual laboratory is like them in kind.",
+      "Numbers and order are those of the thesis; what this run does not hold is said in its place. Rows and lines "
+      "marked "
+      "<em>thesis</em> are its printed figures, from real specimens: a run against the virtual laboratory is like them "
+      "in kind.",
       "quiet");
   page += contents_of(exhibits) + "</header>\n";
   for (const Exhibit& exhibit : exhibits) page += section_of(exhibit);
@@ -133,7 +140,8 @@ void write_paper(const std::filesystem::path& folder, const PaperSource& source)
   std::filesystem::create_directories(folder);
   const std::vector<Exhibit> exhibits = exhibits_of(source);
   for (const Exhibit& exhibit : exhibits) {
-    for (const PaperFigure& figure : exhibit.figures) write_file_atomically(folder / (figure.name + ".svg"), standalone(figure.svg));
+    for (const PaperFigure& figure : exhibit.figures)
+      write_file_atomically(folder / (figure.name + ".svg"), standalone(figure.svg));
     for (const PaperTable& table : exhibit.tables) write_file_atomically(folder / (table.name + ".csv"), csv_of(table));
   }
   write_file_atomically(folder / "index.html", render_paper(source, exhibits));

@@ -22,8 +22,8 @@ struct SearchPath {
 /// A point of a subfamily's map (`nacre families`).
 struct MapPoint {
   pattern::Pattern pattern;
-  std::string source;                  ///< seed, sampled, interpolated
-  double x = 0.0, y = 0.0;             ///< of the map of all
+  std::string source;                          ///< seed, sampled, interpolated
+  double x = 0.0, y = 0.0;                     ///< of the map of all
   std::optional<double> x_sampled, y_sampled;  ///< of the map before interpolation
   std::optional<optimize::Performance> performance;
 };
@@ -38,7 +38,7 @@ struct PaperSource {
   std::string run_id;
   store::RunRecord run;
   game::ThesisTables thesis;
-  std::vector<SearchPath> searches;  ///< by round and branch
+  std::vector<SearchPath> searches;                                  ///< by round and branch
   std::map<int, std::map<std::string, game::DesignValues>> answers;  ///< round of the model -> design -> what it says
   std::vector<families::Family> groups;
   std::string groups_from;         ///< where they come from, in words
@@ -82,8 +82,8 @@ struct PaperFigure {
 
 /// A figure or table of the thesis, made of the run. Where there is nothing to show, its notes say what is missing.
 struct Exhibit {
-  std::string id;       ///< figure-3-2
-  std::string heading;  ///< plain
+  std::string id;                  ///< figure-3-2
+  std::string heading;             ///< plain
   std::vector<std::string> notes;  ///< HTML
   std::vector<PaperFigure> figures;
   std::vector<PaperTable> tables;
@@ -92,25 +92,25 @@ struct Exhibit {
 std::vector<Exhibit> exhibits_of(const PaperSource& source);
 
 // Its parts, in the order of the thesis.
-Exhibit gamut_exhibit(const PaperSource& source);           // Figure 3-2
-Exhibit hypervolume_exhibit(const PaperSource& source);     // 3-3
-Exhibit best_exhibit(const PaperSource& source);            // 3-4, Table 3.3
-Exhibit base_material_exhibit(const PaperSource& source);   // Table 3.4
-Exhibit error_exhibit(const PaperSource& source);           // 3-7, Table 3.5
-Exhibit search_exhibit(const PaperSource& source);          // 3-9
-Exhibit family_exhibit(const PaperSource& source);          // 3-12
-Exhibit family_curve_exhibit(const PaperSource& source);    // 3-13
-Exhibit seed_error_exhibit(const PaperSource& source);      // 3-14, Table 3.6
-Exhibit family_gamut_exhibit(const PaperSource& source);    // 3-15
-Exhibit validation_exhibit(const PaperSource& source);      // Table 3.7
-Exhibit map_exhibit(const PaperSource& source);             // 3-16
-Exhibit interpolation_exhibit(const PaperSource& source);   // 3-17
-Exhibit refinement_exhibit(const PaperSource& source);      // 3-18
-Exhibit modulus_appendix(const PaperSource& source);        // Table A.3
-Exhibit toughness_appendix(const PaperSource& source);      // A.4
+Exhibit gamut_exhibit(const PaperSource& source);              // Figure 3-2
+Exhibit hypervolume_exhibit(const PaperSource& source);        // 3-3
+Exhibit best_exhibit(const PaperSource& source);               // 3-4, Table 3.3
+Exhibit base_material_exhibit(const PaperSource& source);      // Table 3.4
+Exhibit error_exhibit(const PaperSource& source);              // 3-7, Table 3.5
+Exhibit search_exhibit(const PaperSource& source);             // 3-9
+Exhibit family_exhibit(const PaperSource& source);             // 3-12
+Exhibit family_curve_exhibit(const PaperSource& source);       // 3-13
+Exhibit seed_error_exhibit(const PaperSource& source);         // 3-14, Table 3.6
+Exhibit family_gamut_exhibit(const PaperSource& source);       // 3-15
+Exhibit validation_exhibit(const PaperSource& source);         // Table 3.7
+Exhibit map_exhibit(const PaperSource& source);                // 3-16
+Exhibit interpolation_exhibit(const PaperSource& source);      // 3-17
+Exhibit refinement_exhibit(const PaperSource& source);         // 3-18
+Exhibit modulus_appendix(const PaperSource& source);           // Table A.3
+Exhibit toughness_appendix(const PaperSource& source);         // A.4
 Exhibit family_modulus_appendix(const PaperSource& source);    // A.5
 Exhibit family_toughness_appendix(const PaperSource& source);  // A.6
-Exhibit growth_appendix(const PaperSource& source);         // A.7
+Exhibit growth_appendix(const PaperSource& source);            // A.7
 
 /// The page: self-contained, no script, nothing from outside; light and dark, and light on paper.
 std::string render_paper(const PaperSource& source, const std::vector<Exhibit>& exhibits);

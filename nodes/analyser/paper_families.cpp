@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kMostGamutPoints = 1500;
 
 const std::string kNoStage =
-    "This run played no family stage: <code>[families] enabled = true</code> in its scenario asks for one (launch/README.md).";
+    "This run played no family stage: <code>[families] enabled = true</code> in its scenario asks for one "
+    "(launch/README.md).";
 
 /// A family of the run or of the thesis with what Tables A.5 and A.6 say of it.
 struct Stated {
@@ -38,8 +39,12 @@ std::vector<Stated> families_of_thesis(const PaperSource& source) {
   for (const game::ThesisFamilySample& sample : source.thesis.families) {
     const std::string name = fmt::format("thesis {}", sample.family);
     if (all.empty() || std::ranges::find(all, name, &Stated::name) == all.end()) all.push_back({name, true, true, {}});
-    std::ranges::find(all, name, &Stated::name)->designs.push_back(
-        {.pattern = {}, .is_seed = sample.is_seed, .measured = sample.measured, .global_model = sample.global_model, .family_model = sample.family_model});
+    std::ranges::find(all, name, &Stated::name)
+        ->designs.push_back({.pattern = {},
+                             .is_seed = sample.is_seed,
+                             .measured = sample.measured,
+                             .global_model = sample.global_model,
+                             .family_model = sample.family_model});
   }
   return all;
 }
@@ -53,15 +58,29 @@ std::vector<Stated> all_families(const PaperSource& source) {
 /// Table 3.6 (seeds) or 3.7 (chosen designs).
 PaperTable errors_table(const PaperSource& source, const std::string& name, bool seeds) {
   PaperTable table{.name = name,
-                   .columns = {{"family", "family"}, {"count", "N"}, {"modulus_global_mean", "E global"}, {"modulus_global_max", "max"}, {"modulus_family_mean", "E family"}, {"modulus_family_max", "max"}, {"toughness_global_mean", "T global"}, {"toughness_global_max", "max"}, {"toughness_family_mean", "T family"}, {"toughness_family_max", "max"}},
-                   .rows = {}, .is_thesis = {}, .on_page = true};
+                   .columns = {{"family", "family"},
+                               {"count", "N"},
+                               {"modulus_global_mean", "E global"},
+                               {"modulus_global_max", "max"},
+                               {"modulus_family_mean", "E family"},
+                               {"modulus_family_max", "max"},
+                               {"toughness_global_mean", "T global"},
+                               {"toughness_global_max", "max"},
+                               {"toughness_family_mean", "T family"},
+                               {"toughness_family_max", "max"}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
   for (const Stated& family : all_families(source)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     const sysid::PredictionErrors& global = seeds ? errors.seeds_global : errors.chosen_global;
     const sysid::PredictionErrors& own = seeds ? errors.seeds_family : errors.chosen_family;
     if (!family.is_thesis && global.modulus_count == 0 && global.toughness_count == 0) continue;
-    table.add({text_cell(family.name), text_cell(std::to_string(global.toughness_count)), share_cell(global.modulus_mean), share_cell(global.modulus_max), share_cell(own.modulus_mean), share_cell(own.modulus_max), share_cell(global.toughness_mean),
-               share_cell(global.toughness_max), share_cell(own.toughness_mean), share_cell(own.toughness_max)}, family.is_thesis);
+    table.add({text_cell(family.name), text_cell(std::to_string(global.toughness_count)),
+               share_cell(global.modulus_mean), share_cell(global.modulus_max), share_cell(own.modulus_mean),
+               share_cell(own.modulus_max), share_cell(global.toughness_mean), share_cell(global.toughness_max),
+               share_cell(own.toughness_mean), share_cell(own.toughness_max)},
+              family.is_thesis);
   }
   return table;
 }
@@ -71,43 +90,84 @@ std::optional<double> error_of(const std::optional<double>& simulated, const std
 }
 
 /// Table A.5 (E) or A.6 (T).
-Exhibit appendix(const PaperSource& source, const std::string& id, const std::string& heading, std::optional<double> game::DesignValues::*property) {
+Exhibit appendix(const PaperSource& source, const std::string& id, const std::string& heading,
+                 std::optional<double> game::DesignValues::*property) {
   Exhibit exhibit{.id = id, .heading = heading, .notes = {}, .figures = {}, .tables = {}};
   const bool is_modulus = property == &game::DesignValues::modulus_pa;
   const auto value = [&](const std::optional<double>& pa) { return is_modulus ? gpa_cell(pa) : mpa_cell(pa); };
-  PaperTable table{.name = id, .columns = {{"family", "family"}, {"role", "role"}, {"design", "design"}, {"rigid_fraction", "VW%"}, {"measured_pa", "exp."}, {"global_pa", "sim. (global)"}, {"global_error", "err."}, {"family_pa", "sim. (family)"}, {"family_error", "err."}}, .rows = {}, .is_thesis = {}, .on_page = true};
+  PaperTable table{.name = id,
+                   .columns = {{"family", "family"},
+                               {"role", "role"},
+                               {"design", "design"},
+                               {"rigid_fraction", "VW%"},
+                               {"measured_pa", "exp."},
+                               {"global_pa", "sim. (global)"},
+                               {"global_error", "err."},
+                               {"family_pa", "sim. (family)"},
+                               {"family_error", "err."}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
   for (const Stated& family : families_of_run(source)) {
     for (const game::FamilyDesign& d : family.designs) {
-      table.add({text_cell(family.name), text_cell(d.is_seed ? "seed" : "validation"), design_cell(d.pattern.key()), share_cell(d.pattern.rigid_fraction()), value(d.measured.*property), value(d.global_model.*property),
-                 share_cell(error_of(d.global_model.*property, d.measured.*property)), value(d.family_model.*property), share_cell(error_of(d.family_model.*property, d.measured.*property))});
+      table.add({text_cell(family.name), text_cell(d.is_seed ? "seed" : "validation"), design_cell(d.pattern.key()),
+                 share_cell(d.pattern.rigid_fraction()), value(d.measured.*property), value(d.global_model.*property),
+                 share_cell(error_of(d.global_model.*property, d.measured.*property)), value(d.family_model.*property),
+                 share_cell(error_of(d.family_model.*property, d.measured.*property))});
     }
   }
   if (table.rows.empty()) {
     exhibit.notes.push_back(kNoStage);
     return exhibit;
   }
-  exhibit.notes.push_back(fmt::format("{}. Both predictions of the validation designs stood before these were measured; – : not measured (refused, or no valid specimen), or not simulated.", is_modulus ? "E in GPa" : "T in MPa"));
+  exhibit.notes.push_back(
+      fmt::format("{}. Both predictions of the validation designs stood before these were measured; – : not measured "
+                  "(refused, or no valid specimen), or not simulated.",
+                  is_modulus ? "E in GPa" : "T in MPa"));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
-const MeasuredPattern* measured_seed(const std::vector<MeasuredPattern>& measured, const pattern::Pattern& seed) { return find_measured(measured, seed.key()); }
+const MeasuredPattern* measured_seed(const std::vector<MeasuredPattern>& measured, const pattern::Pattern& seed) {
+  return find_measured(measured, seed.key());
+}
 
-std::vector<Point> curve_of(const std::vector<tester::Curve>& replicates) { return curve_points(replicates[replicates.size() / 2]); }
+std::vector<Point> curve_of(const std::vector<tester::Curve>& replicates) {
+  return curve_points(replicates[replicates.size() / 2]);
+}
 
 }  // namespace
 
 Exhibit family_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-12", .heading = "Figure 3-12: Families near the measured front", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-12",
+                  .heading = "Figure 3-12: Families near the measured front",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   const auto measured = measured_patterns(source.run, newest_round(source.run).value_or(0));
   if (source.groups.empty()) {
     exhibit.notes.push_back("No pattern of this run has been measured in both tests yet: there are no families.");
     return exhibit;
   }
-  PaperTable table{.name = "figure-3-12", .columns = {{"family", "family"}, {"pattern", "pattern"}, {"rigid_fraction", "VW%"}, {"modulus_pa", "E (GPa)"}, {"toughness_pa", "T (MPa)"}, {"round", "round"}}, .rows = {}, .is_thesis = {}, .on_page = true};
+  PaperTable table{.name = "figure-3-12",
+                   .columns = {{"family", "family"},
+                               {"pattern", "pattern"},
+                               {"rigid_fraction", "VW%"},
+                               {"modulus_pa", "E (GPa)"},
+                               {"toughness_pa", "T (MPa)"},
+                               {"round", "round"}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
   std::vector<Point> all;
   for (const MeasuredPattern& m : measured) all.push_back(to_point(m.mean));
-  Plot plot({.title = "Families", .x_label = "Young's modulus E (GPa)", .y_label = "toughness T (MPa)", .x = range_of(all, &Point::x), .y = range_of(all, &Point::y), .width = 560, .height = 400});
+  Plot plot({.title = "Families",
+             .x_label = "Young's modulus E (GPa)",
+             .y_label = "toughness T (MPa)",
+             .x = range_of(all, &Point::x),
+             .y = range_of(all, &Point::y),
+             .width = 560,
+             .height = 400});
   plot.dots(all, Ink::homogeneous, "measured patterns");
   for (std::size_t f = 0; f < source.groups.size(); ++f) {
     std::vector<Point> seeds;
@@ -118,21 +178,36 @@ Exhibit family_exhibit(const PaperSource& source) {
         seeds.push_back(to_point(m->mean));
         hints.push_back(seed.key());
       }
-      table.add({text_cell(source.groups[f].name), design_cell(seed.key()), share_cell(seed.rigid_fraction()), gpa_cell(m ? std::optional(m->mean.modulus_pa) : std::nullopt), mpa_cell(m ? std::optional(m->mean.toughness_pa) : std::nullopt), text_cell(m ? std::to_string(m->round) : "")});
+      table.add({text_cell(source.groups[f].name), design_cell(seed.key()), share_cell(seed.rigid_fraction()),
+                 gpa_cell(m ? std::optional(m->mean.modulus_pa) : std::nullopt),
+                 mpa_cell(m ? std::optional(m->mean.toughness_pa) : std::nullopt),
+                 text_cell(m ? std::to_string(m->round) : "")});
     }
     plot.dots(seeds, family_ink(f), source.groups[f].name, hints);
   }
-  exhibit.notes.push_back(fmt::format("Shown: {}. The thesis found four among 13 near-Pareto designs by eye; here near-Pareto means first or second rank, and designs are grouped by earth mover's distance and properties (average linkage, largest silhouette; one family where nothing stands apart).", source.groups_from));
+  exhibit.notes.push_back(
+      fmt::format("Shown: {}. The thesis found four among 13 near-Pareto designs by eye; here near-Pareto means first "
+                  "or second rank, and designs are grouped by earth mover's distance and properties (average linkage, "
+                  "largest silhouette; one family where nothing stands apart).",
+                  source.groups_from));
   exhibit.figures.push_back({"figure-3-12", plot.svg()});
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
 Exhibit family_curve_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-13", .heading = "Figure 3-13: Stress-strain curves of the seeds", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-13",
+                  .heading = "Figure 3-13: Stress-strain curves of the seeds",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   const auto curves = measured_curves(source.run);
   std::vector<Point> all;
-  PaperTable table{.name = "figure-3-13", .columns = {{"family", ""}, {"design", ""}, {"strain_percent", ""}, {"stress_mpa", ""}}, .rows = {}, .is_thesis = {}, .on_page = false};
+  PaperTable table{.name = "figure-3-13",
+                   .columns = {{"family", ""}, {"design", ""}, {"strain_percent", ""}, {"stress_mpa", ""}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = false};
   const auto keep = [&](const std::string& family, const std::string& design, const std::vector<Point>& points) {
     all.insert(all.end(), points.begin(), points.end());
     for (const Point& p : points) table.add({text_cell(family), text_cell(design), number_cell(p.x), number_cell(p.y)});
@@ -141,8 +216,10 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
   for (const families::Family& group : source.groups) {
     for (const pattern::Pattern& seed : group.seeds) {
       const auto found = curves.find(seed.key());
-      if (found == curves.end()) ++without;
-      else keep(group.name, seed.key(), curve_of(found->second));
+      if (found == curves.end())
+        ++without;
+      else
+        keep(group.name, seed.key(), curve_of(found->second));
     }
   }
   if (all.empty()) {
@@ -153,7 +230,13 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
   if (rigid != curves.end()) keep("", "rigid", curve_of(rigid->second));
   const Range x = range_of(all, &Point::x), y = range_of(all, &Point::y);
   for (std::size_t f = 0; f < source.groups.size(); ++f) {
-    Plot plot({.title = source.groups[f].name, .x_label = "nominal strain (%)", .y_label = "nominal stress (MPa)", .x = x, .y = y, .width = 350, .height = 260});
+    Plot plot({.title = source.groups[f].name,
+               .x_label = "nominal strain (%)",
+               .y_label = "nominal stress (MPa)",
+               .x = x,
+               .y = y,
+               .width = 350,
+               .height = 260});
     if (rigid != curves.end()) plot.line(curve_of(rigid->second), Ink::homogeneous, Stroke::dashed, "VW");
     bool first = true;
     for (const pattern::Pattern& seed : source.groups[f].seeds) {
@@ -164,16 +247,27 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
     }
     if (!first) exhibit.figures.push_back({"figure-3-13-" + source.groups[f].name, plot.svg()});
   }
-  exhibit.notes.push_back(fmt::format("One replicate of each seed (notched, upright), VW = the notched rigid specimen{}. In the thesis every seed has more than twice the failure strain of VW.", rigid == curves.end() ? ", which this run did not measure" : ""));
+  exhibit.notes.push_back(
+      fmt::format("One replicate of each seed (notched, upright), VW = the notched rigid specimen{}. In the thesis "
+                  "every seed has more than twice the failure strain of VW.",
+                  rigid == curves.end() ? ", which this run did not measure" : ""));
   if (without > 0) exhibit.notes.push_back(fmt::format("{} seeds have no measured curve.", without));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
 Exhibit seed_error_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-14", .heading = "Figure 3-14, Table 3.6: Global and family models on the seeds", .notes = {}, .figures = {}, .tables = {}};
-  if (source.run.families.empty()) exhibit.notes.push_back(kNoStage + " The thesis' figures:");
-  else exhibit.notes.push_back("Seeds are what a family's model is calibrated on with weight 1 (the other near-Pareto designs with 0.1): a small error here is no merit yet, Table 3.7 is the test.");
+  Exhibit exhibit{.id = "figure-3-14",
+                  .heading = "Figure 3-14, Table 3.6: Global and family models on the seeds",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
+  if (source.run.families.empty())
+    exhibit.notes.push_back(kNoStage + " The thesis' figures:");
+  else
+    exhibit.notes.push_back(
+        "Seeds are what a family's model is calibrated on with weight 1 (the other near-Pareto designs with 0.1): a "
+        "small error here is no merit yet, Table 3.7 is the test.");
   PaperTable table = errors_table(source, "table-3-6", true);
   for (const bool toughness : {false, true}) {
     if (source.run.families.empty()) break;
@@ -182,12 +276,21 @@ Exhibit seed_error_exhibit(const PaperSource& source) {
     for (const Stated& family : families_of_run(source)) {
       const game::FamilyErrors errors = game::family_errors(family.designs);
       place += 1.0;
-      global.push_back({place, 100.0 * (toughness ? errors.seeds_global.toughness_mean : errors.seeds_global.modulus_mean)});
-      own.push_back({place, 100.0 * (toughness ? errors.seeds_family.toughness_mean : errors.seeds_family.modulus_mean)});
+      global.push_back(
+          {place, 100.0 * (toughness ? errors.seeds_global.toughness_mean : errors.seeds_global.modulus_mean)});
+      own.push_back(
+          {place, 100.0 * (toughness ? errors.seeds_family.toughness_mean : errors.seeds_family.modulus_mean)});
     }
     std::vector<Point> both = global;
     both.insert(both.end(), own.begin(), own.end());
-    Plot plot({.title = toughness ? "Toughness" : "Young's modulus", .x_label = "family", .y_label = "mean relative error (%)", .x = {0.5, place + 0.5}, .y = range_of(both, &Point::y), .width = 350, .height = 260, .whole_numbers_x = true});
+    Plot plot({.title = toughness ? "Toughness" : "Young's modulus",
+               .x_label = "family",
+               .y_label = "mean relative error (%)",
+               .x = {0.5, place + 0.5},
+               .y = range_of(both, &Point::y),
+               .width = 350,
+               .height = 260,
+               .whole_numbers_x = true});
     plot.dots(global, Ink::earlier, "global model");
     plot.dots(own, Ink::simulated, "family's own");
     exhibit.figures.push_back({fmt::format("figure-3-14-{}", toughness ? "toughness" : "modulus"), plot.svg()});
@@ -197,17 +300,23 @@ Exhibit seed_error_exhibit(const PaperSource& source) {
 }
 
 Exhibit family_gamut_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-15", .heading = "Figure 3-15: Gamuts of the families", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{
+      .id = "figure-3-15", .heading = "Figure 3-15: Gamuts of the families", .notes = {}, .figures = {}, .tables = {}};
   if (source.run.families.empty()) {
     exhibit.notes.push_back(kNoStage);
     return exhibit;
   }
   std::vector<Point> all;
-  PaperTable table{.name = "figure-3-15", .columns = {{"family", ""}, {"what", ""}, {"pattern", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}}, .rows = {}, .is_thesis = {}, .on_page = false};
+  PaperTable table{.name = "figure-3-15",
+                   .columns = {{"family", ""}, {"what", ""}, {"pattern", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = false};
   for (const store::RecordedFamily& family : source.run.families) {
     for (const explore::Evaluated& sample : family.gamut) {
       all.push_back(to_point(sample.performance));
-      table.add({text_cell(family.stated.name), text_cell("variant"), text_cell(sample.pattern.key()), gpa_cell(sample.performance.modulus_pa), mpa_cell(sample.performance.toughness_pa)});
+      table.add({text_cell(family.stated.name), text_cell("variant"), text_cell(sample.pattern.key()),
+                 gpa_cell(sample.performance.modulus_pa), mpa_cell(sample.performance.toughness_pa)});
     }
   }
   const auto measured_point = [](const game::FamilyDesign& d) -> std::optional<Point> {
@@ -227,22 +336,36 @@ Exhibit family_gamut_exhibit(const PaperSource& source) {
     std::vector<Point> seeds, chosen, predicted;
     for (const game::FamilyDesign& d : family.stated.designs) {
       if (const auto point = measured_point(d)) (d.is_seed ? seeds : chosen).push_back(*point);
-      if (!d.is_seed && d.family_model.modulus_pa && d.family_model.toughness_pa) predicted.push_back(to_point({*d.family_model.modulus_pa, *d.family_model.toughness_pa}));
+      if (!d.is_seed && d.family_model.modulus_pa && d.family_model.toughness_pa)
+        predicted.push_back(to_point({*d.family_model.modulus_pa, *d.family_model.toughness_pa}));
     }
-    Plot plot({.title = family.stated.name, .x_label = "Young's modulus E (GPa)", .y_label = "toughness T (MPa)", .x = x, .y = y, .width = 460, .height = 340});
+    Plot plot({.title = family.stated.name,
+               .x_label = "Young's modulus E (GPa)",
+               .y_label = "toughness T (MPa)",
+               .x = x,
+               .y = y,
+               .width = 460,
+               .height = 340});
     plot.cloud(to_points(thinned(gamut, kMostGamutPoints)), family_ink(f), "variants");
     plot.dots(seeds, Ink::earlier, "seeds, measured");
     plot.rings(predicted, family_ink(f), "chosen, predicted");
     plot.dots(chosen, Ink::measured, "chosen, measured");
     exhibit.figures.push_back({"figure-3-15-" + family.stated.name, plot.svg()});
   }
-  exhibit.notes.push_back(fmt::format("Variants within 16 pixels of a seed by the family's own model, {} in all (the thesis: 7000 to 9000 per family), and the designs chosen of them (2.3.4).", variants));
+  exhibit.notes.push_back(
+      fmt::format("Variants within 16 pixels of a seed by the family's own model, {} in all (the thesis: 7000 to 9000 "
+                  "per family), and the designs chosen of them (2.3.4).",
+                  variants));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
 Exhibit validation_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-3-7", .heading = "Table 3.7: Global and family models on the validation designs", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "table-3-7",
+                  .heading = "Table 3.7: Global and family models on the validation designs",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   if (source.run.families.empty()) exhibit.notes.push_back(kNoStage + " The thesis' figures:");
   std::vector<std::string> over_fitted;
   bool waiting = false;
@@ -253,14 +376,27 @@ Exhibit validation_exhibit(const PaperSource& source) {
     if (errors.over_fits_modulus()) over_fitted.push_back(escaped(family.name) + " (E)");
   }
   if (waiting) exhibit.notes.push_back("Some families are not validated yet: their designs are being measured.");
-  if (!over_fitted.empty()) exhibit.notes.push_back(fmt::format("<strong>Over-fitted: {}</strong> - nearer to the seeds than the global model and farther from the validation designs, as in three of the thesis' four families. Trust the global model there.", fmt::join(over_fitted, ", ")));
-  else if (!source.run.families.empty() && !waiting) exhibit.notes.push_back("No family's model over-fits: none is nearer to its seeds than the global one and farther from its validation designs. (In the thesis all but one did, in T.)");
+  if (!over_fitted.empty())
+    exhibit.notes.push_back(
+        fmt::format("<strong>Over-fitted: {}</strong> - nearer to the seeds than the global model and farther from the "
+                    "validation designs, as in three of the thesis' four families. Trust the global model there.",
+                    fmt::join(over_fitted, ", ")));
+  else if (!source.run.families.empty() && !waiting)
+    exhibit.notes.push_back(
+        "No family's model over-fits: none is nearer to its seeds than the global one and farther from its validation "
+        "designs. (In the thesis all but one did, in T.)");
   exhibit.tables.push_back(errors_table(source, "table-3-7", false));
   return exhibit;
 }
 
-Exhibit family_modulus_appendix(const PaperSource& source) { return appendix(source, "table-a-5", "Table A.5: E of the designs of the family stage", &game::DesignValues::modulus_pa); }
+Exhibit family_modulus_appendix(const PaperSource& source) {
+  return appendix(source, "table-a-5", "Table A.5: E of the designs of the family stage",
+                  &game::DesignValues::modulus_pa);
+}
 
-Exhibit family_toughness_appendix(const PaperSource& source) { return appendix(source, "table-a-6", "Table A.6: T of the designs of the family stage", &game::DesignValues::toughness_pa); }
+Exhibit family_toughness_appendix(const PaperSource& source) {
+  return appendix(source, "table-a-6", "Table A.6: T of the designs of the family stage",
+                  &game::DesignValues::toughness_pa);
+}
 
 }  // namespace nacre::analyser

@@ -1,4 +1,4 @@
-// Exhibits of the game: Figures 3-2 to 3-4, 3-7, 3-9, Tables 3.3 to 3.5.
+// Exhibits of the game: Figures 3-2 to 3-4, 3-7, Tables 3.3 to 3.5.
 
 #include <algorithm>
 #include <numeric>
@@ -26,9 +26,14 @@ std::vector<MeasuredPattern> measured_in_game(const PaperSource& source) {
 }
 
 PaperTable gamut_data(const PaperSource& source) {
-  PaperTable table{.name = "figure-3-2", .columns = {{"round", ""}, {"what", ""}, {"design", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}}, .rows = {}, .is_thesis = {}, .on_page = false};
+  PaperTable table{.name = "figure-3-2",
+                   .columns = {{"round", ""}, {"what", ""}, {"design", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = false};
   const auto add = [&](int round, std::string_view what, std::string_view design, const optimize::Performance& p) {
-    table.add({text_cell(std::to_string(round)), text_cell(what), text_cell(design), gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa)});
+    table.add({text_cell(std::to_string(round)), text_cell(what), text_cell(design), gpa_cell(p.modulus_pa),
+               mpa_cell(p.toughness_pa)});
   };
   for (const auto& [number, round] : source.run.rounds) {
     for (const optimize::Performance& p : round.gamut) add(number, "simulated", "", p);
@@ -52,17 +57,29 @@ std::optional<double> thesis_hypervolume(const PaperSource& source, int round) {
 
 PaperTable hypervolume_data(const PaperSource& source) {
   PaperTable table{.name = "figure-3-3",
-                   .columns = {{"round", "round"}, {"measured_gpa_mpa", "measured"}, {"standard_error", "± error"}, {"gamut_gpa_mpa", "gamut"}, {"gap", "gap"}, {"signed_gap", "signed gap"}, {"decided_by", "equilibrium"}},
-                   .rows = {}, .is_thesis = {}, .on_page = true};
+                   .columns = {{"round", "round"},
+                               {"measured_gpa_mpa", "measured"},
+                               {"standard_error", "± error"},
+                               {"gamut_gpa_mpa", "gamut"},
+                               {"gap", "gap"},
+                               {"signed_gap", "signed gap"},
+                               {"decided_by", "equilibrium"}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
   for (const auto& [number, round] : source.run.rounds) {
     if (!round.summary) continue;
     const wire::RoundSummary& s = *round.summary;
-    table.add({text_cell(std::to_string(number)), number_cell(s.measured_hypervolume_staircase), number_cell(s.hypervolume_error), number_cell(s.gamut_hypervolume_staircase),
-               number_cell(s.gap), number_cell(s.signed_gap), text_cell(s.equilibrium ? "yes: " + s.decided_by : s.decided_by)});
+    table.add({text_cell(std::to_string(number)), number_cell(s.measured_hypervolume_staircase),
+               number_cell(s.hypervolume_error), number_cell(s.gamut_hypervolume_staircase), number_cell(s.gap),
+               number_cell(s.signed_gap), text_cell(s.equilibrium ? "yes: " + s.decided_by : s.decided_by)});
   }
   for (int round = 0; round <= 4; ++round) {
     const auto measured = thesis_hypervolume(source, round);
-    if (measured) table.add({text_cell(fmt::format("thesis {}", round)), number_cell(measured), text_cell("–"), text_cell("–"), text_cell("–"), text_cell("–"), text_cell("")}, true);
+    if (measured)
+      table.add({text_cell(fmt::format("thesis {}", round)), number_cell(measured), text_cell("–"), text_cell("–"),
+                 text_cell("–"), text_cell("–"), text_cell("")},
+                true);
   }
   return table;
 }
@@ -73,7 +90,8 @@ struct Best {
 };
 
 /// Designs near the measured front (rank 1 and 2) by falling improvement in toughness.
-std::vector<Best> best_designs(const std::vector<MeasuredPattern>& measured, const std::vector<optimize::Performance>& line) {
+std::vector<Best> best_designs(const std::vector<MeasuredPattern>& measured,
+                               const std::vector<optimize::Performance>& line) {
   std::vector<optimize::Performance> points;
   for (const MeasuredPattern& m : measured) points.push_back(m.mean);
   const std::vector<int> ranks = optimize::non_dominated_ranks(points);
@@ -95,7 +113,9 @@ std::optional<double> tougher_base_pa(const store::RunRecord& run) {
       if (!m.record.valid || m.record.test != tester::TestKind::toughness || m.record.design.name() != name) continue;
       if (const auto toughness = measurement::toughness_of(m.record)) values.push_back(*toughness);
     }
-    if (!values.empty()) best = std::max(best.value_or(0.0), std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
+    if (!values.empty())
+      best = std::max(best.value_or(0.0),
+                      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
   }
   return best;
 }
@@ -116,20 +136,34 @@ constexpr ThesisBest kThesisBest[] = {{79, 1.402, 0.491, 1.35, 2.00, 7.01},
 
 PaperTable best_table(const std::vector<Best>& best, const std::optional<double>& base_pa) {
   PaperTable table{.name = "table-3-3",
-                   .columns = {{"pattern", "pattern"}, {"rigid_fraction", "VW%"}, {"modulus_pa", "E (GPa)"}, {"toughness_pa", "T (MPa)"}, {"gain_modulus", "E, homogeneous"}, {"gain_toughness", "T, homogeneous"}, {"gain_toughness_base", "T, base"}},
-                   .rows = {}, .is_thesis = {}, .on_page = true};
+                   .columns = {{"pattern", "pattern"},
+                               {"rigid_fraction", "VW%"},
+                               {"modulus_pa", "E (GPa)"},
+                               {"toughness_pa", "T (MPa)"},
+                               {"gain_modulus", "E, homogeneous"},
+                               {"gain_toughness", "T, homogeneous"},
+                               {"gain_toughness_base", "T, base"}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
   for (const Best& b : best) {
     const optimize::Performance& p = b.design.mean;
-    table.add({design_cell(b.design.pattern.key()), share_cell(b.design.pattern.rigid_fraction()), gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa), times_cell(b.improvement.modulus),
-               times_cell(b.improvement.toughness), times_cell(base_pa ? std::optional(p.toughness_pa / *base_pa) : std::nullopt)});
+    table.add({design_cell(b.design.pattern.key()), share_cell(b.design.pattern.rigid_fraction()),
+               gpa_cell(p.modulus_pa), mpa_cell(p.toughness_pa), times_cell(b.improvement.modulus),
+               times_cell(b.improvement.toughness),
+               times_cell(base_pa ? std::optional(p.toughness_pa / *base_pa) : std::nullopt)});
   }
   int number = 0;
   for (const ThesisBest& t : kThesisBest)
-    table.add({text_cell(fmt::format("thesis {}", ++number)), share_cell(0.01 * t.rigid_percent), gpa_cell(1e9 * t.modulus_gpa), mpa_cell(1e6 * t.toughness_mpa), times_cell(t.gain_modulus), times_cell(t.gain_toughness), times_cell(t.gain_base)}, true);
+    table.add({text_cell(fmt::format("thesis {}", ++number)), share_cell(0.01 * t.rigid_percent),
+               gpa_cell(1e9 * t.modulus_gpa), mpa_cell(1e6 * t.toughness_mpa), times_cell(t.gain_modulus),
+               times_cell(t.gain_toughness), times_cell(t.gain_base)},
+              true);
   return table;
 }
 
-std::string best_figure(const std::vector<MeasuredPattern>& measured, const std::vector<Best>& best, const std::vector<optimize::Performance>& line) {
+std::string best_figure(const std::vector<MeasuredPattern>& measured, const std::vector<Best>& best,
+                        const std::vector<optimize::Performance>& line) {
   std::vector<Point> all, front;
   std::vector<std::string> hints;
   for (const MeasuredPattern& m : measured) all.push_back(to_point(m.mean));
@@ -139,7 +173,13 @@ std::string best_figure(const std::vector<MeasuredPattern>& measured, const std:
   }
   std::vector<Point> everything = to_points(line);
   everything.insert(everything.end(), all.begin(), all.end());
-  Plot plot({.title = "Best designs and homogeneous mixtures", .x_label = "Young's modulus E (GPa)", .y_label = "toughness T (MPa)", .x = range_of(everything, &Point::x), .y = range_of(everything, &Point::y), .width = 560, .height = 400});
+  Plot plot({.title = "Best designs and homogeneous mixtures",
+             .x_label = "Young's modulus E (GPa)",
+             .y_label = "toughness T (MPa)",
+             .x = range_of(everything, &Point::x),
+             .y = range_of(everything, &Point::y),
+             .width = 560,
+             .height = 400});
   plot.line(to_points(line), Ink::homogeneous, Stroke::dashed, "homogeneous, measured");
   plot.dots(to_points(line), Ink::homogeneous, "");
   plot.dots(all, Ink::earlier, "measured patterns");
@@ -152,7 +192,14 @@ std::optional<double> error_of(const std::optional<double>& simulated, const std
 }
 
 Axes error_axes(std::string title, int last) {
-  return {.title = std::move(title), .x_label = "round", .y_label = "mean relative error (%)", .x = {-0.25, std::max(4.0, static_cast<double>(last)) + 0.25}, .y = {0.0, 1.0}, .width = 400, .height = 280, .whole_numbers_x = true};
+  return {.title = std::move(title),
+          .x_label = "round",
+          .y_label = "mean relative error (%)",
+          .x = {-0.25, std::max(4.0, static_cast<double>(last)) + 0.25},
+          .y = {0.0, 1.0},
+          .width = 400,
+          .height = 280,
+          .whole_numbers_x = true};
 }
 
 struct ErrorLine {
@@ -179,92 +226,102 @@ std::string error_figure(std::string title, int last, const std::vector<ErrorLin
 sysid::PredictionErrors thesis_errors(const PaperSource& source, int round, std::size_t model) {
   std::vector<game::FamilyDesign> designs;
   for (const game::ThesisSample& sample : source.thesis.samples)
-    if (sample.round <= round) designs.push_back({.pattern = {}, .is_seed = true, .measured = sample.measured, .global_model = sample.simulated[model], .family_model = {}});
+    if (sample.round <= round)
+      designs.push_back({.pattern = {},
+                         .is_seed = true,
+                         .measured = sample.measured,
+                         .global_model = sample.simulated[model],
+                         .family_model = {}});
   return game::family_errors(designs).seeds_global;
 }
 
 PaperTable error_table(const PaperSource& source) {
   PaperTable table{.name = "table-3-5",
-                   .columns = {{"round", "round"}, {"count", "N"}, {"modulus_before_mean", "E before"}, {"modulus_before_max", "max"}, {"modulus_after_mean", "E after"}, {"modulus_after_max", "max"}, {"toughness_before_mean", "T before"}, {"toughness_before_max", "max"}, {"toughness_after_mean", "T after"}, {"toughness_after_max", "max"}, {"modulus_held_out_mean", "E held out"}, {"toughness_held_out_mean", "T held out"}},
-                   .rows = {}, .is_thesis = {}, .on_page = true};
-  const auto add = [&](const std::string& round, int count, const sysid::PredictionErrors& before, const sysid::PredictionErrors& after, const sysid::PredictionErrors& held_out, bool thesis) {
+                   .columns = {{"round", "round"},
+                               {"count", "N"},
+                               {"modulus_before_mean", "E before"},
+                               {"modulus_before_max", "max"},
+                               {"modulus_after_mean", "E after"},
+                               {"modulus_after_max", "max"},
+                               {"toughness_before_mean", "T before"},
+                               {"toughness_before_max", "max"},
+                               {"toughness_after_mean", "T after"},
+                               {"toughness_after_max", "max"},
+                               {"modulus_held_out_mean", "E held out"},
+                               {"toughness_held_out_mean", "T held out"}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
+  const auto add = [&](const std::string& round, int count, const sysid::PredictionErrors& before,
+                       const sysid::PredictionErrors& after, const sysid::PredictionErrors& held_out, bool thesis) {
     const auto of = [](int n, double value) { return share_cell(n > 0 ? std::optional(value) : std::nullopt); };
-    table.add({text_cell(round), text_cell(std::to_string(count)), of(before.modulus_count, before.modulus_mean), of(before.modulus_count, before.modulus_max), of(after.modulus_count, after.modulus_mean), of(after.modulus_count, after.modulus_max),
-               of(before.toughness_count, before.toughness_mean), of(before.toughness_count, before.toughness_max), of(after.toughness_count, after.toughness_mean), of(after.toughness_count, after.toughness_max),
-               of(held_out.modulus_count, held_out.modulus_mean), of(held_out.toughness_count, held_out.toughness_mean)}, thesis);
+    table.add({text_cell(round), text_cell(std::to_string(count)), of(before.modulus_count, before.modulus_mean),
+               of(before.modulus_count, before.modulus_max), of(after.modulus_count, after.modulus_mean),
+               of(after.modulus_count, after.modulus_max), of(before.toughness_count, before.toughness_mean),
+               of(before.toughness_count, before.toughness_max), of(after.toughness_count, after.toughness_mean),
+               of(after.toughness_count, after.toughness_max), of(held_out.modulus_count, held_out.modulus_mean),
+               of(held_out.toughness_count, held_out.toughness_mean)},
+              thesis);
   };
   for (const auto& [number, round] : source.run.rounds)
-    if (round.summary) add(std::to_string(number), round.summary->calibration_count, round.summary->before, round.summary->after, round.summary->held_out, false);
+    if (round.summary)
+      add(std::to_string(number), round.summary->calibration_count, round.summary->before, round.summary->after,
+          round.summary->held_out, false);
   for (int round = 1; round <= 4 && !source.thesis.samples.empty(); ++round) {
-    const auto before = thesis_errors(source, round, 0), after = thesis_errors(source, round, static_cast<std::size_t>(round));
+    const auto before = thesis_errors(source, round, 0),
+               after = thesis_errors(source, round, static_cast<std::size_t>(round));
     add(fmt::format("thesis {}", round), before.modulus_count, before, after, {}, true);
   }
   return table;
 }
 
-std::vector<Point> growth_of(const SearchPath& path) {
-  constexpr std::size_t kStep = 10;
-  std::vector<Point> points;
-  std::vector<optimize::Performance> front;
-  for (std::size_t i = 0; i < path.samples.size(); ++i) {
-    front.push_back(path.samples[i]);
-    if ((i + 1) % kStep != 0 && i + 1 != path.samples.size()) continue;
-    front = optimize::pareto_front(front);
-    points.push_back({static_cast<double>(i + 1), optimize::hypervolume_staircase_gpa_mpa(front)});
-  }
-  return points;
-}
-
-/// Mean and range over the searches of a round, as far as all of them go.
-std::string growth_figure(int round, const std::vector<std::vector<Point>>& searches) {
-  std::vector<Point> mean, low, high;
-  const std::size_t length = std::ranges::min(searches, {}, &std::vector<Point>::size).size();
-  for (std::size_t i = 0; i < length; ++i) {
-    double sum = 0.0, least = searches[0][i].y, most = least;
-    for (const auto& search : searches) {
-      sum += search[i].y;
-      least = std::min(least, search[i].y);
-      most = std::max(most, search[i].y);
-    }
-    const double x = searches[0][i].x;
-    mean.push_back({x, sum / static_cast<double>(searches.size())});
-    low.push_back({x, least});
-    high.push_back({x, most});
-  }
-  Plot plot({.title = fmt::format("Round {}", round), .x_label = "simulated patterns of a search", .y_label = "hypervolume (GPa MPa)", .x = range_of(mean, &Point::x), .y = range_of(high, &Point::y), .width = 400, .height = 280});
-  if (searches.size() > 1) plot.band(low, high, Ink::simulated, "range");
-  plot.line(mean, Ink::simulated, Stroke::solid, fmt::format("mean of {} searches", searches.size()));
-  return plot.svg();
-}
-
 }  // namespace
 
 Exhibit gamut_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-2", .heading = "Figure 3-2: Evolution of simulation and experiment", .notes = {}, .figures = {}, .tables = {}};
-  exhibit.notes.push_back("Gamut of each round's model (blue), what was measured until then (orange), the proposals (rings) and the measured homogeneous mixtures (grey), on the same axes; a front's staircase bounds what it dominates.");
+  Exhibit exhibit{.id = "figure-3-2",
+                  .heading = "Figure 3-2: Evolution of simulation and experiment",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
+  exhibit.notes.push_back(
+      "Gamut of each round's model (blue), what was measured until then (orange), the proposals (rings) and the "
+      "measured homogeneous mixtures (grey), on the same axes; a front's staircase bounds what it dominates.");
   std::size_t number = 0;
-  for (std::string& svg : gamut_figures(source.run)) exhibit.figures.push_back({fmt::format("figure-3-2-{}", number++), std::move(svg)});
+  for (std::string& svg : gamut_figures(source.run))
+    exhibit.figures.push_back({fmt::format("figure-3-2-{}", number++), std::move(svg)});
   if (exhibit.figures.empty()) exhibit.notes = {"This run has no gamut yet: its first round is not closed."};
   exhibit.tables.push_back(gamut_data(source));
   return exhibit;
 }
 
 Exhibit hypervolume_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-3", .heading = "Figure 3-3: Pareto hypervolumes and the sim-to-real gap", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-3",
+                  .heading = "Figure 3-3: Pareto hypervolumes and the sim-to-real gap",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   constexpr const char* kNames[] = {"hypervolume", "gap", "signed-gap"};
   std::size_t number = 0;
-  for (std::string& svg : round_figures(source.run)) exhibit.figures.push_back({fmt::format("figure-3-3-{}", kNames[number++]), std::move(svg)});
+  for (std::string& svg : round_figures(source.run))
+    exhibit.figures.push_back({fmt::format("figure-3-3-{}", kNames[number++]), std::move(svg)});
   if (exhibit.figures.empty()) {
     exhibit.notes.push_back("No round of this run is closed yet.");
     return exhibit;
   }
-  exhibit.notes.push_back("Hypervolumes by staircase from E = 0, T = 0; the gap is the area between the two fronts, the error a bootstrap over replicates. The thesis' measured values follow from its Tables A.3 and A.4 (its round 0 is the ten random patterns); its gap fell by an order of magnitude in four rounds, in a figure without numbers.");
+  exhibit.notes.push_back(
+      "Hypervolumes by staircase from E = 0, T = 0; the gap is the area between the two fronts, the error a bootstrap "
+      "over replicates. The thesis' measured values follow from its Tables A.3 and A.4 (its round 0 is the ten random "
+      "patterns); its gap fell by an order of magnitude in four rounds, in a figure without numbers.");
   exhibit.tables.push_back(hypervolume_data(source));
   return exhibit;
 }
 
 Exhibit best_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-4", .heading = "Figure 3-4, Table 3.3: Best designs against homogeneous composites", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-4",
+                  .heading = "Figure 3-4, Table 3.3: Best designs against homogeneous composites",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   const auto measured = measured_in_game(source);
   const auto line = newest_line(source.run);
   if (measured.empty()) {
@@ -272,51 +329,87 @@ Exhibit best_exhibit(const PaperSource& source) {
     return exhibit;
   }
   const std::vector<Best> best = best_designs(measured, line);
-  const auto worth = std::ranges::count_if(best, [](const Best& b) { return b.improvement.toughness.value_or(0.0) >= kWorthShowing; });
+  const auto worth =
+      std::ranges::count_if(best, [](const Best& b) { return b.improvement.toughness.value_or(0.0) >= kWorthShowing; });
   if (line.size() < 2) {
-    exhibit.notes.push_back("This run has measured no line of homogeneous mixtures: there is nothing to compare its designs with.");
+    exhibit.notes.push_back(
+        "This run has measured no line of homogeneous mixtures: there is nothing to compare its designs with.");
   } else {
-    exhibit.notes.push_back(fmt::format("Designs near the measured front (first and second rank) with the largest gain in toughness over the homogeneous line at the same E; the thesis shows those above {}×, here {} of {} reach that. Gains in E are read at the same T; a design beyond the line has none (–).", kWorthShowing, worth, best.size()));
+    exhibit.notes.push_back(
+        fmt::format("Designs near the measured front (first and second rank) with the largest gain in toughness over "
+                    "the homogeneous line at the same E; the thesis shows those above {}×, here {} of {} reach that. "
+                    "Gains in E are read at the same T; a design beyond the line has none (–).",
+                    kWorthShowing, worth, best.size()));
   }
   const auto base = tougher_base_pa(source.run);
-  if (base) exhibit.notes.push_back(fmt::format("Base: the tougher base material as measured here, {} MPa (thesis: VW, 0.070 MPa).", mpa(*base)));
-  else exhibit.notes.push_back("The notched base materials were not measured in this run: no gain over them can be given.");
+  if (base)
+    exhibit.notes.push_back(
+        fmt::format("Base: the tougher base material as measured here, {} MPa (thesis: VW, 0.070 MPa).", mpa(*base)));
+  else
+    exhibit.notes.push_back(
+        "The notched base materials were not measured in this run: no gain over them can be given.");
   exhibit.figures.push_back({"figure-3-4", best_figure(measured, best, line)});
   exhibit.tables.push_back(best_table(best, base));
   return exhibit;
 }
 
 Exhibit base_material_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-3-4", .heading = "Table 3.4: Base materials after the first system identification", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "table-3-4",
+                  .heading = "Table 3.4: Base materials after the first system identification",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   const auto model = source.answers.find(0);
   PaperTable table{.name = "table-3-4",
-                   .columns = {{"material", "material"}, {"measured_modulus_pa", "E exp. (GPa)"}, {"simulated_modulus_pa", "E sim."}, {"modulus_error", "err."}, {"measured_toughness_pa", "T exp. (MPa)"}, {"simulated_toughness_pa", "T sim."}, {"toughness_error", "err."}},
-                   .rows = {}, .is_thesis = {}, .on_page = true};
-  const auto add = [&](const std::string& name, const game::DesignValues& measured, const game::DesignValues& simulated, bool thesis) {
-    table.add({text_cell(name), gpa_cell(measured.modulus_pa), gpa_cell(simulated.modulus_pa), share_cell(error_of(simulated.modulus_pa, measured.modulus_pa)), mpa_cell(measured.toughness_pa), mpa_cell(simulated.toughness_pa),
-               share_cell(error_of(simulated.toughness_pa, measured.toughness_pa))}, thesis);
+                   .columns = {{"material", "material"},
+                               {"measured_modulus_pa", "E exp. (GPa)"},
+                               {"simulated_modulus_pa", "E sim."},
+                               {"modulus_error", "err."},
+                               {"measured_toughness_pa", "T exp. (MPa)"},
+                               {"simulated_toughness_pa", "T sim."},
+                               {"toughness_error", "err."}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
+  const auto add = [&](const std::string& name, const game::DesignValues& measured, const game::DesignValues& simulated,
+                       bool thesis) {
+    table.add({text_cell(name), gpa_cell(measured.modulus_pa), gpa_cell(simulated.modulus_pa),
+               share_cell(error_of(simulated.modulus_pa, measured.modulus_pa)), mpa_cell(measured.toughness_pa),
+               mpa_cell(simulated.toughness_pa), share_cell(error_of(simulated.toughness_pa, measured.toughness_pa))},
+              thesis);
   };
   bool found = false;
   for (const auto& [design, name] : {std::pair{"soft", "TB"}, std::pair{"rigid", "VW"}, std::pair{"interface", "IF"}}) {
     const auto material = std::ranges::find(source.thesis.materials, name, &game::ThesisMaterial::name);
-    if (model == source.answers.end() || !model->second.contains(design) || material == source.thesis.materials.end()) continue;
+    if (model == source.answers.end() || !model->second.contains(design) || material == source.thesis.materials.end())
+      continue;
     found = true;
     add(name, material->measured, model->second.at(design), false);
   }
-  for (const game::ThesisMaterial& material : source.thesis.materials) add("thesis " + material.name, material.measured, material.simulated, true);
-  exhibit.notes.push_back(found ? "The model of round 0 on the measurements that it was fitted to: those of the thesis (or what the scenario named in their place)." : "What the model of round 0 says of the base materials is not in this folder (it stands in the validation agent's journal).");
+  for (const game::ThesisMaterial& material : source.thesis.materials)
+    add("thesis " + material.name, material.measured, material.simulated, true);
+  exhibit.notes.push_back(found ? "The model of round 0 on the measurements that it was fitted to: those of the thesis "
+                                  "(or what the scenario named in their place)."
+                                : "What the model of round 0 says of the base materials is not in this folder (it "
+                                  "stands in the validation agent's journal).");
   exhibit.tables.push_back(table);
   return exhibit;
 }
 
 Exhibit error_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-7", .heading = "Figure 3-7, Table 3.5: Prediction errors before and after system identification", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-7",
+                  .heading = "Figure 3-7, Table 3.5: Prediction errors before and after system identification",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   const PaperTable table = error_table(source);
   for (const bool toughness : {false, true}) {
     std::vector<Point> before, after, held_out, thesis;
     for (const auto& [number, round] : source.run.rounds) {
       if (!round.summary || number == 0) continue;
-      const auto point = [&, n = static_cast<double>(number)](const sysid::PredictionErrors& e) { return Point{n, 100.0 * (toughness ? e.toughness_mean : e.modulus_mean)}; };
+      const auto point = [&, n = static_cast<double>(number)](const sysid::PredictionErrors& e) {
+        return Point{n, 100.0 * (toughness ? e.toughness_mean : e.modulus_mean)};
+      };
       before.push_back(point(round.summary->before));
       after.push_back(point(round.summary->after));
       if (round.summary->held_out.modulus_count > 0) held_out.push_back(point(round.summary->held_out));
@@ -328,30 +421,17 @@ Exhibit error_exhibit(const PaperSource& source) {
     }
     exhibit.figures.push_back({fmt::format("figure-3-7-{}", toughness ? "toughness" : "modulus"),
                                error_figure(toughness ? "Toughness" : "Young's modulus", last_round(source),
-                                            {{"before", Ink::earlier, Stroke::solid, before}, {"after", Ink::simulated, Stroke::solid, after}, {"held out", Ink::measured, Stroke::solid, held_out}, {"thesis, after", Ink::thesis, Stroke::dashed, thesis}})});
+                                            {{"before", Ink::earlier, Stroke::solid, before},
+                                             {"after", Ink::simulated, Stroke::solid, after},
+                                             {"held out", Ink::measured, Stroke::solid, held_out},
+                                             {"thesis, after", Ink::thesis, Stroke::dashed, thesis}})});
   }
-  exhibit.notes.push_back("Before: the model that the round began with, on the N designs of the round; after: the model calibrated on them. The thesis' “before” is its first model (fitted to the base materials) in every round. Held out: what the round's proposals were predicted to be before they were measured, the honest figure; of the thesis it follows from Tables A.3 and A.4: E 12.2, 9.1, 6.9 %, T 97, 84, 76 % in rounds 2 to 4.");
+  exhibit.notes.push_back(
+      "Before: the model that the round began with, on the N designs of the round; after: the model calibrated on "
+      "them. The thesis' “before” is its first model (fitted to the base materials) in every round. Held out: what the "
+      "round's proposals were predicted to be before they were measured, the honest figure; of the thesis it follows "
+      "from Tables A.3 and A.4: E 12.2, 9.1, 6.9 %, T 97, 84, 76 % in rounds 2 to 4.");
   if (last_round(source) == 0) exhibit.notes.push_back("This run has no measured round yet.");
-  exhibit.tables.push_back(table);
-  return exhibit;
-}
-
-Exhibit search_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-9", .heading = "Figure 3-9: Hypervolume growth of the gamut", .notes = {}, .figures = {}, .tables = {}};
-  std::map<int, std::vector<std::vector<Point>>> by_round;
-  for (const SearchPath& path : source.searches) if (!path.samples.empty()) by_round[path.round].push_back(growth_of(path));
-  if (by_round.empty()) {
-    exhibit.notes.push_back("The proposal agent's journal is not in this folder: the order of its simulations is not known.");
-    return exhibit;
-  }
-  PaperTable table{.name = "figure-3-9", .columns = {{"round", ""}, {"search", ""}, {"simulations", ""}, {"hypervolume_gpa_mpa", ""}}, .rows = {}, .is_thesis = {}, .on_page = false};
-  for (const SearchPath& path : source.searches) {
-    for (const Point& point : growth_of(path)) table.add({text_cell(std::to_string(path.round)), text_cell(std::to_string(path.branch)), number_cell(point.x), number_cell(point.y)});
-  }
-  for (const auto& [round, searches] : by_round) {
-    if (round == by_round.begin()->first || round == by_round.rbegin()->first) exhibit.figures.push_back({fmt::format("figure-3-9-round-{}", round), growth_figure(round, searches)});
-  }
-  exhibit.notes.push_back("First and last round; simulations of one search, without those that an unchanged model took over from the round before. A game plays one algorithm: rivals are compared by <code>nacre explore</code> (docs/studies/search.md). The thesis' learned search needs 1320 and 1060 simulations for what its single-pixel NSGA-II has after 20,000.");
   exhibit.tables.push_back(table);
   return exhibit;
 }

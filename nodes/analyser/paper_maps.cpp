@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kExamples = 6;  // patterns beside a map
 
-const std::string kNoMaps = "Nobody has drawn maps of this run's families: <code>nacre families --run RUN</code> does, then call again.";
+const std::string kNoMaps =
+    "Nobody has drawn maps of this run's families: <code>nacre families --run RUN</code> does, then call again.";
 
 /// E in the blue channel, T in the red one, as the thesis colours its maps; over the ranges of one map.
 struct Colours {
@@ -34,8 +35,11 @@ struct Colours {
   }
   std::string of(const MapPoint& point) const {
     if (!point.performance) return "#999999";
-    const auto level = [](double value, double low, double high) { return high > low ? static_cast<int>(std::lround(40.0 + 215.0 * (value - low) / (high - low))) : 128; };
-    return fmt::format("#{:02x}40{:02x}", level(point.performance->toughness_pa, toughness_low, toughness_high), level(point.performance->modulus_pa, modulus_low, modulus_high));
+    const auto level = [](double value, double low, double high) {
+      return high > low ? static_cast<int>(std::lround(40.0 + 215.0 * (value - low) / (high - low))) : 128;
+    };
+    return fmt::format("#{:02x}40{:02x}", level(point.performance->toughness_pa, toughness_low, toughness_high),
+                       level(point.performance->modulus_pa, modulus_low, modulus_high));
   }
 };
 
@@ -58,7 +62,13 @@ std::string map_picture(const SubfamilyMap& map, bool refined, const std::string
     points.push_back(refined ? Point{point.x, point.y} : Point{*point.x_sampled, *point.y_sampled});
     inks.push_back(colours.of(point));
   }
-  Plot plot({.title = title, .x_label = "Isomap 1 (pixels of transport)", .y_label = "Isomap 2", .x = span_of(points, &Point::x), .y = span_of(points, &Point::y), .width = 400, .height = 340});
+  Plot plot({.title = title,
+             .x_label = "Isomap 1 (pixels of transport)",
+             .y_label = "Isomap 2",
+             .x = span_of(points, &Point::x),
+             .y = span_of(points, &Point::y),
+             .width = 400,
+             .height = 340});
   plot.coloured(points, inks);
   return plot.svg();
 }
@@ -71,7 +81,8 @@ std::vector<const MapPoint*> examples_of(const SubfamilyMap& map) {
     double largest = -1.0;
     for (const MapPoint& point : map.points) {
       double nearest = 1e300;
-      for (const MapPoint* other : chosen) nearest = std::min(nearest, std::hypot(point.x - other->x, point.y - other->y));
+      for (const MapPoint* other : chosen)
+        nearest = std::min(nearest, std::hypot(point.x - other->x, point.y - other->y));
       if (nearest > largest) largest = nearest, farthest = &point;
     }
     chosen.push_back(farthest);
@@ -83,18 +94,25 @@ std::string tile(const pattern::Pattern& pattern, int column, int row, const std
   constexpr int kTile = 92, kSide = 74;
   std::string picture = design_picture(pattern, kSide);
   picture.insert(4, fmt::format(" x=\"{}\" y=\"{}\"", column * kTile + 8, row * (kTile + 14) + 26));
-  return picture + fmt::format("<text x=\"{}\" y=\"{}\" class=\"tick middle\">{}</text>", column * kTile + 8 + kSide / 2, row * (kTile + 14) + 26 + kSide + 13, escaped(caption));
+  return picture + fmt::format("<text x=\"{}\" y=\"{}\" class=\"tick middle\">{}</text>",
+                               column * kTile + 8 + kSide / 2, row * (kTile + 14) + 26 + kSide + 13, escaped(caption));
 }
 
 std::string tiles(const std::string& title, int columns, int rows, const std::string& content) {
-  return fmt::format("<svg class=\"plot\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{2}\"><text x=\"8\" y=\"16\" class=\"title\">{2}</text>{3}</svg>\n", columns * 92 + 8, rows * 106 + 26, escaped(title), content);
+  return fmt::format(
+      "<svg class=\"plot\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"{2}\"><text "
+      "x=\"8\" y=\"16\" class=\"title\">{2}</text>{3}</svg>\n",
+      columns * 92 + 8, rows * 106 + 26, escaped(title), content);
 }
 
 std::string example_picture(const SubfamilyMap& map) {
   std::string content;
   int column = 0;
   for (const MapPoint* point : examples_of(map)) {
-    content += tile(point->pattern, column++, 0, point->performance ? fmt::format("{:.2f}, {:.2f}", 1e-9 * point->performance->modulus_pa, 1e-6 * point->performance->toughness_pa) : point->source);
+    content += tile(point->pattern, column++, 0,
+                    point->performance ? fmt::format("{:.2f}, {:.2f}", 1e-9 * point->performance->modulus_pa,
+                                                     1e-6 * point->performance->toughness_pa)
+                                       : point->source);
   }
   return tiles("Far from each other on it; E (GPa), T (MPa)", kExamples, 1, content);
 }
@@ -111,8 +129,8 @@ Eigen::MatrixX2d points_before(const SubfamilyMap& map, std::vector<pattern::Pat
   return points;
 }
 
-/// Barycentres of the corners of one triangle of the map, weights in quarters; empty when the map has no triangle that the
-/// edge rule admits.
+/// Barycentres of the corners of one triangle of the map, weights in quarters; empty when the map has no triangle that
+/// the edge rule admits.
 std::string interpolation_picture(const SubfamilyMap& map, PaperTable& table) {
   std::vector<pattern::Pattern> members;
   const Eigen::MatrixX2d points = points_before(map, members);
@@ -120,8 +138,11 @@ std::string interpolation_picture(const SubfamilyMap& map, PaperTable& table) {
   const auto triangles = families::candidate_triangles(points);
   if (triangles.empty()) return "";
   const auto difference = [&](const families::Triangle& t) {
-    const auto at = [&](int i) -> const pattern::Pattern& { return members[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])]; };
-    return pattern::pixel_difference(at(0), at(1)) + pattern::pixel_difference(at(1), at(2)) + pattern::pixel_difference(at(2), at(0));
+    const auto at = [&](int i) -> const pattern::Pattern& {
+      return members[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])];
+    };
+    return pattern::pixel_difference(at(0), at(1)) + pattern::pixel_difference(at(1), at(2)) +
+           pattern::pixel_difference(at(2), at(0));
   };
   const families::Triangle widest = *std::ranges::max_element(triangles, {}, difference);
   constexpr int kParts = 4;
@@ -147,70 +168,131 @@ std::string interpolation_picture(const SubfamilyMap& map, PaperTable& table) {
 }
 
 std::size_t count_of(const SubfamilyMap& map, bool interpolated) {
-  return static_cast<std::size_t>(std::ranges::count_if(map.points, [&](const MapPoint& p) { return (p.source == "interpolated") == interpolated; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      map.points, [&](const MapPoint& p) { return (p.source == "interpolated") == interpolated; }));
 }
 
 }  // namespace
 
 Exhibit map_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-16", .heading = "Figure 3-16: Isomap embeddings of the subfamilies", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-16",
+                  .heading = "Figure 3-16: Isomap embeddings of the subfamilies",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   if (source.maps.empty()) {
     exhibit.notes.push_back(kNoMaps);
     return exhibit;
   }
-  PaperTable table{.name = "figure-3-16", .columns = {{"family", ""}, {"seed", ""}, {"pattern", ""}, {"source", ""}, {"x", ""}, {"y", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}}, .rows = {}, .is_thesis = {}, .on_page = false};
+  PaperTable table{.name = "figure-3-16",
+                   .columns = {{"family", ""},
+                               {"seed", ""},
+                               {"pattern", ""},
+                               {"source", ""},
+                               {"x", ""},
+                               {"y", ""},
+                               {"modulus_pa", ""},
+                               {"toughness_pa", ""}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = false};
   for (const SubfamilyMap& map : source.maps) {
-    exhibit.figures.push_back({fmt::format("figure-3-16-{}-{}", map.family, map.seed), map_picture(map, true, fmt::format("{}, around {}", map.family, map.seed))});
+    exhibit.figures.push_back({fmt::format("figure-3-16-{}-{}", map.family, map.seed),
+                               map_picture(map, true, fmt::format("{}, around {}", map.family, map.seed))});
     exhibit.figures.push_back({fmt::format("figure-3-16-{}-{}-examples", map.family, map.seed), example_picture(map)});
     for (const MapPoint& p : map.points) {
-      table.add({text_cell(map.family), text_cell(map.seed), text_cell(p.pattern.key()), text_cell(p.source), number_cell(p.x), number_cell(p.y), gpa_cell(p.performance ? std::optional(p.performance->modulus_pa) : std::nullopt), mpa_cell(p.performance ? std::optional(p.performance->toughness_pa) : std::nullopt)});
+      table.add({text_cell(map.family), text_cell(map.seed), text_cell(p.pattern.key()), text_cell(p.source),
+                 number_cell(p.x), number_cell(p.y),
+                 gpa_cell(p.performance ? std::optional(p.performance->modulus_pa) : std::nullopt),
+                 mpa_cell(p.performance ? std::optional(p.performance->toughness_pa) : std::nullopt)});
     }
   }
-  exhibit.notes.push_back("Each point a pattern within 16 pixels of the seed; distances follow the earth mover's distance along ten neighbours. Bluer: stiffer, redder: tougher, over the range of the map. The thesis' maps hold 2000 to 3000 patterns.");
+  exhibit.notes.push_back(
+      "Each point a pattern within 16 pixels of the seed; distances follow the earth mover's distance along ten "
+      "neighbours. Bluer: stiffer, redder: tougher, over the range of the map. The thesis' maps hold 2000 to 3000 "
+      "patterns.");
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
 Exhibit interpolation_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-17", .heading = "Figure 3-17: Interpolation between three patterns", .notes = {}, .figures = {}, .tables = {}};
-  PaperTable table{.name = "figure-3-17", .columns = {{"family", ""}, {"seed", ""}, {"weights", ""}, {"pattern", ""}}, .rows = {}, .is_thesis = {}, .on_page = false};
+  Exhibit exhibit{.id = "figure-3-17",
+                  .heading = "Figure 3-17: Interpolation between three patterns",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
+  PaperTable table{.name = "figure-3-17",
+                   .columns = {{"family", ""}, {"seed", ""}, {"weights", ""}, {"pattern", ""}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = false};
   for (const SubfamilyMap& map : source.maps) {
     std::string picture = interpolation_picture(map, table);
-    if (!picture.empty()) exhibit.figures.push_back({fmt::format("figure-3-17-{}-{}", map.family, map.seed), std::move(picture)});
+    if (!picture.empty())
+      exhibit.figures.push_back({fmt::format("figure-3-17-{}-{}", map.family, map.seed), std::move(picture)});
     if (exhibit.figures.size() == 2) break;
   }
   if (exhibit.figures.empty()) {
-    exhibit.notes.push_back(source.maps.empty() ? kNoMaps : "No triangle of the maps satisfies the edge rule (longest edge 4 to 40 % of the diameter).");
+    exhibit.notes.push_back(
+        source.maps.empty()
+            ? kNoMaps
+            : "No triangle of the maps satisfies the edge rule (longest edge 4 to 40 % of the diameter).");
     return exhibit;
   }
-  exhibit.notes.push_back("Wasserstein barycentres of the corners of one Delaunay triangle of the map, with their weights; the three corners are the sources themselves.");
+  exhibit.notes.push_back(
+      "Wasserstein barycentres of the corners of one Delaunay triangle of the map, with their weights; the three "
+      "corners are the sources themselves.");
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }
 
 Exhibit refinement_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-18", .heading = "Figure 3-18: Maps before and after interpolation", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "figure-3-18",
+                  .heading = "Figure 3-18: Maps before and after interpolation",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   for (const SubfamilyMap& map : source.maps) {
     const bool has_before = std::ranges::any_of(map.points, [](const MapPoint& p) { return p.x_sampled.has_value(); });
     if (!has_before || count_of(map, true) == 0) continue;
     for (const bool refined : {false, true})
-      exhibit.figures.push_back({fmt::format("figure-3-18-{}-{}-{}", map.family, map.seed, refined ? "after" : "before"), map_picture(map, refined, fmt::format("{}, around {}: {}", map.family, map.seed, refined ? "after" : "before"))});
+      exhibit.figures.push_back(
+          {fmt::format("figure-3-18-{}-{}-{}", map.family, map.seed, refined ? "after" : "before"),
+           map_picture(map, refined,
+                       fmt::format("{}, around {}: {}", map.family, map.seed, refined ? "after" : "before"))});
   }
-  if (exhibit.figures.empty()) exhibit.notes.push_back(source.maps.empty() ? kNoMaps : "Interpolation added no pattern to any of the maps.");
-  else exhibit.notes.push_back("Left the patterns of dense sampling, right the map of them and of what interpolation added.");
+  if (exhibit.figures.empty())
+    exhibit.notes.push_back(source.maps.empty() ? kNoMaps : "Interpolation added no pattern to any of the maps.");
+  else
+    exhibit.notes.push_back(
+        "Left the patterns of dense sampling, right the map of them and of what interpolation added.");
   return exhibit;
 }
 
 Exhibit growth_appendix(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-a-7", .heading = "Table A.7: Growth of the subfamilies by interpolation", .notes = {}, .figures = {}, .tables = {}};
+  Exhibit exhibit{.id = "table-a-7",
+                  .heading = "Table A.7: Growth of the subfamilies by interpolation",
+                  .notes = {},
+                  .figures = {},
+                  .tables = {}};
   if (source.maps.empty()) {
     exhibit.notes.push_back(kNoMaps + " The thesis' eleven subfamilies grew by 4.52 % in all (1.75 to 7.15 %).");
     return exhibit;
   }
-  PaperTable table{.name = "table-a-7", .columns = {{"family", "family"}, {"seed", "subfamily"}, {"before", "before"}, {"after", "after"}, {"growth", "increase"}}, .rows = {}, .is_thesis = {}, .on_page = true};
+  PaperTable table{.name = "table-a-7",
+                   .columns = {{"family", "family"},
+                               {"seed", "subfamily"},
+                               {"before", "before"},
+                               {"after", "after"},
+                               {"growth", "increase"}},
+                   .rows = {},
+                   .is_thesis = {},
+                   .on_page = true};
   std::size_t before = 0, after = 0;
   const auto row = [&](const std::string& family, Cell seed, std::size_t sampled, std::size_t all, bool thesis) {
-    table.add({text_cell(family), std::move(seed), text_cell(std::to_string(sampled)), text_cell(std::to_string(all)), share_cell(static_cast<double>(all - sampled) / static_cast<double>(sampled))}, thesis);
+    table.add({text_cell(family), std::move(seed), text_cell(std::to_string(sampled)), text_cell(std::to_string(all)),
+               share_cell(static_cast<double>(all - sampled) / static_cast<double>(sampled))},
+              thesis);
   };
   for (const SubfamilyMap& map : source.maps) {
     row(map.family, design_cell(map.seed), count_of(map, false), map.points.size(), false);
@@ -219,7 +301,8 @@ Exhibit growth_appendix(const PaperSource& source) {
   }
   row("all", text_cell(""), before, after, false);
   row("thesis, all 11", text_cell(""), 24656, 25771, true);
-  exhibit.notes.push_back("Growth depends on how dense the map is: few patterns leave wide triangles, and more room between them.");
+  exhibit.notes.push_back(
+      "Growth depends on how dense the map is: few patterns leave wide triangles, and more room between them.");
   exhibit.tables.push_back(std::move(table));
   return exhibit;
 }

@@ -85,7 +85,8 @@ game::DesignValues as_measured(const optimize::Performance& simulated, const tes
 }
 
 /// Whether two sets of eta are the same to a test of this design: of a pure material only its own constants count.
-bool same_toughness_model(const pattern::Design& design, const material::ToughnessParameters& a, const material::ToughnessParameters& b) {
+bool same_toughness_model(const pattern::Design& design, const material::ToughnessParameters& a,
+                          const material::ToughnessParameters& b) {
   const std::string name = design.name();
   if (a.gamma_per_s != b.gamma_per_s) return false;
   if (name == "soft") return a.e_tb_pa == b.e_tb_pa && a.nu_tb == b.nu_tb && a.w_tb_j_per_m3 == b.w_tb_j_per_m3;
@@ -105,10 +106,12 @@ Answers answers_in(const FarmTalk& talk, const std::map<int, material::Parameter
       if (own.extensions != request.parameters.extensions) continue;
       const bool modulus = request.modulus && own.modulus == request.parameters.modulus;
       for (const wire::SimulatedDesign& design : answer->second) {
-        const bool toughness = request.toughness && same_toughness_model(design.design, own.toughness, request.parameters.toughness);
+        const bool toughness =
+            request.toughness && same_toughness_model(design.design, own.toughness, request.parameters.toughness);
         if (!design.failure.empty() || (!modulus && !toughness)) continue;
         game::DesignValues& values = answers[round][design.design.name()];
-        const game::DesignValues shown = as_measured({design.modulus_pa, design.toughness_pa}, design.curve, model.extensions);
+        const game::DesignValues shown =
+            as_measured({design.modulus_pa, design.toughness_pa}, design.curve, model.extensions);
         if (modulus) values.modulus_pa = shown.modulus_pa;
         if (toughness) values.toughness_pa = shown.toughness_pa;
       }
@@ -121,7 +124,8 @@ Answers answers_in(const FarmTalk& talk, const std::map<int, material::Parameter
 void add_recorded(const store::RunRecord& run, Answers& answers) {
   for (const auto& [number, round] : run.rounds) {
     const material::Extensions extensions = extensions_of(round);
-    const auto add = [&, &known = answers[number]](const std::string& design, const optimize::Performance& simulated, const tester::Curve& curve) {
+    const auto add = [&, &known = answers[number]](const std::string& design, const optimize::Performance& simulated,
+                                                   const tester::Curve& curve) {
       const game::DesignValues shown = as_measured(simulated, curve, extensions);
       game::DesignValues& values = known[design];
       if (!values.modulus_pa) values.modulus_pa = shown.modulus_pa;
@@ -135,10 +139,12 @@ void add_recorded(const store::RunRecord& run, Answers& answers) {
 
 std::map<int, material::ParameterSet> adopted_models(const fs::path& run_dir) {
   std::map<int, material::ParameterSet> models;
-  each_message(run_dir, "validation_agent", [&](const std::string& channel, const std::string& payload, bool is_output) {
-    if (channel != "PARAMETERS" || !is_output) return;
-    if (const auto model = wire::read<wire::AdoptedModel>(payload)) models[model->round] = model->parameters;
-  });
+  each_message(run_dir, "validation_agent",
+               [&](const std::string& channel, const std::string& payload, bool is_output) {
+                 if (channel != "PARAMETERS" || !is_output) return;
+                 if (const auto model = wire::read<wire::AdoptedModel>(payload))
+                   models[model->round] = model->parameters;
+               });
   return models;
 }
 

@@ -99,7 +99,8 @@ Ink family_ink(std::size_t family) {
 std::string standalone(const std::string& svg) {
   const std::size_t end = svg.find('>');
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg.substr(0, end) +
-         " xmlns=\"http://www.w3.org/2000/svg\" style=\"background: #fff; font-family: Helvetica, Arial, sans-serif\">\n<style>" +
+         " xmlns=\"http://www.w3.org/2000/svg\" style=\"background: #fff; font-family: Helvetica, Arial, "
+         "sans-serif\">\n<style>" +
          std::string(kLightColours) + std::string(kFigureStyle) + "</style>" + svg.substr(end + 1);
 }
 
@@ -202,8 +203,8 @@ void Plot::coloured(std::span<const Point> points, std::span<const std::string> 
   constexpr double kHalf = 1.9;
   for (std::size_t i = 0; i < points.size() && i < colours.size(); ++i) {
     if (!is_finite(points[i])) continue;
-    marks_ += fmt::format("<path fill=\"{}\" d=\"M{:.1f} {:.1f}h{}v{}h-{}Z\"/>\n", escaped(colours[i]), px(points[i].x) - kHalf,
-                          py(points[i].y) - kHalf, 2 * kHalf, 2 * kHalf, 2 * kHalf);
+    marks_ += fmt::format("<path fill=\"{}\" d=\"M{:.1f} {:.1f}h{}v{}h-{}Z\"/>\n", escaped(colours[i]),
+                          px(points[i].x) - kHalf, py(points[i].y) - kHalf, 2 * kHalf, 2 * kHalf, 2 * kHalf);
   }
 }
 

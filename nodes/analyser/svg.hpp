@@ -27,7 +27,19 @@ Range range_with_zero(std::span<const double> values);
 std::string escaped(std::string_view text);
 
 /// What a mark stands for. The same ink has the same meaning in every figure of the report.
-enum class Ink { simulated, measured, earlier, homogeneous, thesis, family_1, family_2, family_3, family_4, family_5, family_6 };
+enum class Ink {
+  simulated,
+  measured,
+  earlier,
+  homogeneous,
+  thesis,
+  family_1,
+  family_2,
+  family_3,
+  family_4,
+  family_5,
+  family_6
+};
 
 /// The ink of the n-th family, from 0; the seventh has the first one's again.
 Ink family_ink(std::size_t family);
@@ -84,7 +96,8 @@ class Plot {
   std::vector<LegendEntry> legend_;
 };
 
-/// A picture of the page as a file of its own, light whatever the viewer's scheme: name space and style sheet are put in.
+/// A picture of the page as a file of its own, light whatever the viewer's scheme: name space and style sheet are put
+/// in.
 std::string standalone(const std::string& svg);
 
 }  // namespace nacre::analyser

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/node_core.hpp"
 #include "diagnosis/modulus_floor.hpp"
+#include "runtime/node_core.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::analyser {

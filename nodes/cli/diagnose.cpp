@@ -12,8 +12,8 @@
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
 #include "output.hpp"
-#include "shipped_files.hpp"
 #include "progress.hpp"
+#include "shipped_files.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -33,23 +33,29 @@ struct Options {
 
 void print_candidates(const diagnosis::Diagnosis& d) {
   for (const diagnosis::Candidate& c : d.candidates) {
-    fmt::print("  {:<22} {:<10} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:.1f}\n", c.name, c.status, c.statistic, c.p_family_wise, 100 * c.absorption,
-               c.signal_to_noise);
+    fmt::print("  {:<22} {:<10} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:.1f}\n", c.name, c.status,
+               c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise);
   }
   for (std::size_t i = 0; i < d.contrasts.size() && i < 3; ++i) {
-    fmt::print("  residuals along {}: {:.1f} standard deviations (p {:.4f})\n", d.contrasts[i].name, d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
+    fmt::print("  residuals along {}: {:.1f} standard deviations (p {:.4f})\n", d.contrasts[i].name,
+               d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    fmt::print("  next: {} of {} at {:.0f} degrees, {} specimens: {}\n", tester::to_string(e.test), e.design.name(), e.conditions.orientation_deg, e.replicates, e.reason);
+    fmt::print("  next: {} of {} at {:.0f} degrees, {} specimens: {}\n", tester::to_string(e.test), e.design.name(),
+               e.conditions.orientation_deg, e.replicates, e.reason);
   }
 }
 
 int diagnose_table(const Options& options) {
-  const std::vector<diagnosis::Trend> trends = diagnosis::table_trends(options.table, options.measured, options.predicted, options.seed);
+  const std::vector<diagnosis::Trend> trends =
+      diagnosis::table_trends(options.table, options.measured, options.predicted, options.seed);
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const diagnosis::Trend& t : trends) {
-    document.push_back({{"column", t.column}, {"spearman", t.spearman}, {"p_family_wise", t.p_family_wise}, {"rows", t.rows}});
-    if (!options.json) fmt::print("{:<32} rank correlation {:+.3f}  p {:.4f}  ({} rows)\n", t.column, t.spearman, t.p_family_wise, t.rows);
+    document.push_back(
+        {{"column", t.column}, {"spearman", t.spearman}, {"p_family_wise", t.p_family_wise}, {"rows", t.rows}});
+    if (!options.json)
+      fmt::print("{:<32} rank correlation {:+.3f}  p {:.4f}  ({} rows)\n", t.column, t.spearman, t.p_family_wise,
+                 t.rows);
   }
   if (options.json) print_json({{"trends", document}});
   return 0;
@@ -63,23 +69,27 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
   settings.floor = diagnosis::read_modulus_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
-  settings.fracture_numerics = diagnosis::read_fracture_numerics(numerics_floor_file(options.numerics_floor), settings.fidelity);
+  settings.fracture_numerics =
+      diagnosis::read_fracture_numerics(numerics_floor_file(options.numerics_floor), settings.fidelity);
   settings.store = options.store;
   settings.search_budget = options.search_budget;
   return settings;
 }
 
 /// Fracture tests take part when asked for: their thresholds are not yet proven against the virtual laboratory.
-std::vector<measurement::SpecimenRecord> taking_part(std::vector<measurement::SpecimenRecord> specimens, const Options& options) {
+std::vector<measurement::SpecimenRecord> taking_part(std::vector<measurement::SpecimenRecord> specimens,
+                                                     const Options& options) {
   const auto notched = [](const measurement::SpecimenRecord& s) { return s.test == tester::TestKind::toughness; };
-  if (!options.fracture && std::erase_if(specimens, notched) > 0) remark("toughness specimens are left out; --fracture takes them in");
+  if (!options.fracture && std::erase_if(specimens, notched) > 0)
+    remark("toughness specimens are left out; --fracture takes them in");
   return specimens;
 }
 
 std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
 
 int plan(const Options& options) {
-  if (options.set.empty()) throw InputError("nacre diagnose --plan needs a measurement set, with or without measured values");
+  if (options.set.empty())
+    throw InputError("nacre diagnose --plan needs a measurement set, with or without measured values");
   const measurement::MeasurementSet set = measurement::read_planned_set(options.set);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
@@ -91,14 +101,17 @@ int plan(const Options& options) {
     print_json(nlohmann::ordered_json::parse(to_json(plan)));
     return 0;
   }
-  fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and told from every other\n", plan.specimens, plan.groups);
+  fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and told from every other\n", plan.specimens,
+             plan.groups);
   for (const diagnosis::PlannedEffect& e : plan.effects) {
-    fmt::print("  {:<22} {:<10} seen from {:>9}  told apart from {:>9}  {:<24} most like {} ({:.2f})\n", e.name, e.status, size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
+    fmt::print("  {:<22} {:<10} seen from {:>9}  told apart from {:>9}  {:<24} most like {} ({:.2f})\n", e.name,
+               e.status, size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
                e.nearest_rival.empty() ? "none" : e.nearest_rival, e.rival_cosine);
   }
   for (const diagnosis::PlannedAddition& a : plan.additions) {
     fmt::print("add {} ({} x {} specimens):\n", a.words, a.specimens.size(), a.replicates);
-    for (const auto& c : a.changes) fmt::print("    {}: {} -> {}, told apart from {}\n", c.effect, c.from, c.to, size_or_dash(c.told_apart_from));
+    for (const auto& c : a.changes)
+      fmt::print("    {}: {} -> {}, told apart from {}\n", c.effect, c.from, c.to, size_or_dash(c.told_apart_from));
   }
   return 0;
 }
@@ -106,7 +119,8 @@ int plan(const Options& options) {
 int diagnose(const Options& options) {
   if (options.plan) return plan(options);
   if (!options.table.empty()) return diagnose_table(options);
-  if (options.set.empty()) throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
+  if (options.set.empty())
+    throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
@@ -114,7 +128,8 @@ int diagnose(const Options& options) {
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
   const diagnosis::Diagnosis d = diagnosis::diagnose(taking_part(set.specimens, options), settings);
   progress.end();
-  if (!options.report.empty()) write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
+  if (!options.report.empty())
+    write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {
     print_json(nlohmann::ordered_json::parse(to_json(d)));
   } else {
@@ -128,17 +143,29 @@ int diagnose(const Options& options) {
 
 void add_diagnose(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "diagnose", "Show what the simulation gets wrong about measurements, and why", options, diagnose);
+  CLI::App& command = add_command(app, action, "diagnose",
+                                  "Show what the simulation gets wrong about measurements, and why", options, diagnose);
   command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
   command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
-  command.add_option("--numerics-floor", options->numerics_floor, "What the tester's elements leave of an error (data/numerics_floor.toml)");
-  command.add_flag("--fracture", options->fracture, "Toughness specimens with their curves take part (not yet proven by blind trials)");
-  command.add_flag("--plan", options->plan, "Before anything is measured: what these specimens could tell apart, and which few more would help");
+  command.add_option("--numerics-floor", options->numerics_floor,
+                     "What the tester's elements leave of an error (data/numerics_floor.toml)");
+  command.add_flag("--fracture", options->fracture,
+                   "Toughness specimens with their curves take part (not yet proven by blind trials)");
+  command.add_flag("--plan", options->plan,
+                   "Before anything is measured: what these specimens could tell apart, and which few more would help");
   command.add_option("--report", options->report, "One self-contained HTML page for the person who measured");
-  command.add_option("--store", options->store, "File that keeps fracture simulations, so that an interrupted diagnosis goes on (the one of nacre calibrate serves too)");
-  command.add_option("--search", options->search_budget, "Evaluations of the fracture tests in search of a base fit; 0: begin at --params")->check(CLI::Range(0, 1000))->capture_default_str();
-  command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")->check(CLI::Range(1000, 1'000'000))->capture_default_str();
+  command.add_option("--store", options->store,
+                     "File that keeps fracture simulations, so that an interrupted diagnosis goes on (the one of nacre "
+                     "calibrate serves too)");
+  command
+      .add_option("--search", options->search_budget,
+                  "Evaluations of the fracture tests in search of a base fit; 0: begin at --params")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")
+      ->check(CLI::Range(1000, 1'000'000))
+      ->capture_default_str();
   command.add_option("--seed", options->seed, "Of the resampling")->capture_default_str();
   command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");
   command.add_option("--measured", options->measured, "Column of measured values in --table")->needs("--table");

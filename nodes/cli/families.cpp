@@ -52,7 +52,8 @@ struct Options {
   bool json = false;
 };
 
-/// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated again.
+/// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated
+/// again.
 struct StagedFamily {
   wire::Family stated;
   std::vector<explore::Evaluated> variants;
@@ -139,8 +140,9 @@ sysid::Calibrated family_model(const Family& family, const Beginning& beginning,
   for (const measurement::Replicates& group : beginning.measured)
     settings.weights.push_back(families::calibration_weight(family, *game::eightfold_pattern(group.design)));
   Progress progress(family.name + ": calibrating");
-  return sysid::run_calibration(beginning.measured, settings, simulator,
-                                [&](double share, std::string_view what) { progress.set_share(share, std::string(what)); });
+  return sysid::run_calibration(beginning.measured, settings, simulator, [&](double share, std::string_view what) {
+    progress.set_share(share, std::string(what));
+  });
 }
 
 using Performances = std::map<Pattern, optimize::Performance>;
@@ -189,8 +191,10 @@ std::string map_csv(const families::Subfamily& subfamily, const Performances& pe
       before = fmt::format("{:.5g},{:.5g}", sampled.x(), sampled.y());
     }
     text += fmt::format("{},{},{:.5g},{:.5g},{},{:.4f}", pattern.key(),
-                        i == 0 ? "seed" : i < subfamily.sampled ? "sampled" : "interpolated", row.x(), row.y(), before,
-                        pattern.rigid_fraction());
+                        i == 0                  ? "seed"
+                        : i < subfamily.sampled ? "sampled"
+                                                : "interpolated",
+                        row.x(), row.y(), before, pattern.rigid_fraction());
     text += found == performances.end()
                 ? ",,\n"
                 : fmt::format(",{:.6g},{:.6g}\n", found->second.modulus_pa, found->second.toughness_pa);
@@ -252,7 +256,8 @@ nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked,
     features.push_back({std::string(mechanism.name), {}});
   }
   for (const Cracked& each : cracked) {
-    text += fmt::format("\n{},{:.4f},{:.6g},{:.6g}", each.pattern.key(), each.pattern.rigid_fraction(), each.modulus_pa, each.toughness_pa);
+    text += fmt::format("\n{},{:.4f},{:.6g},{:.6g}", each.pattern.key(), each.pattern.rigid_fraction(), each.modulus_pa,
+                        each.toughness_pa);
     controls[0].values.push_back(each.pattern.rigid_fraction());
     controls[1].values.push_back(each.modulus_pa);
     outcome.values.push_back(each.toughness_pa);
@@ -266,8 +271,11 @@ nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked,
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   if (cracked.size() < 20) return document;  // nothing could be said
   for (const families::Association& each : families::associations(features, outcome, controls, seed))
-    document.push_back({{"mechanism", each.feature}, {"patterns", cracked.size()}, {"spearman_with_toughness", each.spearman},
-                        {"partial", each.partial}, {"p_family_wise", each.p_family_wise}});
+    document.push_back({{"mechanism", each.feature},
+                        {"patterns", cracked.size()},
+                        {"spearman_with_toughness", each.spearman},
+                        {"partial", each.partial},
+                        {"p_family_wise", each.p_family_wise}});
   return document;
 }
 
@@ -327,12 +335,14 @@ void print_family(const nlohmann::ordered_json& family) {
                map["seed"].get<std::string>(), map["sampled"].get<int>(), map["interpolated"].get<int>(),
                100.0 * map["growth"].get<double>(), 100.0 * (1.0 - map["residual_variance"].get<double>()));
   if (family["mechanisms"].empty()) return;
-  fmt::print("  what goes with toughness among patterns of equal rigid fraction and modulus ({} broken; evidence, not cause):\n",
-             family["mechanisms"][0]["patterns"].get<int>());
+  fmt::print(
+      "  what goes with toughness among patterns of equal rigid fraction and modulus ({} broken; evidence, not "
+      "cause):\n",
+      family["mechanisms"][0]["patterns"].get<int>());
   for (const auto& found : family["mechanisms"]) {
     const double p = found["p_family_wise"].get<double>();
-    fmt::print("    {:<11} {:+.2f}, p {:.3f}{}\n", found["mechanism"].get<std::string>(), found["partial"].get<double>(), p,
-               p < kEstablished ? "" : ": no more than chance would give");
+    fmt::print("    {:<11} {:+.2f}, p {:.3f}{}\n", found["mechanism"].get<std::string>(),
+               found["partial"].get<double>(), p, p < kEstablished ? "" : ": no more than chance would give");
   }
 }
 
@@ -373,23 +383,30 @@ int find_families(const Options& options) {
 
 void add_families(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(
-      app, action, "families", "Group the best measured designs, sample around them, and map what was found", options,
-      find_families);
+  CLI::App& command = add_command(app, action, "families",
+                                  "Group the best measured designs, sample around them, and map what was found",
+                                  options, find_families);
   command.add_option("SET", options->set, "Measurement set; default: what the run has measured");
   add_run_option(command, options->run);
-  command.add_option("--params", options->params, "Parameter file; default: the run's adopted model, or the built-in parameters");
-  command.add_option("--out", options->out, "Folder, default RUN/families or families; families.toml in it may be edited, then call again");
-  command.add_flag("--propose", options->propose, "Write families.toml alone: to be edited, also before the family stage of a game");
+  command.add_option("--params", options->params,
+                     "Parameter file; default: the run's adopted model, or the built-in parameters");
+  command.add_option("--out", options->out,
+                     "Folder, default RUN/families or families; families.toml in it may be edited, then call again");
+  command.add_flag("--propose", options->propose,
+                   "Write families.toml alone: to be edited, also before the family stage of a game");
   command.add_option("--fidelity", options->fidelity, "Size of the specimens; default: the run's, or full");
   command.add_option("--samples", options->samples, "Patterns of a family (thesis: 2000 to 3000 around each seed)")
       ->check(CLI::Range(4, 100'000))
       ->capture_default_str();
-  command.add_option("--rank", options->rank, "Near-Pareto: non-dominated up to this rank")->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--rank", options->rank, "Near-Pareto: non-dominated up to this rank")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
   command.add_option("--calibration", options->calibration, "Evaluations of a family's own calibration; 0: none")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
-  command.add_option("--cracks", options->cracks, "Patterns of a family whose cracks are looked at; from 20 on mechanisms are compared")
+  command
+      .add_option("--cracks", options->cracks,
+                  "Patterns of a family whose cracks are looked at; from 20 on mechanisms are compared")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor, "Default: data/numerics_floor.toml");

@@ -58,16 +58,16 @@ class Scratch {
 /// The node as its own program makes it, except that its work writes into the scratch folder and its cache begins
 /// empty.
 runtime::NodeProgram make_node(const std::string& node, const game::Scenario& scenario, const fs::path& scratch) {
-  if (node == "validation_agent") return {.core = validation_agent::make_core(scenario), .work = validation_agent::work_functions(scratch)};
+  if (node == "validation_agent")
+    return {.core = validation_agent::make_core(scenario), .work = validation_agent::work_functions(scratch)};
   if (node == "proposal_agent") {
     return {.core = proposal_agent::make_core(scenario), .work = proposal_agent::work_functions()};
   }
   if (node == "analyser") return {.core = analyser::make_core(scenario), .work = analyser::work_functions(scratch)};
   if (node == "simulator_farm") {
-    return {
-        .core = simulator_farm::make_core(scenario),
-        .work = simulator_farm::work_functions(std::make_shared<store::SimulationCache>(scratch / "simulations.db"),
-                                                scratch / "films")};
+    return {.core = simulator_farm::make_core(scenario),
+            .work = simulator_farm::work_functions(std::make_shared<store::SimulationCache>(scratch / "simulations.db"),
+                                                   scratch / "films")};
   }
   return make_laboratory(scenario);
 }

@@ -42,12 +42,8 @@ Statuses collect(const RunAccess& run, double seconds) {
 }
 
 nlohmann::ordered_json to_json(const std::string& node, const node_status_t& s) {
-  nlohmann::ordered_json document = {{"node", node},
-                                     {"ready", bool(s.ready)},
-                                     {"finished", bool(s.finished)},
-                                     {"phase", s.phase},
-                                     {"round", s.round},
-                                     {"progress", s.progress},
+  nlohmann::ordered_json document = {{"node", node},     {"ready", bool(s.ready)}, {"finished", bool(s.finished)},
+                                     {"phase", s.phase}, {"round", s.round},       {"progress", s.progress},
                                      {"eta_s", s.eta_s}};
   wire::append_counters(document, s);
   return document;
@@ -68,8 +64,9 @@ void print_table(const RunAccess& run, const Statuses& statuses) {
                                  .restarts = 0,
                                  .problem = s.last_problem};
     fmt::print("{}\n", runtime::node_line(view, columns > 0 ? columns : 200));
-    fmt::print("{:18}received {}, published {}, sent again {}, repeated {}, rejected {}, lost {}, dropped by the system {}\n",
-               "", s.received, s.published, s.retries, s.duplicates, s.rejected, s.lost, s.dropped);
+    fmt::print(
+        "{:18}received {}, published {}, sent again {}, repeated {}, rejected {}, lost {}, dropped by the system {}\n",
+        "", s.received, s.published, s.retries, s.duplicates, s.rejected, s.lost, s.dropped);
     fmt::print("{:18}queues: {} to read, {} to acknowledge, {} waiting for ACK, {} to compute; journal {:.1f} MB\n", "",
                s.queued, s.owed, s.unacknowledged, s.computing, 1e-6 * static_cast<double>(s.journal_bytes));
     if (!s.work.empty()) fmt::print("{:18}{}\n", "", s.work);

@@ -42,8 +42,8 @@ std::string work(const std::string& spec) {
   proposal.gamut_hypervolume_staircase = optimize::hypervolume_staircase_gpa_mpa(performances);
   proposal.gamut_hypervolume_polygon = optimize::hypervolume_polygon_gpa_mpa(performances);
   proposal.simulations = selection.simulations;
-  for (const select::Selected& each : select::select_with_reserve(
-           std::move(gamut), selection.model.measured, selection.model.benchmark, selection.count)) {
+  for (const select::Selected& each : select::select_with_reserve(std::move(gamut), selection.model.measured,
+                                                                  selection.model.benchmark, selection.count)) {
     proposal.designs.push_back({.design = each.pattern,
                                 .modulus_pa = each.predicted.modulus_pa,
                                 .toughness_pa = each.predicted.toughness_pa,

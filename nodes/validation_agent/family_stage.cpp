@@ -46,7 +46,8 @@ std::vector<measurement::Replicates> unmeasured(const std::vector<pattern::Patte
 
 sysid::WantedEvaluation evaluation_of_all(const std::string& id, const material::ParameterSet& parameters,
                                           std::size_t count) {
-  sysid::WantedEvaluation evaluation{.id = id, .parameters = parameters, .modulus = true, .toughness = true, .items = {}};
+  sysid::WantedEvaluation evaluation{
+      .id = id, .parameters = parameters, .modulus = true, .toughness = true, .items = {}};
   for (std::size_t item = 0; item < count; ++item) evaluation.items.push_back(item);
   return evaluation;
 }
@@ -82,7 +83,8 @@ void FamilyStage::accept_work(const runtime::WorkDone& work, runtime::Outputs& o
     std::erase_if(beginning_.measured, [&](const measurement::Replicates& each) {
       const pattern::Pattern pattern = pattern_of(each);
       return std::ranges::count(near, pattern, &families::Member::pattern) == 0 &&
-             std::ranges::none_of(groups_, [&](const families::Family& f) { return std::ranges::count(f.seeds, pattern) > 0; });
+             std::ranges::none_of(groups_,
+                                  [&](const families::Family& f) { return std::ranges::count(f.seeds, pattern) > 0; });
     });
     begin_family(outputs);
   } else if (step_ == Step::sampling && work.id == label("sample")) {
@@ -105,7 +107,9 @@ void FamilyStage::accept_answer(wire::SimulateResult part, runtime::Outputs& out
   }
 }
 
-std::string FamilyStage::label(const char* what) const { return fmt::format("families/{}/{}", families_.size() - 1, what); }
+std::string FamilyStage::label(const char* what) const {
+  return fmt::format("families/{}/{}", families_.size() - 1, what);
+}
 
 void FamilyStage::ask(const FarmBatch& batch, runtime::Outputs& outputs) {
   for (const wire::SimulateRequest& request : questions_.ask(batch))
@@ -126,7 +130,8 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
   family.count = static_cast<int>(groups_.size());
   family.name = group.name;
   for (const pattern::Pattern& seed : group.seeds)
-    family.designs.push_back({.pattern = seed, .is_seed = true, .measured = measured_values(seed), .global_model = {}, .family_model = {}});
+    family.designs.push_back(
+        {.pattern = seed, .is_seed = true, .measured = measured_values(seed), .global_model = {}, .family_model = {}});
   sysid::CalibrationSettings settings;
   settings.start = beginning_.model;
   settings.modulus_budget = scenario_.families.modulus_evaluations;
@@ -143,7 +148,10 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
 
 void FamilyStage::calibrate_on(runtime::Outputs& outputs) {
   if (!fitting_->finished()) {
-    return ask({.label = label("c"), .wanted = fitting_->wanted(), .measured = fitting_->measured(), .fidelity = scenario_.fidelity},
+    return ask({.label = label("c"),
+                .wanted = fitting_->wanted(),
+                .measured = fitting_->measured(),
+                .fidelity = scenario_.fidelity},
                outputs);
   }
   families_.back().parameters = fitting_->result().parameters;
@@ -184,7 +192,8 @@ void FamilyStage::choose(runtime::Outputs& outputs) {
   family.samples = static_cast<int>(gamut_.size());
   for (const select::Selected& each :
        select::select_with_reserve(gamut_, beginning_.settled, beginning_.benchmark, scenario_.families.designs)) {
-    family.designs.push_back({.pattern = each.pattern, .is_seed = false, .measured = {}, .global_model = {}, .family_model = {}});
+    family.designs.push_back(
+        {.pattern = each.pattern, .is_seed = false, .measured = {}, .global_model = {}, .family_model = {}});
     beginning_.settled.push_back(each.pattern);  // families may overlap
     say(outputs, LogLevel::info, fmt::format("{}: {} chosen, {}", family.name, each.pattern.key(), each.reason));
   }
@@ -250,10 +259,13 @@ void FamilyStage::conclude(const std::vector<measurement::Replicates>& measured,
     say(outputs, LogLevel::info,
         fmt::format("{}: on its measured variants the global model misses by {}, its own by {}", family.name,
                     errors_in_words(errors.chosen_global), errors_in_words(errors.chosen_family)));
-    for (const auto& [over_fits, what] : {std::pair{errors.over_fits_modulus(), "E"}, std::pair{errors.over_fits_toughness(), "T"}}) {
+    for (const auto& [over_fits, what] :
+         {std::pair{errors.over_fits_modulus(), "E"}, std::pair{errors.over_fits_toughness(), "T"}}) {
       if (over_fits)
         say(outputs, LogLevel::warning,
-            fmt::format("{}: its own model over-fits {}: nearer to the seeds than the global one, farther from the variants", family.name, what));
+            fmt::format(
+                "{}: its own model over-fits {}: nearer to the seeds than the global one, farther from the variants",
+                family.name, what));
     }
   }
 }

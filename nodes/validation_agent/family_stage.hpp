@@ -18,8 +18,8 @@ namespace nacre::validation_agent {
 
 /// What the game leaves to the stage.
 struct StageBeginning {
-  int round = 0;                     ///< that the chosen designs are ordered in
-  material::ParameterSet model;      ///< of the last round
+  int round = 0;                                  ///< that the chosen designs are ordered in
+  material::ParameterSet model;                   ///< of the last round
   std::vector<measurement::Replicates> measured;  ///< patterns measured in both tests
   std::vector<optimize::Performance> benchmark;
   std::vector<pattern::Pattern> settled;  ///< not worth choosing again
@@ -27,8 +27,8 @@ struct StageBeginning {
 };
 
 /// Grouping -> for each family in turn: calibration, dense sampling, simulation of the variants, selection of 2.3.4,
-/// predictions of both models, FAMILY and FAMILY_GAMUT -> measurements, which whoever owns the stage orders -> FAMILY with
-/// them. A function of its inputs, as every core.
+/// predictions of both models, FAMILY and FAMILY_GAMUT -> measurements, which whoever owns the stage orders -> FAMILY
+/// with them. A function of its inputs, as every core.
 class FamilyStage {
  public:
   /// Whether there is anything to begin with.

@@ -55,9 +55,11 @@ std::string grouping_work(const std::filesystem::path& folder, const std::string
       const std::vector<families::Family> chosen = families::read_families(file);
       check_seeds(chosen, measured, file);
       // A file that says what would be proposed may be this program's own, from before a restart.
-      if (chosen != proposed) return answer(chosen, fmt::format("{} families of {}", chosen.size(), kFamiliesFile), false);
+      if (chosen != proposed)
+        return answer(chosen, fmt::format("{} families of {}", chosen.size(), kFamiliesFile), false);
     } catch (const InputError& error) {
-      return answer(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()), true);
+      return answer(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()),
+                    true);
     }
   }
   if (!folder.empty()) {

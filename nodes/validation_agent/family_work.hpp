@@ -28,8 +28,9 @@ std::string sampling_spec(const families::Family& family, int samples, std::uint
 /// The result of a sampling: seeds first.
 std::vector<pattern::Pattern> sample_from(const std::string& result);
 
-/// Work functions of the validation agent. RUN/families/families.toml holds the families: where a person left one, it is
-/// taken (and a faulty one passed over with a warning), else the proposal is written there. An empty folder: no file.
+/// Work functions of the validation agent. RUN/families/families.toml holds the families: where a person left one, it
+/// is taken (and a faulty one passed over with a warning), else the proposal is written there. An empty folder: no
+/// file.
 std::map<std::string, runtime::WorkFunction> work_functions(const std::filesystem::path& run_dir);
 
 }  // namespace nacre::validation_agent

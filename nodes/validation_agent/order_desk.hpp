@@ -33,8 +33,8 @@ class OrderDesk {
   std::vector<game::Order> open_round(int round, std::vector<pattern::Design> designs,
                                       std::vector<game::Experiment> experiments);
 
-  /// Opens the round of the family stage: designs chosen of families, which a person decides on under the number of this
-  /// round. Returns the orders that can go out at once.
+  /// Opens the round of the family stage: designs chosen of families, which a person decides on under the number of
+  /// this round. Returns the orders that can go out at once.
   std::vector<game::Order> open_family_round(int round, std::vector<pattern::Design> designs);
 
   /// A decision about a design of the proposal of `proposal_round`, before or after that round is opened. The first one
@@ -66,8 +66,8 @@ class OrderDesk {
   game::Scenario scenario_;
   std::vector<pattern::Pattern> random_patterns_;
   int round_ = 0;
-  int decided_under_ = -1;        // round that decisions about the open round's designs name
-  bool is_family_round_ = false;  // the open one
+  int decided_under_ = -1;                // round that decisions about the open round's designs name
+  bool is_family_round_ = false;          // the open one
   std::vector<pattern::Design> waiting_;  // of the open round, undecided
   std::vector<pattern::Design> own_;      // of persons, for the next round
   std::vector<game::Order> orders_;

@@ -139,8 +139,10 @@ void ValidationCore::begin_calibration(const material::ParameterSet& start) {
 
 void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
                               const std::vector<measurement::Replicates>& measured) {
-  for (const wire::SimulateRequest& request :
-       questions_.ask({.label = fmt::format("r{}/{}", round_, label), .wanted = wanted, .measured = measured, .fidelity = scenario_.fidelity})) {
+  for (const wire::SimulateRequest& request : questions_.ask({.label = fmt::format("r{}/{}", round_, label),
+                                              .wanted = wanted,
+                                              .measured = measured,
+                                              .fidelity = scenario_.fidelity})) {
     send("SIMULATE", request);
   }
 }
@@ -172,8 +174,8 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
       result, round_ == 0 ? "base_materials" : sysid::to_string(sysid::CalibrationSettings{}.toughness_search));
   for (const auto& [what, fit] : {std::pair{"E", provenance_.modulus_fit}, std::pair{"T", provenance_.toughness_fit}}) {
     if (fit.misfit())
-      say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom", round_, what,
-                                         fit.chi_squared, fit.freedom));
+      say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom",
+                                         round_, what, fit.chi_squared, fit.freedom));
   }
 }
 

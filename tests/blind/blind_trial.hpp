@@ -1,5 +1,6 @@
 #pragma once
-// Sealed trials: printed and measured by the virtual laboratory, diagnosed by `nacre diagnose` as a program of its own, opened for scoring.
+// Sealed trials: printed and measured by the virtual laboratory, diagnosed by `nacre diagnose` as a program of its own,
+// opened for scoring.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,8 @@ class Scratch {
 };
 
 /// Modulus specimens of random patterns over the strata, turned twins of the first, checkerboards of the periods given.
-inline std::vector<virtual_laboratory::Question> printed(std::uint64_t seed, int patterns, int twins, const std::vector<int>& checkerboards) {
+inline std::vector<virtual_laboratory::Question> printed(std::uint64_t seed, int patterns, int twins,
+                                                         const std::vector<int>& checkerboards) {
   RandomStream random(seed, "blind trial patterns");
   const std::vector<pattern::Pattern> drawn = pattern::stratified_patterns(patterns, random);
   std::vector<virtual_laboratory::Question> questions;
@@ -58,8 +60,10 @@ inline std::vector<virtual_laboratory::Question> printed(std::uint64_t seed, int
 }
 
 /// LAB.toml; `noise` is the content of its table [noise].
-inline std::string laboratory_file(int seed, const std::string& fidelity, const std::string& noise, const std::string& effect = "", const std::string& value = "") {
-  std::string toml = "seed = " + std::to_string(seed) + "\nfidelity = \"" + fidelity + "\"\nreplicates = 4\n[noise]\n" + noise;
+inline std::string laboratory_file(int seed, const std::string& fidelity, const std::string& noise,
+                                   const std::string& effect = "", const std::string& value = "") {
+  std::string toml =
+      "seed = " + std::to_string(seed) + "\nfidelity = \"" + fidelity + "\"\nreplicates = 4\n[noise]\n" + noise;
   if (!effect.empty()) toml += "[[effect]]\nname = \"" + effect + "\"\nvalue = " + value + "\n";
   return toml;
 }
@@ -74,9 +78,11 @@ using Questions = std::function<std::vector<virtual_laboratory::Question>(std::u
 /// In which batch a replicate is printed, both counted from 0.
 using BatchOf = std::function<int(const virtual_laboratory::Question&, int replicate)>;
 
-/// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and the opened truth.
-inline Trial run_trial(const std::string& laboratory, const Questions& questions, const std::string& fidelity,
-                       const BatchOf& batch_of = [](const virtual_laboratory::Question&, int replicate) { return replicate; }) {
+/// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and
+/// the opened truth.
+inline Trial run_trial(
+    const std::string& laboratory, const Questions& questions, const std::string& fidelity,
+    const BatchOf& batch_of = [](const virtual_laboratory::Question&, int replicate) { return replicate; }) {
   const Scratch scratch;
   Trial trial;
   trial.truth = virtual_laboratory::parse_laboratory(laboratory, "trial");
@@ -85,22 +91,29 @@ inline Trial run_trial(const std::string& laboratory, const Questions& questions
   for (const auto& question : questions(trial.truth.seed)) {
     const auto response = virtual_laboratory::respond(trial.truth, question);
     for (int i = 0; i < kReplicates; ++i) {
-      std::string name = question.design.name() + "-" + std::string(tester::to_string(question.test)) + (question.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
-      if (question.test == tester::TestKind::tensile) name += "-at-" + std::to_string(question.conditions.strain_rate_per_s);
-      records.push_back(virtual_laboratory::record_specimen(trial.truth, question, response, {name, "batch " + std::to_string(1 + batch_of(question, i)), ++print_order}));
+      std::string name = question.design.name() + "-" + std::string(tester::to_string(question.test)) +
+                         (question.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
+      if (question.test == tester::TestKind::tensile)
+        name += "-at-" + std::to_string(question.conditions.strain_rate_per_s);
+      records.push_back(virtual_laboratory::record_specimen(
+          trial.truth, question, response,
+          {name, "batch " + std::to_string(1 + batch_of(question, i)), ++print_order}));
     }
   }
   measurement::write_measurement_set(scratch.folder() / "set", records);
-  const std::string command = std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + (scratch.folder() / "set").string() + " --fidelity " + fidelity + " --json";
+  const std::string command = std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + (scratch.folder() / "set").string() +
+                              " --fidelity " + fidelity + " --json";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::string output;
   std::array<char, 4096> buffer{};
-  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;) output.append(buffer.data(), count);
+  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;)
+    output.append(buffer.data(), count);
   trial.diagnosis = nlohmann::json::parse(output);
   return trial;
 }
 
-/// The hidden effect alone is named, its size lies within `tolerance` (relative), and the extended model predicts held-out patterns better.
+/// The hidden effect alone is named, its size lies within `tolerance` (relative), and the extended model predicts
+/// held-out patterns better.
 inline void expect_found(const Trial& trial, const std::string& effect, double value, double tolerance) {
   const nlohmann::json& d = trial.diagnosis;
   ASSERT_EQ(d["verdict"], "named") << d["summary"] << d["candidates"].dump(1);

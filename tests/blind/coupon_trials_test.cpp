@@ -1,4 +1,5 @@
-// Blind trials of homogeneous coupons pulled at two rates. The same hidden cause, printed so that two causes look alike, and printed so that they do not.
+// Blind trials of homogeneous coupons pulled at two rates. The same hidden cause, printed so that two causes look
+// alike, and printed so that they do not.
 
 #include <gtest/gtest.h>
 
@@ -37,18 +38,24 @@ std::vector<std::string> possible(const Trial& trial) {
   return names;
 }
 
-// All fast coupons come from the second batch: batches that drift and materials that answer faster pulls more stiffly leave the same traces.
+// All fast coupons come from the second batch: batches that drift and materials that answer faster pulls more stiffly
+// leave the same traces.
 TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeToldApart) {
-  const Trial trial = run_trial(laboratory(51, "batch_drift", "0.08"), coupons, "tiny", [](const auto& question, int) { return question.conditions.strain_rate_per_s == kFast ? 1 : 0; });
+  const Trial trial = run_trial(laboratory(51, "batch_drift", "0.08"), coupons, "tiny", [](const auto& question, int) {
+    return question.conditions.strain_rate_per_s == kFast ? 1 : 0;
+  });
   EXPECT_EQ(trial.diagnosis["verdict"], "ambiguous") << trial.diagnosis["summary"];
-  EXPECT_EQ(possible(trial), (std::vector<std::string>{"batch_drift", "rate_dependence"})) << trial.diagnosis["summary"] << trial.diagnosis["candidates"].dump(1);
+  EXPECT_EQ(possible(trial), (std::vector<std::string>{"batch_drift", "rate_dependence"}))
+      << trial.diagnosis["summary"] << trial.diagnosis["candidates"].dump(1);
   EXPECT_TRUE(trial.diagnosis["effects"].empty());
-  EXPECT_NE(trial.diagnosis["summary"].get<std::string>().find("cannot tell"), std::string::npos) << trial.diagnosis["summary"];
+  EXPECT_NE(trial.diagnosis["summary"].get<std::string>().find("cannot tell"), std::string::npos)
+      << trial.diagnosis["summary"];
 }
 
 // The same drift with both rates in both batches. Means over both batches do not gain by it: replicates show it.
 TEST(BlindCouponTrials, BatchesThatHoldBothRatesShowTheirDrift) {
-  const Trial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny", [](const auto&, int replicate) { return replicate % 2; });
+  const Trial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny",
+                                [](const auto&, int replicate) { return replicate % 2; });
   ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
   ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "batch_drift");

@@ -1,5 +1,5 @@
-// Blind trials of the modulus side. The virtual laboratory, with numerics and constants of its own, hides an effect in a measurement
-// set; `nacre diagnose` sees the set alone; the answer is opened for scoring.
+// Blind trials of the modulus side. The virtual laboratory, with numerics and constants of its own, hides an effect in
+// a measurement set; `nacre diagnose` sees the set alone; the answer is opened for scoring.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,9 @@ std::vector<virtual_laboratory::Question> modulus_questions(std::uint64_t seed) 
 
 Trial play(const std::string& laboratory) { return run_trial(laboratory, modulus_questions, "full"); }
 
-std::string laboratory(int seed, const std::string& effect = "", const std::string& value = "") { return laboratory_file(seed, "full", "modulus = 0.01\n", effect, value); }
+std::string laboratory(int seed, const std::string& effect = "", const std::string& value = "") {
+  return laboratory_file(seed, "full", "modulus = 0.01\n", effect, value);
+}
 
 TEST(BlindModulusTrials, NothingHiddenIsBaseSufficient) {
   for (const int seed : {11, 12}) {
@@ -22,13 +24,19 @@ TEST(BlindModulusTrials, NothingHiddenIsBaseSufficient) {
   }
 }
 
-TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) { expect_found(play(laboratory(13, "interface_anisotropy", "0.4")), "interface_anisotropy", 0.4, 0.25); }
+TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) {
+  expect_found(play(laboratory(13, "interface_anisotropy", "0.4")), "interface_anisotropy", 0.4, 0.25);
+}
 
-// What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 % too small
-// (docs/studies/numerics-floor.md).
-TEST(BlindModulusTrials, DropletMixingIsFound) { expect_found(play(laboratory(14, "droplet_mixing", "0.6")), "droplet_mixing", 0.6, 0.25); }
+// What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 %
+// too small (docs/studies/numerics-floor.md).
+TEST(BlindModulusTrials, DropletMixingIsFound) {
+  expect_found(play(laboratory(14, "droplet_mixing", "0.6")), "droplet_mixing", 0.6, 0.25);
+}
 
-TEST(BlindModulusTrials, MachineComplianceIsFound) { expect_found(play(laboratory(15, "machine_compliance", "2e-10")), "machine_compliance", 2e-10, 0.25); }
+TEST(BlindModulusTrials, MachineComplianceIsFound) {
+  expect_found(play(laboratory(15, "machine_compliance", "2e-10")), "machine_compliance", 2e-10, 0.25);
+}
 
 TEST(BlindModulusTrials, AnEffectOutsideTheLibraryIsUnexplained) {
   const Trial trial = play(laboratory(16, "diagonal_debonding", "0.9"));

@@ -14,8 +14,9 @@
 #define NACRE_FUZZ_TARGETS(DO)                                                                                \
   DO(batch)                                                                                                   \
   DO(dashboard)                                                                                               \
-  DO(database) DO(film) DO(journal) DO(laboratory) DO(layout) DO(measurement_set) DO(messages) DO(parameters) \
-      DO(scenario) DO(specimen_sheet) DO(tables) DO(tester_export)
+  DO(database)                                                                                                \
+  DO(film) DO(journal) DO(laboratory) DO(layout) DO(measurement_set) DO(messages) DO(parameters) DO(scenario) \
+      DO(specimen_sheet) DO(tables) DO(tester_export)
 #define DECLARE(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
 NACRE_FUZZ_TARGETS(DECLARE)
 

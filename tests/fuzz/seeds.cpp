@@ -110,18 +110,28 @@ void add_batches(const Corpus& corpus) {
 
 void add_requests(const Corpus& corpus) {
   const std::string host = "host: 127.0.0.1:8765\n", cookie = "cookie: nacre_8765=0123456789abcdef\n";
-  const std::string entry = host + cookie + "x-nacre: 1\ncontent-type: application/json\ncontent-length: 9\norigin: http://127.0.0.1:8765\n\n";
+  const std::string entry =
+      host + cookie +
+      "x-nacre: 1\ncontent-type: application/json\ncontent-length: 9\norigin: http://127.0.0.1:8765\n\n";
   corpus.add("dashboard", "gamut", "GET /api/gamut\n" + host + cookie + "?round=1\n\n");
-  corpus.add("dashboard", "design", "GET /api/design\n" + host + "authorization: Bearer 0123456789abcdef\n?design=577fffe9fffdef\n\n");
-  corpus.add("dashboard", "between", "GET /api/between\n" + host + "?patterns=577fffe9fffdef,3ffc9b4ad4d2d9\n?weights=0.25,0.75\n\n");
+  corpus.add("dashboard", "design",
+             "GET /api/design\n" + host + "authorization: Bearer 0123456789abcdef\n?design=577fffe9fffdef\n\n");
+  corpus.add("dashboard", "between",
+             "GET /api/between\n" + host + "?patterns=577fffe9fffdef,3ffc9b4ad4d2d9\n?weights=0.25,0.75\n\n");
   corpus.add("dashboard", "map", "GET /api/map\n" + host + "?id=family-1/577fffe9fffdef\n\n");
   corpus.add("dashboard", "link", "GET /\n" + host + "?token=0123456789abcdef\n\n");
-  corpus.add("dashboard", "measurement", "POST /api/measurement\n" + entry +
-                 R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
-  corpus.add("dashboard", "review", "POST /api/review\n" + entry + R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
+  corpus.add(
+      "dashboard", "measurement",
+      "POST /api/measurement\n" + entry +
+          R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
+  corpus.add("dashboard", "review",
+             "POST /api/review\n" + entry + R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
   corpus.add("dashboard", "families", "GET /api/families\n" + host + cookie + "\n");
-  corpus.add("dashboard", "grouping", "POST /api/grouping\n" + entry + R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})");
-  corpus.add("dashboard", "approval", "POST /api/approval\n" + entry + R"({"design":"577fffe9fffdef","round":2,"approved":true,"by":"Ada","why":""})");
+  corpus.add("dashboard", "grouping",
+             "POST /api/grouping\n" + entry + R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})");
+  corpus.add(
+      "dashboard", "approval",
+      "POST /api/approval\n" + entry + R"({"design":"577fffe9fffdef","round":2,"approved":true,"by":"Ada","why":""})");
 }
 
 void add_texts(const Corpus& corpus) {

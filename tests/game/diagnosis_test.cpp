@@ -45,7 +45,8 @@ diagnosis_t nothing_wrong() {
   return diagnosis;
 }
 
-InProcessGame played(const game::Scenario& scenario, std::function<diagnosis_t(int)> diagnosis, const LaboratorySettings& laboratory = {}) {
+InProcessGame played(const game::Scenario& scenario, std::function<diagnosis_t(int)> diagnosis,
+                     const LaboratorySettings& laboratory = {}) {
   InProcessGame game;
   add_players(game, scenario, laboratory, std::move(diagnosis));
   game.announce(scenario);
@@ -68,16 +69,19 @@ InProcessGame played_with(const std::string& effect, double value, int rounds, c
   scenario.proposal.designs = 4;
   LaboratorySettings laboratory;
   laboratory.hidden[effect] = {value};
-  return played(scenario, [&](int round) { return names.contains(round) ? named(effect, value) : nothing_wrong(); }, laboratory);
+  return played(
+      scenario, [&](int round) { return names.contains(round) ? named(effect, value) : nothing_wrong(); }, laboratory);
 }
 
 std::vector<bool> adopted(const InProcessGame& game, const std::string& effect) {
   std::vector<bool> held;
-  for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS")) held.push_back(model.parameters.extensions.contains(effect));
+  for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS"))
+    held.push_back(model.parameters.extensions.contains(effect));
   return held;
 }
 
-// Round 1 names it, what it expects of the designs of later rounds comes true, so one of them adopts it; it is kept when it is no longer named.
+// Round 1 names it, what it expects of the designs of later rounds comes true, so one of them adopts it; it is kept
+// when it is no longer named.
 TEST(Diagnosis, AnEffectOfTheMaterialThatForetellsBetterExtendsTheModelOfTheSearch) {
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 2, 3});
   const std::vector<bool> held = adopted(game, "droplet_mixing");
@@ -119,7 +123,8 @@ TEST(Diagnosis, HeldOutErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
   ASSERT_LT(first, 4);
   const auto requests = game.said<wire::SimulateRequest>("SIMULATE");
   EXPECT_TRUE(std::any_of(requests.begin(), requests.end(), [&](const wire::SimulateRequest& request) {
-    return request.request_id.starts_with("validation_agent/r" + std::to_string(first + 1) + "/h/") && request.curve_points > 0;
+    return request.request_id.starts_with("validation_agent/r" + std::to_string(first + 1) + "/h/") &&
+           request.curve_points > 0;
   }));
   EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 4);
 }
@@ -133,7 +138,8 @@ TEST(Diagnosis, ANameThatForetellsNothingBetterIsNeverAdopted) {
 
 TEST(Diagnosis, ANameThatIsNotHeldEndsItsTrial) {
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 3, 4});
-  EXPECT_EQ(adopted(game, "droplet_mixing"), (std::vector<bool>{false, false, false, false, true})) << "what it foretold for round 2 does not count in round 3";
+  EXPECT_EQ(adopted(game, "droplet_mixing"), (std::vector<bool>{false, false, false, false, true}))
+      << "what it foretold for round 2 does not count in round 3";
 }
 
 TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
@@ -145,7 +151,8 @@ TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
   unusable[1].effects[0].parameter = 1e6;  // outside what the effect allows
   unusable[2].effects[0].name = "gremlins";
   for (const diagnosis_t& diagnosis : unusable) {
-    const auto game = played(scenario, [&](int) { return diagnosis; }, laboratory);
+    const auto game = played(
+        scenario, [&](int) { return diagnosis; }, laboratory);
     for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS"))
       EXPECT_THAT(model.parameters.extensions, IsEmpty());
   }

@@ -87,9 +87,8 @@ std::vector<std::string> InProcessGame::payloads(const std::string& channel) con
 }
 
 std::set<std::pair<std::string, std::string>> InProcessGame::essence() const {
-  static const std::set<std::string> kChannels = {"RUN",        "PARAMETERS",  "GAMUT",     "PROPOSAL",
-                                                  "TEST_ORDER", "MEASUREMENT", "DIAGNOSIS", "ROUND",
-                                                  "FAMILY",     "FAMILY_GAMUT"};
+  static const std::set<std::string> kChannels = {"RUN",         "PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
+                                                  "MEASUREMENT", "DIAGNOSIS",  "ROUND", "FAMILY",   "FAMILY_GAMUT"};
   std::set<std::pair<std::string, std::string>> contents;
   for (const runtime::Message& message : said_) {
     if (kChannels.contains(message.channel)) contents.emplace(message.channel, message.payload);

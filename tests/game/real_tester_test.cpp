@@ -34,7 +34,8 @@ TEST(RealTesters, PlayAWholeGame) {
   LaboratorySettings laboratory;
   laboratory.real_testers = true;
   InProcessGame game;
-  game.add("simulator_farm", simulator_farm::make_core(scenario), simulator_farm::work_functions(cache, folder / "films"));
+  game.add("simulator_farm", simulator_farm::make_core(scenario),
+           simulator_farm::work_functions(cache, folder / "films"));
   game.add("proposal_agent", proposal_agent::make_core(scenario), proposal_agent::work_functions());
   game.add("validation_agent", validation_agent::make_core(scenario));
   game.add("virtual_lab", make_laboratory(laboratory));

@@ -8,10 +8,10 @@
 #include "base/random.hpp"
 #include "game/model.hpp"
 #include "material/extensions.hpp"
-#include "sysid/objective.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "proposal_agent/selection_work.hpp"
 #include "simulator_farm/farm_core.hpp"
+#include "sysid/objective.hpp"
 #include "validation_agent/family_work.hpp"
 #include "validation_agent/validation_core.hpp"
 
@@ -76,7 +76,8 @@ class Responder : public runtime::NodeCore {
 
 tester::Simulation truth_of(const wire::TestOrder& order, const LaboratorySettings& settings) {
   tester::Simulation simulation{order.design, material::default_parameters(), order.conditions, order.fidelity};
-  simulation.parameters.extensions = game::material_side({.modulus = {}, .toughness = {}, .extensions = settings.hidden}).extensions;
+  simulation.parameters.extensions =
+      game::material_side({.modulus = {}, .toughness = {}, .extensions = settings.hidden}).extensions;
   for (double* modulus_pa : {&simulation.parameters.modulus.e_tb_pa, &simulation.parameters.modulus.e_vw_pa,
                              &simulation.parameters.modulus.e_if_pa}) {
     *modulus_pa *= settings.modulus_factor;
@@ -113,7 +114,8 @@ wire::SimulatedDesign closed_form(const tester::Simulation& simulation, bool mod
   const double turned = simulation.conditions.orientation_deg == 90.0 ? -1.0 : 1.0;
   const double anisotropy = material::extension_value(simulation.parameters.extensions, "interface_anisotropy");
   const double mixing = material::extension_value(simulation.parameters.extensions, "droplet_mixing");
-  const double mixed = simulation.design.layout() && content_hash64(simulation.design.name()) % 2 == 1 ? mixing : -mixing;
+  const double mixed =
+      simulation.design.layout() && content_hash64(simulation.design.name()) % 2 == 1 ? mixing : -mixing;
   wire::SimulatedDesign answer;
   answer.design = simulation.design;
   if (modulus) {
@@ -151,10 +153,11 @@ std::map<std::string, runtime::WorkFunction> closed_form_work(std::set<std::stri
 std::vector<wire::Measurement> measure(const wire::TestOrder& order, const LaboratorySettings& settings) {
   const wire::SimulatedDesign answer = true_answer(order, settings);
   const bool pulled = order.test == tester::TestKind::modulus;
-  const sysid::Prediction truth = sysid::observed({.modulus_pa = pulled ? std::optional(answer.modulus_pa) : std::nullopt,
-                                                   .toughness_pa = pulled ? std::nullopt : std::optional(answer.toughness_pa),
-                                                   .curve = answer.curve},
-                                                  settings.hidden);
+  const sysid::Prediction truth =
+      sysid::observed({.modulus_pa = pulled ? std::optional(answer.modulus_pa) : std::nullopt,
+                       .toughness_pa = pulled ? std::nullopt : std::optional(answer.toughness_pa),
+                       .curve = answer.curve},
+                      settings.hidden);
   std::vector<wire::Measurement> measurements;
   for (int replicate = 1; replicate <= order.replicates; ++replicate) {
     wire::Measurement measured;

@@ -15,9 +15,9 @@
 
 namespace nacre::game_test {
 
-/// A mixture rule with the testers' parameters: smooth in all of them, quick, and different for different patterns. droplet_mixing p
-/// stiffens half of all designs by a factor e^p and softens the others by as much, which no constants of the materials imitate.
-/// Fails on designs that `fails` names.
+/// A mixture rule with the testers' parameters: smooth in all of them, quick, and different for different patterns.
+/// droplet_mixing p stiffens half of all designs by a factor e^p and softens the others by as much, which no constants
+/// of the materials imitate. Fails on designs that `fails` names.
 wire::SimulatedDesign closed_form(const tester::Simulation& simulation, bool modulus, bool toughness, int curve_points);
 
 /// Work function of kind "simulate" by closed_form(); `failing` designs (by name) have no number.
@@ -29,7 +29,7 @@ struct LaboratorySettings {
   double toughness_factor = 0.6;  ///< and on the failure thresholds
   double modulus_noise = 0.02;    ///< relative, per specimen
   double toughness_noise = 0.10;
-  material::Extensions hidden;    ///< effects that the laboratory has and the base model has not
+  material::Extensions hidden;                    ///< effects that the laboratory has and the base model has not
   std::function<void(wire::Measurement&)> spoil;  ///< changes a measurement before it is sent
   bool real_testers = false;                      ///< the testers instead of closed_form()
 };

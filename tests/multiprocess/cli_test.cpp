@@ -240,10 +240,11 @@ TEST_F(CommandLine, CalibrateFindsTheModulusOfASetAndWritesParametersThatSimulat
 
 TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\n");
-  ASSERT_EQ(run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "577fffe9fffdef", "3ffc9b4ad4d2d9"}).status, 0);
-  const std::vector<std::string> command = {"families", path("set"),     "--fidelity", "tiny", "--samples", "40",
-                                            "--rank",   "5",             "--calibration", "2", "--cracks", "20", "--out",     path("found"),
-                                            "--json"};
+  ASSERT_EQ(
+      run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "577fffe9fffdef", "3ffc9b4ad4d2d9"}).status, 0);
+  const std::vector<std::string> command = {"families", path("set"), "--fidelity", "tiny",          "--samples",
+                                            "40",       "--rank",    "5",          "--calibration", "2",
+                                            "--cracks", "20",        "--out",      path("found"),   "--json"};
   const Outcome outcome = run_nacre(command);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto document = nlohmann::json::parse(outcome.out);
@@ -251,7 +252,8 @@ TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   for (const auto& family : document) {
     EXPECT_GE(family["samples"].get<int>(), 40);
     for (const auto& map : family["maps"]) {
-      EXPECT_TRUE(fs::exists(path("found/" + family["name"].get<std::string>() + "/" + map["seed"].get<std::string>() + ".csv")));
+      EXPECT_TRUE(fs::exists(
+          path("found/" + family["name"].get<std::string>() + "/" + map["seed"].get<std::string>() + ".csv")));
       ++seeds;
     }
   }

@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestPauseS = 1.5;  // between two faults
-// Then the game is left alone: on a machine that is slow to start processes, faults without end would leave no time to play.
+// Then the game is left alone: on a machine that is slow to start processes, faults without end would leave no time to
+// play.
 constexpr int kMostFaults = 25;
 
 std::string drawn_settings(RandomStream& random, std::uint64_t seed) {

@@ -63,7 +63,8 @@ using SaidOnce = std::tuple<std::string, int, std::string>;
 using SaidInGame = std::map<SaidOnce, int>;
 
 /// Everything said on the channels by which games are compared (RUN, PARAMETERS, GAMUT, PROPOSAL, TEST_ORDER,
-/// MEASUREMENT, DIAGNOSIS, ROUND, FAMILY, FAMILY_GAMUT), from the nodes' journals: their outputs, and RUN as the validation agent heard it.
+/// MEASUREMENT, DIAGNOSIS, ROUND, FAMILY, FAMILY_GAMUT), from the nodes' journals: their outputs, and RUN as the
+/// validation agent heard it.
 SaidInGame said_in_game(const std::filesystem::path& run);
 
 /// Only what was said on some of the channels.

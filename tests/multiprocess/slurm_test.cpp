@@ -117,7 +117,8 @@ class Cluster : public testing::Test {
   /// Waits for tasks to run. The node of a controller that was killed may be drained long after it looked ready: it is
   /// resumed, as an operator would.
   void await_tasks() {
-    ASSERT_TRUE(becomes_true([&] { return slurm_->mend_node(), !tasks().empty(); }, 20.0)) << log_ << slurm_->standing();
+    ASSERT_TRUE(becomes_true([&] { return slurm_->mend_node(), !tasks().empty(); }, 20.0))
+        << log_ << slurm_->standing();
   }
   bool stands(const std::string& words) const {
     return becomes_true([&] { return executor_->standing().find(words) != std::string::npos; }, 5.0);

@@ -1,5 +1,5 @@
-// A solution that leaves the physics - J <= 0 or a value that is not a number - is found within a few steps and reported
-// as a reason, never as a number.
+// A solution that leaves the physics - J <= 0 or a value that is not a number - is found within a few steps and
+// reported as a reason, never as a number.
 
 #include <limits>
 

@@ -124,7 +124,8 @@ TEST(ExplicitElement, SimpleShearGivesMuTimesGamma) {
 
 // Any finite gradient: the tractions are those of P = dW/dF (Eq. 2.1), to 1e-12 of E.
 TEST(ExplicitElement, TractionsAreThoseOfTheLaw) {
-  const Eigen::Matrix2d stress = material::first_piola(finite_gradient(), material::lame_from_engineering(kYoung, kPoisson));
+  const Eigen::Matrix2d stress =
+      material::first_piola(finite_gradient(), material::lame_from_engineering(kYoung, kPoisson));
   const Tractions found = tractions_under(finite_gradient());
   EXPECT_LT((found.left - stress.col(0)).norm(), 1e-12 * kYoung);
   EXPECT_LT((found.top - stress.col(1)).norm(), 1e-12 * kYoung);

@@ -1,5 +1,5 @@
-// The toughness tester as a whole: rigid motions and frames. Energies, symmetries, bits, knobs and blow-up have files of
-// their own.
+// The toughness tester as a whole: rigid motions and frames. Energies, symmetries, bits, knobs and blow-up have files
+// of their own.
 
 #include <algorithm>
 #include <cmath>

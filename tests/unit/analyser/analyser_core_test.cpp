@@ -154,8 +154,9 @@ TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
   family.name = "family-3";
   family.parameters = material::default_parameters();
   family.parameters.toughness.w_vw_j_per_m3 *= 1.5;
-  family.designs = {{.pattern = pattern::Pattern(5), .is_seed = true, .measured = {}, .global_model = {}, .family_model = {}},
-                    {.pattern = pattern::Pattern(6), .is_seed = false, .measured = {}, .global_model = {}, .family_model = {}}};
+  family.designs = {
+      {.pattern = pattern::Pattern(5), .is_seed = true, .measured = {}, .global_model = {}, .family_model = {}},
+      {.pattern = pattern::Pattern(6), .is_seed = false, .measured = {}, .global_model = {}, .family_model = {}}};
   analyser.hear("FAMILY", wire::write(family));
   family.is_validated = true;
   analyser.hear("FAMILY", wire::write(family));

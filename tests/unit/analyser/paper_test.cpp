@@ -29,7 +29,8 @@ store::RecordedFamily family(int number, bool over_fits) {
   for (int i = 0; i < 5; ++i) {
     const bool is_seed = i < 2;
     const double own = is_seed ? 1.01 : over_fits ? 1.6 : 1.1;  // the global model is off by a third everywhere
-    family.stated.designs.push_back({patterns[static_cast<std::size_t>(i)], is_seed, {1.5e9, 4e5}, {1.6e9, 4e5 * 1.33}, {1.5e9, 4e5 * own}});
+    family.stated.designs.push_back(
+        {patterns[static_cast<std::size_t>(i)], is_seed, {1.5e9, 4e5}, {1.6e9, 4e5 * 1.33}, {1.5e9, 4e5 * own}});
   }
   for (const pattern::Pattern& p : patterns) family.gamut.push_back({p, sample::true_performance(p)});
   return family;
@@ -64,10 +65,10 @@ PaperSource source(bool stage = true) {
   return source;
 }
 
-const std::vector<std::string> kIds = {"figure-3-2",  "figure-3-3",  "figure-3-4",  "table-3-4",   "figure-3-7",
-                                       "figure-3-9",  "figure-3-12", "figure-3-13", "figure-3-14", "figure-3-15",
-                                       "table-3-7",   "figure-3-16", "figure-3-17", "figure-3-18", "table-a-3",
-                                       "table-a-4",   "table-a-5",   "table-a-6",   "table-a-7"};
+const std::vector<std::string> kIds = {"figure-3-2", "figure-3-3",  "figure-3-4",  "table-3-4",   "figure-3-7",
+                                       "figure-3-9", "figure-3-12", "figure-3-13", "figure-3-14", "figure-3-15",
+                                       "table-3-7",  "figure-3-16", "figure-3-17", "figure-3-18", "table-a-3",
+                                       "table-a-4",  "table-a-5",   "table-a-6",   "table-a-7"};
 
 const Exhibit& exhibit(const std::vector<Exhibit>& all, const std::string& id) {
   return *std::ranges::find(all, id, &Exhibit::id);
@@ -131,7 +132,8 @@ TEST(Paper, AnOverFittedFamilyIsNamedAndASoundOneNot) {
 TEST(Paper, ThePageStandsByItself) {
   const PaperSource run = source();
   const std::string page = render_paper(run, exhibits_of(run));
-  for (const char* outside : {"http:", "https:", "<script", "<link", "@import", "src="}) EXPECT_THAT(page, Not(HasSubstr(outside)));
+  for (const char* outside : {"http:", "https:", "<script", "<link", "@import", "src="})
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   for (const std::string& id : kIds) EXPECT_THAT(page, HasSubstr("<section id=\"" + id + "\">"));
 }

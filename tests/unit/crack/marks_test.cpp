@@ -26,7 +26,8 @@ TEST(Marks, AStraightCrackThroughRigidMaterialHasNone) {
 }
 
 TEST(Marks, ADetourIsMarkedAtItsFarthestPointWhenTheCrackGetsThere) {
-  const std::vector<std::string> detour = {"......x......", ".....x.x.....", "....x...x....", "...x.....x...", "..x.......x..", "oo.........xx"};
+  const std::vector<std::string> detour = {"......x......", ".....x.x.....", "....x...x....",
+                                           "...x.....x...", "..x.......x..", "oo.........xx"};
   const auto marks = of_kind(drawn(detour), MarkKind::deflection);
   ASSERT_EQ(marks.size(), 1U);
   EXPECT_EQ(marks[0].element, 5 * 13 + 6);
@@ -59,7 +60,9 @@ TEST(Marks, AGuidedStretchIsMarkedInItsMiddleAndAShortOneNot) {
 }
 
 TEST(Marks, BranchesAreAsManyAsTheRecordCounts) {
-  const std::vector<std::string> fork = {"..........xx..", ".........x....", "........x.....", ".......x......", "......x.......", ".....x........", "....x.........", "...x..........", "ooxxxxxxxxxxxx"};
+  const std::vector<std::string> fork = {"..........xx..", ".........x....", "........x.....",
+                                         ".......x......", "......x.......", ".....x........",
+                                         "....x.........", "...x..........", "ooxxxxxxxxxxxx"};
   const Record record = drawn_record(fork);
   EXPECT_GT(record.branches, 0);
   EXPECT_EQ(of_kind(drawn(fork), MarkKind::branching).size(), static_cast<std::size_t>(record.branches));

@@ -34,7 +34,9 @@ TEST(Mechanisms, ACrackBesideThePathIsBranching) {
 
 TEST(Mechanisms, WaitingInFrontOfSoftMaterialIsArrest) {
   Drawing drawing = draw({"..........", "ooxxsxxxxx", ".........."});
-  const auto soft_arrest = [&] { return mechanisms_of(drawing.grid, crack_record(drawing.grid, drawing.order)).soft_arrest; };
+  const auto soft_arrest = [&] {
+    return mechanisms_of(drawing.grid, crack_record(drawing.grid, drawing.order)).soft_arrest;
+  };
   EXPECT_NEAR(soft_arrest(), 1.0 / 7, 1e-9) << "every column takes as long as the other";
   for (tester::Break& broken : drawing.order)
     if (broken.element % 10 >= 4) broken.strain += 0.007;  // the soft element holds for as long as all others together

@@ -88,10 +88,14 @@ TEST(Entries, AGroupingFollowsTheRulesOfItsFile) {
   ASSERT_TRUE(grouping) << grouping.error().message;
   EXPECT_EQ((*grouping)[1].seeds.front().key(), "3ffc9b4ad4d2d9");
   const auto faults = {
-      R"({})", R"({"families":[]})", R"({"families":[1]})", R"({"families":[{"name":"a","seeds":[]}]})",
+      R"({})",
+      R"({"families":[]})",
+      R"({"families":[1]})",
+      R"({"families":[{"name":"a","seeds":[]}]})",
       R"({"families":[{"name":"a/b","seeds":["577fffe9fffdef"]}]})",
       R"({"families":[{"name":"a\"]\n","seeds":["577fffe9fffdef"]}]})",
-      R"({"families":[{"name":"a","seeds":["soft"]}]})", R"({"families":[{"name":"a","seeds":[7]}]})",
+      R"({"families":[{"name":"a","seeds":["soft"]}]})",
+      R"({"families":[{"name":"a","seeds":[7]}]})",
       R"({"families":[{"name":"a","seeds":["577fffe9fffdef"]},{"name":"a","seeds":["3ffc9b4ad4d2d9"]}]})",
       R"({"families":[{"name":"a","seeds":["577fffe9fffdef"]},{"name":"b","seeds":["577fffe9fffdef"]}]})"};
   for (const char* json : faults) EXPECT_FALSE(grouping_from_json(json)) << json;

@@ -17,11 +17,13 @@ Observations two_tests() {
   Observations observations = observe(specimens, 0.003, {});
   observations.numerics_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
   for (int i = 0; i < observations.size(); ++i)
-    if (observations.rows[static_cast<std::size_t>(i)].test == tester::TestKind::modulus) observations.numerics_shared(i, 0) = 0.01 * (1 + i % 3);
+    if (observations.rows[static_cast<std::size_t>(i)].test == tester::TestKind::modulus)
+      observations.numerics_shared(i, 0) = 0.01 * (1 + i % 3);
   return observations;
 }
 
-// Whatever scatter the replicates of a draw suggest, the combinations of rows are independent, and nothing of the rows is lost.
+// Whatever scatter the replicates of a draw suggest, the combinations of rows are independent, and nothing of the rows
+// is lost.
 TEST(DataSource, CombinationsWeighDataAsTheRowsDo) {
   const Observations observations = two_tests();
   ASSERT_TRUE(observations.has(tester::TestKind::modulus) && observations.has(tester::TestKind::tensile));
@@ -31,14 +33,17 @@ TEST(DataSource, CombinationsWeighDataAsTheRowsDo) {
   ASSERT_GT(observations.scatter.size(), 3u) << "coupons of one material scatter in their own way";
   for (const double spread : {0.0, 0.8, -0.8}) {
     ScatterFactors factors;
-    for (std::size_t k = 0; k < observations.scatter.size(); ++k) factors.push_back(std::exp(spread * (static_cast<double>(k % 3) - 0.7)));
+    for (std::size_t k = 0; k < observations.scatter.size(); ++k)
+      factors.push_back(std::exp(spread * (static_cast<double>(k % 3) - 0.7)));
     Eigen::MatrixXd covariance = parts.fixed;
     for (int i = 0; i < observations.size(); ++i)
-      for (int j = 0; j < observations.size(); ++j) covariance(i, j) += factors[observations.rows[static_cast<std::size_t>(i)].scatter] * parts.scatter(i, j);
+      for (int j = 0; j < observations.size(); ++j)
+        covariance(i, j) += factors[observations.rows[static_cast<std::size_t>(i)].scatter] * parts.scatter(i, j);
     Eigen::VectorXd y(observations.size());
     for (double& value : y) value = 0.05 * random.normal();
     const double by_rows = Whitener(covariance).chi2(y);
-    const double combined = Whitener::independent(source.variances(factors).cwiseSqrt()).chi2(source.combined(Eigen::MatrixXd(y)));
+    const double combined =
+        Whitener::independent(source.variances(factors).cwiseSqrt()).chi2(source.combined(Eigen::MatrixXd(y)));
     EXPECT_NEAR(combined, by_rows, 1e-6 * by_rows);
   }
 }
@@ -57,7 +62,8 @@ TEST(DataSource, DrawsScatterAsTheVariancesOfADrawSayOnAverage) {
     weight += data.whitener.chi2(data.values - truth) / observations.size() / kDraws;
   }
   EXPECT_NEAR(squares.mean(), 1.0, 0.02);
-  // A draw weighs its data by the scatter that its own replicates suggest: more than one per row, as Fisher's F has n / (n - 2) with n degrees of freedom.
+  // A draw weighs its data by the scatter that its own replicates suggest: more than one per row, as Fisher's F has n /
+  // (n - 2) with n degrees of freedom.
   EXPECT_GT(weight, 1.05);
   EXPECT_LT(weight, 1.6);
   EXPECT_LT((squares.array() - 1.0).abs().maxCoeff(), 0.15);  // sd of one entry 0.022

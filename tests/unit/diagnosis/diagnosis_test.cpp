@@ -52,32 +52,44 @@ TEST(Diagnosis, InterfaceAnisotropyIsNamedAndTheJsonHasTheFieldsOfTheFormat) {
   const Diagnosis diagnosis = diagnose_effect("interface_anisotropy", 0.25);
   expect_named(diagnosis, "interface_anisotropy", 0.25, 0.08);
   const auto document = nlohmann::json::parse(to_json(diagnosis));
-  for (const char* field : {"verdict", "effects", "candidates", "contrasts", "gain", "next_experiments", "p_outside_library"}) EXPECT_TRUE(document.contains(field)) << field;
+  for (const char* field :
+       {"verdict", "effects", "candidates", "contrasts", "gain", "next_experiments", "p_outside_library"})
+    EXPECT_TRUE(document.contains(field)) << field;
   EXPECT_EQ(document["candidates"].size(), material::effect_library().size());
-  for (const char* field : {"name", "status", "statistic", "p_family_wise", "absorption"}) EXPECT_TRUE(document["candidates"][0].contains(field)) << field;
+  for (const char* field : {"name", "status", "statistic", "p_family_wise", "absorption"})
+    EXPECT_TRUE(document["candidates"][0].contains(field)) << field;
 }
 
-TEST(Diagnosis, DropletMixingIsNamed) { expect_named(diagnose_effect("droplet_mixing", 1.0), "droplet_mixing", 1.0, 0.3); }
+TEST(Diagnosis, DropletMixingIsNamed) {
+  expect_named(diagnose_effect("droplet_mixing", 1.0), "droplet_mixing", 1.0, 0.3);
+}
 
-TEST(Diagnosis, MachineComplianceIsNamed) { expect_named(diagnose_effect("machine_compliance", 2e-10), "machine_compliance", 2e-10, 0.6e-10); }
+TEST(Diagnosis, MachineComplianceIsNamed) {
+  expect_named(diagnose_effect("machine_compliance", 2e-10), "machine_compliance", 2e-10, 0.6e-10);
+}
 
-TEST(Diagnosis, ADriftFromBatchToBatchIsNamed) { expect_named(diagnose_effect("batch_drift", 0.05), "batch_drift", 0.05, 0.02); }
+TEST(Diagnosis, ADriftFromBatchToBatchIsNamed) {
+  expect_named(diagnose_effect("batch_drift", 0.05), "batch_drift", 0.05, 0.02);
+}
 
 // Other constants of the materials explain a factor on force exactly.
 TEST(Diagnosis, AnErrorOfTheLoadCellIsInvisibleAndNothingIsNamed) {
   const Diagnosis diagnosis = diagnose_effect("load_cell_gain", 0.05);
   EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
-  const auto gain = std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(), [](const Candidate& c) { return c.name == "load_cell_gain"; });
+  const auto gain = std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(),
+                                 [](const Candidate& c) { return c.name == "load_cell_gain"; });
   ASSERT_NE(gain, diagnosis.candidates.end());
   EXPECT_EQ(gain->status, "invisible");
   EXPECT_GT(gain->absorption, 0.95);
 }
 
-// Moduli that fall with the share of mixed corners beyond what any effect of the library says: seen, and not given the name of what comes nearest.
+// Moduli that fall with the share of mixed corners beyond what any effect of the library says: seen, and not given the
+// name of what comes nearest.
 TEST(Diagnosis, ACauseOutsideTheLibraryIsSeenAndNotNamed) {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({}, synthetic_truth());
   const std::vector<Descriptor> described = descriptors();
-  const auto corners = std::find_if(described.begin(), described.end(), [](const Descriptor& d) { return d.name == "mixed pixel corners"; });
+  const auto corners = std::find_if(described.begin(), described.end(),
+                                    [](const Descriptor& d) { return d.name == "mixed pixel corners"; });
   ASSERT_NE(corners, described.end());
   for (measurement::SpecimenRecord& specimen : specimens) {
     Observation group;
@@ -114,7 +126,8 @@ TEST(CouponDiagnosis, SlackOfTheGripsIsNamedFromCurvesAlone) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 0.002, 0.0002);
 }
 
-// The curve is flat behind the yield point: reading it as far as its largest stress would leave out what the flow shows.
+// The curve is flat behind the yield point: reading it as far as its largest stress would leave out what the flow
+// shows.
 TEST(CouponDiagnosis, AYieldPointIsNamedFromCurvesAlone) {
   const Diagnosis diagnosis = diagnose_coupons("rigid_yield", {2.5e7});
   ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;

@@ -32,8 +32,12 @@ TEST(Features, OfATriangleAreThoseOfATriangle) {
 
 TEST(Features, AFactorOnForceShiftsLogarithmsAndNothingElse) {
   const FeatureValues one = fracture_features(triangle(1e7)), two = fracture_features(triangle(2e7));
-  for (const Feature feature : {Feature::log_toughness, Feature::log_tangent_10, Feature::log_tangent_50, Feature::log_peak}) EXPECT_NEAR(at(two, feature) - at(one, feature), std::log(2.0), 1e-9);
-  for (const Feature feature : {Feature::toe_strain, Feature::knee, Feature::log_peak_strain, Feature::drop, Feature::tail}) EXPECT_NEAR(at(two, feature), at(one, feature), 1e-9);
+  for (const Feature feature :
+       {Feature::log_toughness, Feature::log_tangent_10, Feature::log_tangent_50, Feature::log_peak})
+    EXPECT_NEAR(at(two, feature) - at(one, feature), std::log(2.0), 1e-9);
+  for (const Feature feature :
+       {Feature::toe_strain, Feature::knee, Feature::log_peak_strain, Feature::drop, Feature::tail})
+    EXPECT_NEAR(at(two, feature), at(one, feature), 1e-9);
 }
 
 TEST(Features, SlackMovesTheToeAndLeavesTheSlopes) {
@@ -50,7 +54,8 @@ TEST(Features, UnloadingShowsItsSlopeAndThePermanentSet) {
   tester::Curve curve;
   for (int i = 0; i <= 20; ++i) curve.strain.push_back(0.001 * i), curve.stress_pa.push_back(1e6 * i);
   // Down along a line three times as steep: back to nothing at two thirds of the strain.
-  for (int i = 1; i <= 20; ++i) curve.strain.push_back(0.02 - 0.001 * i / 3.0), curve.stress_pa.push_back(2e7 - 1e6 * i);
+  for (int i = 1; i <= 20; ++i)
+    curve.strain.push_back(0.02 - 0.001 * i / 3.0), curve.stress_pa.push_back(2e7 - 1e6 * i);
   const FeatureValues values = tensile_features(curve);
   EXPECT_NEAR(at(values, Feature::log_unloading), std::log(3e9), 1e-6);
   EXPECT_NEAR(at(values, Feature::set_share), 2.0 / 3.0, 1e-4);
@@ -58,7 +63,10 @@ TEST(Features, UnloadingShowsItsSlopeAndThePermanentSet) {
 }
 
 /// Rises straight to 10 MPa at 1 % strain, flows until 3 %, falls to nothing at 3.1 %.
-tester::Curve plateau() { return {{0.0, 0.0025, 0.005, 0.0075, 0.01, 0.02, 0.03, 0.0305, 0.031}, {0.0, 2.5e6, 5e6, 7.5e6, 1e7, 9.9e6, 9.8e6, 4e6, 0.0}}; }
+tester::Curve plateau() {
+  return {{0.0, 0.0025, 0.005, 0.0075, 0.01, 0.02, 0.03, 0.0305, 0.031},
+          {0.0, 2.5e6, 5e6, 7.5e6, 1e7, 9.9e6, 9.8e6, 4e6, 0.0}};
+}
 
 TEST(Features, ACouponThatFlowsIsReadWhileItFlows) {
   EXPECT_EQ(carried_strain(plateau()), 0.03);
@@ -68,9 +76,13 @@ TEST(Features, ACouponThatFlowsIsReadWhileItFlows) {
   EXPECT_NEAR(at(values, Feature::log_tangent_30), std::log(1e9), 1e-9);
 }
 
-TEST(Features, ACouponThatOnlyRisesIsReadToItsEnd) { EXPECT_EQ(carried_strain({{0.0, 0.01, 0.02}, {0.0, 1e6, 2e6}}), 0.02); }
+TEST(Features, ACouponThatOnlyRisesIsReadToItsEnd) {
+  EXPECT_EQ(carried_strain({{0.0, 0.01, 0.02}, {0.0, 1e6, 2e6}}), 0.02);
+}
 
-TEST(Features, ACouponUnloadedOnTheWayIsReadWhole) { EXPECT_FALSE(carried_strain({{0.0, 0.01, 0.005, 0.02}, {0.0, 1e6, 4e5, 2e6}}).has_value()); }
+TEST(Features, ACouponUnloadedOnTheWayIsReadWhole) {
+  EXPECT_FALSE(carried_strain({{0.0, 0.01, 0.005, 0.02}, {0.0, 1e6, 4e5, 2e6}}).has_value());
+}
 
 TEST(Features, ACurveThatNeverRisesSaysNothing) {
   const FeatureValues values = fracture_features({{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, 0.0, 0.0, 0.0, 0.0}});
@@ -79,7 +91,8 @@ TEST(Features, ACurveThatNeverRisesSaysNothing) {
 }
 
 TEST(Features, NamesReadBack) {
-  for (int i = 0; i < kFeatureCount; ++i) EXPECT_EQ(feature_from_string(to_string(static_cast<Feature>(i))).value(), static_cast<Feature>(i));
+  for (int i = 0; i < kFeatureCount; ++i)
+    EXPECT_EQ(feature_from_string(to_string(static_cast<Feature>(i))).value(), static_cast<Feature>(i));
   EXPECT_FALSE(feature_from_string("log_colour").has_value());
 }
 

@@ -18,7 +18,8 @@ constexpr const char* kShipped = NACRE_SOURCE_DIR "/data/numerics_floor.toml";
 std::filesystem::path file_with(const std::string& shared) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "numerics_test.toml";
   const std::string unit = "[[1.0, 0.0], [0.0, 1.0]]\n";
-  write_file_atomically(path, "[tiny.curve]\nfeatures = [\"log_toughness\", \"log_peak\"]\ncovariance_shared = " + shared + "\ncovariance_rigid = " + unit + "covariance_layout = " + unit);
+  write_file_atomically(path, "[tiny.curve]\nfeatures = [\"log_toughness\", \"log_peak\"]\ncovariance_shared = " +
+                                  shared + "\ncovariance_rigid = " + unit + "covariance_layout = " + unit);
   return path;
 }
 
@@ -27,18 +28,21 @@ Observations tidy_laboratory(const FractureNumerics& numerics) {
   Observations observations;
   RandomStream random(3, "numerics test");
   for (const pattern::Pattern& pattern : pattern::stratified_patterns(24, random)) {
-    for (const Feature feature : numerics.features) observations.rows.push_back({static_cast<int>(observations.groups.size()), feature, Probe::mean, tester::TestKind::toughness, 0.25});
+    for (const Feature feature : numerics.features)
+      observations.rows.push_back(
+          {static_cast<int>(observations.groups.size()), feature, Probe::mean, tester::TestKind::toughness, 0.25});
     observations.groups.emplace_back();
     observations.groups.back().design = pattern;
     observations.groups.back().test = tester::TestKind::toughness;
   }
-  for (ReplicateScatter& scatter : observations.scatter) scatter.covariance = 4e-8 * Eigen::MatrixXd::Identity(kFeatureCount, kFeatureCount);
+  for (ReplicateScatter& scatter : observations.scatter)
+    scatter.covariance = 4e-8 * Eigen::MatrixXd::Identity(kFeatureCount, kFeatureCount);
   observations.fracture_numerics = numerics;
   return observations;
 }
 
-// The matrices are sums over five parameter sets, so that half of their eigenvalues are zero but for the digits that are printed. Below zero, and
-// shared by all layouts, they can outweigh the scatter.
+// The matrices are sums over five parameter sets, so that half of their eigenvalues are zero but for the digits that
+// are printed. Below zero, and shared by all layouts, they can outweigh the scatter.
 TEST(FractureNumerics, TheShippedMatricesLeaveTheDataAPositiveCovariance) {
   const FractureNumerics numerics = read_fracture_numerics(kShipped, tester::Fidelity::tiny);
   ASSERT_FALSE(numerics.features.empty());
@@ -46,7 +50,8 @@ TEST(FractureNumerics, TheShippedMatricesLeaveTheDataAPositiveCovariance) {
 }
 
 TEST(FractureNumerics, RoundingBelowZeroIsTakenForZero) {
-  const FractureNumerics numerics = read_fracture_numerics(file_with("[[1.0, 1.0001], [1.0001, 1.0]]"), tester::Fidelity::tiny);
+  const FractureNumerics numerics =
+      read_fracture_numerics(file_with("[[1.0, 1.0001], [1.0001, 1.0]]"), tester::Fidelity::tiny);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(numerics.shared);
   EXPECT_GE(parts.eigenvalues().minCoeff(), -1e-12);
   EXPECT_NEAR(numerics.shared(0, 1), 1.0, 1e-3);
@@ -63,7 +68,9 @@ TEST(FractureNumerics, WhatIsNoCovarianceIsAnErrorThatNamesTheKey) {
   }
 }
 
-TEST(Whitener, RefusesWhatIsNotFinite) { EXPECT_THROW(Whitener(Eigen::Matrix2d::Constant(std::nan(""))), std::runtime_error); }
+TEST(Whitener, RefusesWhatIsNotFinite) {
+  EXPECT_THROW(Whitener(Eigen::Matrix2d::Constant(std::nan(""))), std::runtime_error);
+}
 
 TEST(Whitener, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_THROW(Whitener((Eigen::Matrix2d() << 1.0, 2.0, 2.0, 1.0).finished()), std::runtime_error);

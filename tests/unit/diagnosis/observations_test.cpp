@@ -18,12 +18,14 @@ measurement::SpecimenRecord pulled(const std::string& specimen, double orientati
   return record;
 }
 
-Observations observed(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd = 0.0) { return observe(specimens, numerics_sd, {}); }
+Observations observed(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd = 0.0) {
+  return observe(specimens, numerics_sd, {});
+}
 
 TEST(Observations, ReplicatesThatAgreeExactlyLeaveAFiniteWeight) {
   // Rotated twins share what the numerics leave: nothing but scatter keeps their covariance from being singular.
-  const Observations observations =
-      observed({pulled("a/1", 0, 2e8), pulled("a/2", 0, 2e8), pulled("b/1", 90, 2.2e8), pulled("b/2", 90, 2.2e8)}, 0.02);
+  const Observations observations = observed(
+      {pulled("a/1", 0, 2e8), pulled("a/2", 0, 2e8), pulled("b/1", 90, 2.2e8), pulled("b/2", 90, 2.2e8)}, 0.02);
   ASSERT_EQ(observations.replicate_dof(), 2);
   const Whitener whitener(observations.covariance());
   const double chi2 = whitener.chi2(Eigen::Vector2d(0.0, 0.01));
@@ -33,19 +35,22 @@ TEST(Observations, ReplicatesThatAgreeExactlyLeaveAFiniteWeight) {
 
 TEST(Observations, ScatterIsThatOfTheReplicates) {
   const Observations observations = observed({pulled("a/1", 0, 2e8), pulled("a/2", 0, 2.1e8)});
-  EXPECT_NEAR(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus), std::log(2.1 / 2.0) / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus),
+              std::log(2.1 / 2.0) / std::sqrt(2.0), 1e-12);
 }
 
 Observations three_groups() {
   Observations observations;
   for (const char* key : {"577fffe9fffdef", "3ffc9b4ad4d2d9", "7fffffffffffff"}) {
-    observations.rows.push_back({static_cast<int>(observations.groups.size()), Feature::log_modulus, Probe::mean, tester::TestKind::modulus, 0.25});
+    observations.rows.push_back({static_cast<int>(observations.groups.size()), Feature::log_modulus, Probe::mean,
+                                 tester::TestKind::modulus, 0.25});
     observations.groups.emplace_back();
     observations.groups.back().design = *pattern::design_from_name(key);
     observations.groups.back().replicates = 4;
   }
   observations.values = Eigen::Vector3d::Zero();
-  for (ReplicateScatter& scatter : observations.scatter) scatter.covariance = 1e-4 * Eigen::MatrixXd::Identity(kFeatureCount, kFeatureCount);
+  for (ReplicateScatter& scatter : observations.scatter)
+    scatter.covariance = 1e-4 * Eigen::MatrixXd::Identity(kFeatureCount, kFeatureCount);
   observations.numerics_sd = 0.002;
   observations.numerics_shared = Eigen::Vector3d(0.05, 0.1, -0.02);
   return observations;
@@ -58,7 +63,8 @@ TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheNumerics) {
   EXPECT_NEAR(covariance(0, 0), 0.01 * 0.01 / 4 + 0.002 * 0.002 + 0.05 * 0.05, 1e-12);
 }
 
-// What lies along the direction is expected to be numerics, also where nothing was measured; what lies across it is not.
+// What lies along the direction is expected to be numerics, also where nothing was measured; what lies across it is
+// not.
 TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForNumerics) {
   const Observations observations = three_groups();
   const Eigen::VectorXd expected = observations.shared_numerics(Eigen::Vector2d(0.05, 0.1), {0, 1});
@@ -73,8 +79,10 @@ std::vector<measurement::SpecimenRecord> in_batches(double step) {
   for (int design = 0; design < 4; ++design) {
     for (int batch = 0; batch < 3; ++batch) {
       // Scatter that is the same for every batch, so that the slope over batches is exact.
-      specimens.push_back(pulled("s" + std::to_string(design) + std::to_string(batch), 0, 1e8 * std::exp(0.3 * design + step * batch)));
-      specimens.back().design = pattern::Design(pattern::checkerboard(design < 2 ? (design == 0 ? 1 : 2) : (design == 2 ? 5 : 10)));
+      specimens.push_back(
+          pulled("s" + std::to_string(design) + std::to_string(batch), 0, 1e8 * std::exp(0.3 * design + step * batch)));
+      specimens.back().design =
+          pattern::Design(pattern::checkerboard(design < 2 ? (design == 0 ? 1 : 2) : (design == 2 ? 5 : 10)));
       specimens.back().batch = "batch " + std::to_string(batch);
     }
   }
@@ -83,7 +91,8 @@ std::vector<measurement::SpecimenRecord> in_batches(double step) {
 
 TEST(Observations, BatchesThatDifferShowInARowOfTheirOwnAndNotInTheScatter) {
   const Observations observations = observed(in_batches(0.02));
-  const auto row = std::find_if(observations.rows.begin(), observations.rows.end(), [](const Row& r) { return r.probe == Probe::batch; });
+  const auto row = std::find_if(observations.rows.begin(), observations.rows.end(),
+                                [](const Row& r) { return r.probe == Probe::batch; });
   ASSERT_NE(row, observations.rows.end());
   EXPECT_NEAR(observations.values[row - observations.rows.begin()], 0.02, 1e-9);
   EXPECT_LT(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus), 1e-3);

@@ -38,19 +38,24 @@ TEST(Outsider, TwinsShareWhatADesignHasOfItsOwn) {
   int twins = 0;
   for (int i = 0; i < observations.size(); ++i) {
     for (int j = 0; j < i; ++j) {
-      const Row &a = observations.rows[static_cast<std::size_t>(i)], &b = observations.rows[static_cast<std::size_t>(j)];
+      const Row &a = observations.rows[static_cast<std::size_t>(i)],
+                &b = observations.rows[static_cast<std::size_t>(j)];
       if (a.probe != Probe::mean || b.probe != Probe::mean) continue;
       const bool same = observations.group_of(i).design == observations.group_of(j).design;
       twins += same;
-      if (same) EXPECT_NEAR(unit(i, j), unit(i, i), 1e-12);
-      else EXPECT_EQ(unit(i, j), 0.0);
+      if (same)
+        EXPECT_NEAR(unit(i, j), unit(i, i), 1e-12);
+      else
+        EXPECT_EQ(unit(i, j), 0.0);
     }
   }
   EXPECT_EQ(twins, 2);
 }
 
 // What a look-alike of cosine 0.8 leaves is just seen where names begin.
-TEST(Outsider, ANameBeginsWhereALookAlikeIsSeen) { EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - kLookalike * kLookalike), kVisibleSignal, 1e-12); }
+TEST(Outsider, ANameBeginsWhereALookAlikeIsSeen) {
+  EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - kLookalike * kLookalike), kVisibleSignal, 1e-12);
+}
 
 }  // namespace
 }  // namespace nacre::diagnosis

@@ -22,7 +22,8 @@ struct SyntheticSet {
 };
 
 /// Specimens whose moduli the tester predicts for `truth`, with lognormal replicate noise.
-inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const SyntheticSet& set, const material::ParameterSet& truth) {
+inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const SyntheticSet& set,
+                                                                    const material::ParameterSet& truth) {
   RandomStream noise(set.seed, "test/noise");
   std::vector<measurement::SpecimenRecord> specimens;
   RandomStream drawn(set.seed, "test/patterns");
@@ -33,11 +34,14 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
     const double true_modulus = tester::test_modulus(simulation, {.refinement = set.refinement}).value().modulus_pa;
     for (int i = 0; i < set.replicates; ++i) {
       measurement::SpecimenRecord specimen;
-      specimen.specimen = design.name() + "-" + std::to_string(static_cast<int>(orientation_deg)) + "-" + std::to_string(i);
+      specimen.specimen =
+          design.name() + "-" + std::to_string(static_cast<int>(orientation_deg)) + "-" + std::to_string(i);
       specimen.design = design;
       specimen.conditions = simulation.conditions;
       specimen.batch = "batch-" + std::to_string(i + 1);
-      specimen.modulus_pa = measurement::observe_modulus(true_modulus, truth.extensions, {.batch_step = static_cast<double>(i)}) * std::exp(set.noise * noise.normal());
+      specimen.modulus_pa =
+          measurement::observe_modulus(true_modulus, truth.extensions, {.batch_step = static_cast<double>(i)}) *
+          std::exp(set.noise * noise.normal());
       specimens.push_back(specimen);
     }
   };
@@ -48,8 +52,11 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
   return specimens;
 }
 
-/// Homogeneous coupons pulled to 2 % strain, one of each mixture and rate, as the material point predicts them for `truth`, with lognormal scatter of stress.
-inline std::vector<measurement::SpecimenRecord> synthetic_coupons(const material::ParameterSet& truth, const std::vector<double>& rates_per_s, int replicates, double noise_sd, std::uint64_t seed) {
+/// Homogeneous coupons pulled to 2 % strain, one of each mixture and rate, as the material point predicts them for
+/// `truth`, with lognormal scatter of stress.
+inline std::vector<measurement::SpecimenRecord> synthetic_coupons(const material::ParameterSet& truth,
+                                                                  const std::vector<double>& rates_per_s,
+                                                                  int replicates, double noise_sd, std::uint64_t seed) {
   RandomStream noise(seed, "test/coupons");
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<double> strains;
@@ -62,7 +69,10 @@ inline std::vector<measurement::SpecimenRecord> synthetic_coupons(const material
         specimen.test = tester::TestKind::tensile;
         specimen.conditions.strain_rate_per_s = rate;
         specimen.specimen = specimen.design.name() + "-" + std::to_string(rate) + "-" + std::to_string(r);
-        specimen.curve = measurement::observe_curve(tester::test_tensile({specimen.design, truth, specimen.conditions, tester::Fidelity::tiny}, strains).value(), truth.extensions);
+        specimen.curve = measurement::observe_curve(
+            tester::test_tensile({specimen.design, truth, specimen.conditions, tester::Fidelity::tiny}, strains)
+                .value(),
+            truth.extensions);
         const double factor = std::exp(noise_sd * noise.normal());
         for (double& stress : specimen.curve.stress_pa) stress *= factor;
         specimens.push_back(specimen);

@@ -33,8 +33,10 @@ double hundred_cell_distance(const Pattern& a, const Pattern& b) {
   lemon::SmartDigraph::ArcMap<long long> cost(graph);
   lemon::SmartDigraph::NodeMap<long long> supply(graph);
   std::vector<lemon::SmartDigraph::Node> sources, sinks;
-  for (std::size_t i = 0; i < from.size(); ++i) supply[sources.emplace_back(graph.addNode())] = static_cast<long long>(to.size());
-  for (std::size_t j = 0; j < to.size(); ++j) supply[sinks.emplace_back(graph.addNode())] = -static_cast<long long>(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i)
+    supply[sources.emplace_back(graph.addNode())] = static_cast<long long>(to.size());
+  for (std::size_t j = 0; j < to.size(); ++j)
+    supply[sinks.emplace_back(graph.addNode())] = -static_cast<long long>(from.size());
   for (std::size_t i = 0; i < from.size(); ++i)
     for (std::size_t j = 0; j < to.size(); ++j)
       cost[graph.addArc(sources[i], sinks[j])] =

@@ -10,7 +10,8 @@ namespace {
 
 /// `confounder` drives both `rider` and the outcome; `driver` the outcome alone; `bystander` nothing.
 struct Family {
-  Column confounder{"confounder", {}}, rider{"rider", {}}, driver{"driver", {}}, bystander{"bystander", {}}, outcome{"T", {}};
+  Column confounder{"confounder", {}}, rider{"rider", {}}, driver{"driver", {}}, bystander{"bystander", {}},
+      outcome{"T", {}};
   explicit Family(int rows, std::uint64_t seed = 1) {
     RandomStream random(seed, "evidence test");
     for (int i = 0; i < rows; ++i) {
@@ -26,7 +27,8 @@ struct Family {
 
 TEST(Associations, ControlsTakeOutWhatFeatureAndOutcomeOweToThem) {
   const Family family(150);
-  const auto found = associations({family.rider, family.driver, family.bystander}, family.outcome, {family.confounder}, 1);
+  const auto found =
+      associations({family.rider, family.driver, family.bystander}, family.outcome, {family.confounder}, 1);
   EXPECT_EQ(found[0].feature, "driver");
   EXPECT_GT(found[0].partial, 0.7);
   EXPECT_LT(found[0].p_family_wise, 0.01);
@@ -43,7 +45,8 @@ TEST(Associations, OfNothingAreRarelyClaimed) {
     RandomStream random(seed, "outcome");
     Column noise{"noise", {}};
     for (int i = 0; i < 40; ++i) noise.values.push_back(random.normal());
-    claimed += associations({family.rider, family.driver, family.bystander}, noise, {family.confounder}, seed, 200)[0].p_family_wise < 0.05;
+    claimed += associations({family.rider, family.driver, family.bystander}, noise, {family.confounder}, seed, 200)[0]
+                   .p_family_wise < 0.05;
   }
   EXPECT_LE(claimed, 8);  // 3 expected; 9 or more with a chance of 0.003
 }

@@ -95,7 +95,8 @@ TEST(DenseSampler, FindsFeasiblePatternsWithinTheRadiusOnce) {
 
 TEST(DenseSampler, EndsWhenTheFamilyIsExhausted) {
   const Pattern seed = random_patterns(5)[2];
-  DenseSampler sampler({seed}, {.radius_pixels = 4, .batch = 10, .attempts = 20'000, .seed = 1});  // diagonal pixels alone
+  DenseSampler sampler({seed},
+                       {.radius_pixels = 4, .batch = 10, .attempts = 20'000, .seed = 1});  // diagonal pixels alone
   std::set<Pattern> found, expected;
   while (!sampler.exhausted())
     for (const Pattern& pattern : sampler.next()) found.insert(pattern);
@@ -133,13 +134,15 @@ TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
     sampler.next();
     for (std::size_t i = 0; i < 6; ++i)
       designs.push_back({sampler.members()[i],
-                         {1e9 * (1.0 + static_cast<double>(kind)) + 1e7 * static_cast<double>(i), 1e5 * (12.0 - static_cast<double>(kind))}});
+                         {1e9 * (1.0 + static_cast<double>(kind)) + 1e7 * static_cast<double>(i),
+                          1e5 * (12.0 - static_cast<double>(kind))}});
   }
   const std::vector<Family> families = proposed_families(designs);
   ASSERT_EQ(families.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     ASSERT_EQ(families[k].seeds.size(), 6u);
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(families[k].seeds[i], designs[6 * (2 - k) + i].pattern) << "by falling modulus";
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_EQ(families[k].seeds[i], designs[6 * (2 - k) + i].pattern) << "by falling modulus";
   }
 }
 
@@ -156,7 +159,8 @@ TEST(Grouping, SeesOneFamilyWhereNothingParts) {
 
 TEST(Grouping, KeepsTheFirstRanksOfWhatWasMeasured) {
   const std::vector<Pattern> some = random_patterns(4);
-  const std::vector<Member> measured = {{some[0], {3.0, 1.0}}, {some[1], {2.0, 2.0}}, {some[2], {1.5, 1.5}}, {some[3], {1.0, 1.0}}};
+  const std::vector<Member> measured = {
+      {some[0], {3.0, 1.0}}, {some[1], {2.0, 2.0}}, {some[2], {1.5, 1.5}}, {some[3], {1.0, 1.0}}};
   EXPECT_EQ(near_pareto(measured, 1).size(), 2u);
   EXPECT_EQ(near_pareto(measured, 2).size(), 3u);
 }
@@ -177,10 +181,13 @@ TEST(FamiliesFile, ComesBackAsItWasWritten) {
     }
   };
   refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1: a family is expected to have seeds");
-  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n", "families.toml:1: a family is expected to have a name");
+  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n",
+          "families.toml:1: a family is expected to have a name");
   refused("[[family]]\nname = \"a\"\nseeds = [\"577f\"]\n", "families.toml:3: seed '577f'");
-  refused("[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = [\"577fffe9fffdef\"]\n",
-          "families.toml:4: seed '577fffe9fffdef' belongs to two families");
+  refused(
+      "[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = "
+      "[\"577fffe9fffdef\"]\n",
+      "families.toml:4: seed '577fffe9fffdef' belongs to two families");
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ Rolled rolled_plane(int count, double radius) {
   };
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < i; ++j)
-      rolled.distances.set(static_cast<std::size_t>(i), static_cast<std::size_t>(j), (in_space(i) - in_space(j)).norm());
+      rolled.distances.set(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                           (in_space(i) - in_space(j)).norm());
   return rolled;
 }
 
@@ -51,8 +52,9 @@ TEST(Isomap, JoinsPartsThatHangTogetherNowhere) {
   DistanceMatrix distances(30);
   for (std::size_t i = 0; i < 30; ++i)  // three heaps of ten on a line, twenty apart
     for (std::size_t j = 0; j < i; ++j)
-      distances.set(i, j, std::abs(20.0 * (static_cast<double>(i / 10) - static_cast<double>(j / 10)) +
-                                   0.1 * (static_cast<double>(i % 10) - static_cast<double>(j % 10))));
+      distances.set(i, j,
+                    std::abs(20.0 * (static_cast<double>(i / 10) - static_cast<double>(j / 10)) +
+                             0.1 * (static_cast<double>(i % 10) - static_cast<double>(j % 10))));
   const Embedding embedding = isomap(distances, 3);
   EXPECT_EQ(embedding.bridges, 2);
   EXPECT_LT(embedding.residual_variance, 1e-6);

@@ -20,7 +20,8 @@ TEST(Student, ExceedanceIsThatOfTheTables) {
 
 TrialErrors errors_of(const std::vector<double>& adopted, const std::vector<double>& extended) {
   TrialErrors errors;
-  for (std::size_t i = 0; i < adopted.size(); ++i) errors.modulus.push_back({"design " + std::to_string(i), adopted[i], extended[i]});
+  for (std::size_t i = 0; i < adopted.size(); ++i)
+    errors.modulus.push_back({"design " + std::to_string(i), adopted[i], extended[i]});
   return errors;
 }
 
@@ -37,9 +38,13 @@ TEST(ExtensionTrial, ErrorsOfDifferentSizeDoNotHideAGain) {
   EXPECT_TRUE(gain_is_established(errors_of({0.60, 0.25, 0.12, 0.31}, {0.01, 0.02, 0.01, 0.01}), 3));
 }
 
-TEST(ExtensionTrial, TwoDesignsAreTooFew) { EXPECT_FALSE(gain_is_established(errors_of({0.10, 0.10}, {0.01, 0.01}), 1)); }
+TEST(ExtensionTrial, TwoDesignsAreTooFew) {
+  EXPECT_FALSE(gain_is_established(errors_of({0.10, 0.10}, {0.01, 0.01}), 1));
+}
 
-TEST(ExtensionTrial, ALossIsNoGain) { EXPECT_FALSE(gain_is_established(errors_of({0.01, 0.02, 0.01, 0.02}, {0.11, 0.09, 0.10, 0.12}), 3)); }
+TEST(ExtensionTrial, ALossIsNoGain) {
+  EXPECT_FALSE(gain_is_established(errors_of({0.01, 0.02, 0.01, 0.02}, {0.11, 0.09, 0.10, 0.12}), 3));
+}
 
 // The more rounds may try, the stronger the evidence has to be.
 TEST(ExtensionTrial, TheLevelIsSharedByTheRounds) {
@@ -63,7 +68,8 @@ TEST(ExtensionTrial, OnlyDesignsThatBothHadForetoldCount) {
   TrialErrors errors;
   errors.add({measured}, {{name, {.modulus_pa = 1.1e8, .toughness_pa = {}, .curve = {}}}}, {});
   EXPECT_TRUE(errors.modulus.empty());
-  errors.add({measured}, {{name, {.modulus_pa = 1.1e8, .toughness_pa = {}, .curve = {}}}}, {{name, {.modulus_pa = 0.9e8, .toughness_pa = 2e5, .curve = {}}}});
+  errors.add({measured}, {{name, {.modulus_pa = 1.1e8, .toughness_pa = {}, .curve = {}}}},
+             {{name, {.modulus_pa = 0.9e8, .toughness_pa = 2e5, .curve = {}}}});
   ASSERT_EQ(errors.modulus.size(), 1u);
   EXPECT_NEAR(errors.modulus[0].adopted, std::log(1.1), 1e-12);
   EXPECT_NEAR(errors.modulus[0].extended, -std::log(0.9), 1e-12);

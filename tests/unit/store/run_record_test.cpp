@@ -39,7 +39,8 @@ TEST_F(RunRecordOfAFile, CracksBelongToTheRoundOrTheFamilyWhoseModelBrokeThem) {
   const wire::Family family = wire::samples::family();
   database_.project("FAMILY", wire::write(family));
   wire::Fracture fracture = wire::samples::fracture();
-  for (const std::string& question : {fmt::format("analyser/family{}/films", family.number), std::string("analyser/r7/films")}) {
+  for (const std::string& question :
+       {fmt::format("analyser/family{}/films", family.number), std::string("analyser/r7/films")}) {
     fracture.request_id = question;
     database_.project("FRACTURE", wire::write(fracture));
   }

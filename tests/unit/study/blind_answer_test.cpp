@@ -8,7 +8,9 @@
 namespace nacre::blind_trials {
 namespace {
 
-Trial trial_hiding(std::vector<std::string> hidden) { return {"double-a+b-large-7", "double", 7, true, false, std::move(hidden)}; }
+Trial trial_hiding(std::vector<std::string> hidden) {
+  return {"double-a+b-large-7", "double", 7, true, false, std::move(hidden)};
+}
 
 Answer two_effects() {
   return {.commit = "abc1234",

@@ -10,7 +10,8 @@ namespace nacre::tester {
 namespace {
 
 Simulation specimen(const material::Extensions& extensions = {}) {
-  Simulation simulation{*pattern::design_from_name("577fffe9fffdef"), material::default_parameters(), {}, Fidelity::tiny};
+  Simulation simulation{
+      *pattern::design_from_name("577fffe9fffdef"), material::default_parameters(), {}, Fidelity::tiny};
   simulation.parameters.extensions = extensions;
   return simulation;
 }
@@ -33,7 +34,9 @@ TEST(ModulusProbe, IsExactToFirstOrderInEveryConstant) {
   const Simulation simulation = specimen({{"droplet_mixing", {0.8}}, {"interface_anisotropy", {0.2}}});
   const auto probe = ModulusProbe::at(simulation);
   ASSERT_TRUE(probe);
-  for (double material::ModulusParameters::* constant : {&material::ModulusParameters::e_tb_pa, &material::ModulusParameters::e_vw_pa, &material::ModulusParameters::e_if_pa}) {
+  for (double material::ModulusParameters::*constant :
+       {&material::ModulusParameters::e_tb_pa, &material::ModulusParameters::e_vw_pa,
+        &material::ModulusParameters::e_if_pa}) {
     std::vector<double> errors;
     for (const double change : {0.04, 0.02}) {
       material::ParameterSet moved = simulation.parameters;

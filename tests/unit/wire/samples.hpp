@@ -84,8 +84,10 @@ inline AdoptedModel model() {
   model.provenance.search = "posterior";
   model.provenance.modulus_objective = 0.02;
   model.provenance.toughness_objective = 0.4;
-  model.provenance.modulus_fit = {.count = 18, .freedom = 14, .chi_squared = 15.5, .chi_squared_replicates = 30.0, .p_value = 0.35};
-  model.provenance.estimates = {{"modulus.e_vw_pa", 2.6e9, 2.5e9, 2.7e9, true}, {"toughness.nu_tb", 0.45, 0.4, 0.5, false}};
+  model.provenance.modulus_fit = {
+      .count = 18, .freedom = 14, .chi_squared = 15.5, .chi_squared_replicates = 30.0, .p_value = 0.35};
+  model.provenance.estimates = {{"modulus.e_vw_pa", 2.6e9, 2.5e9, 2.7e9, true},
+                                {"toughness.nu_tb", 0.45, 0.4, 0.5, false}};
   return model;
 }
 
