@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <chrono>
 
+#include "runtime/process.hpp"
 #include "score.hpp"
 #include "study/study_command.hpp"
 #include "study/text_table.hpp"
@@ -71,8 +72,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Blind trials of the diagnosis"};
   Options options;
   study::add_fidelity_option(app, options.fidelity);
-  options.trials.program = NACRE_BINARY_DIR "/nacre";
-  app.add_option("--program", options.trials.program, "nacre under test: a copy outlives the next build")
+  options.trials.program = (runtime::this_program().parent_path() / "nacre").string();
+  app.add_option("--program", options.trials.program, "nacre under test; default: the one beside this program")
       ->capture_default_str();
   app.add_option("--work", options.work, "Folder of the trials")->capture_default_str();
   app.add_flag("--fracture", options.trials.fracture, "Toughness specimens beside the moduli");

@@ -13,6 +13,7 @@
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "runtime/launcher.hpp"
+#include "runtime/process.hpp"
 #include "runtime/round_history.hpp"
 
 namespace {
@@ -30,7 +31,7 @@ Rounds play(const std::filesystem::path& scenario, const std::filesystem::path& 
   }
   runtime::LaunchOptions options;
   options.logs = logs;
-  options.nacre = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "nacre";
+  options.nacre = runtime::this_program().parent_path() / "nacre";
   if (std::filesystem::exists(folder)) {
     options.resume = folder;
   } else {
