@@ -1,5 +1,6 @@
 #include "virtual_lab/laid_unit.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -61,25 +62,39 @@ std::vector<double> bell_shares(double deviation) {
   return shares;
 }
 
-/// Places in an element along one direction, and at each the pixels that reach it when grown: those of a probe before,
-/// at and behind the place.
-constexpr int kPlaces = 16, kProbes = 3;  // fewer places would round the growth to steps of a sixteenth of a pixel
+/// Pixels that reach a place when grown.
 struct Reached {
   int first = 0, last = 0;
 };
-using ReachedAlong = std::array<std::array<Reached, kProbes>, kPlaces>;
 
-ReachedAlong reached_along(int element, double growth) {
-  ReachedAlong along;
-  for (int place = 0; place < kPlaces; ++place) {
-    const double at = (element + (place + 0.5) / kPlaces) * kElementM / kPixelM - kFirstCentre;
-    for (int probe = 0; probe < kProbes; ++probe) {
-      const double x = at + (probe - 1) * kInterfaceReach, reach = 0.5 + growth;
-      along[static_cast<std::size_t>(place)][static_cast<std::size_t>(probe)] = {
-          static_cast<int>(std::ceil(x - reach)), static_cast<int>(std::floor(x + reach))};
-    }
+/// Probes before, at and behind a place.
+constexpr std::array kProbes = {-kInterfaceReach, 0.0, kInterfaceReach};
+
+/// A stretch of an element along one direction in which no probe comes to other pixels.
+struct Stretch {
+  double share = 0.0;  ///< of the element
+  std::array<Reached, kProbes.size()> reached;
+};
+
+/// The stretches of an element where every pixel reaches `reach` pixels from its centre.
+std::vector<Stretch> stretches_of(int element, double reach) {
+  const auto in_pixels = [](int at) { return at * kElementM / kPixelM - kFirstCentre; };
+  const double begin = in_pixels(element), end = in_pixels(element + 1);
+  std::vector<double> ends = {begin, end};
+  for (const double probe : kProbes)
+    for (const double side : {-reach, reach})
+      for (double at = std::ceil(begin + probe - side) + side - probe; at < end; at += 1.0) ends.push_back(at);
+  std::sort(ends.begin(), ends.end());
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i] <= ends[i - 1]) continue;
+    const double middle = 0.5 * (ends[i - 1] + ends[i]);
+    stretches.push_back({.share = (ends[i] - ends[i - 1]) / (end - begin), .reached = {}});
+    for (std::size_t k = 0; k < kProbes.size(); ++k)
+      stretches.back().reached[k] = {.first = static_cast<int>(std::ceil(middle + kProbes[k] - reach)),
+                                     .last = static_cast<int>(std::floor(middle + kProbes[k] + reach))};
   }
-  return along;
+  return stretches;
 }
 
 bool any_rigid(const pattern::Layout& layout, Reached rows, Reached columns) {
@@ -89,19 +104,19 @@ bool any_rigid(const pattern::Layout& layout, Reached rows, Reached columns) {
   return false;
 }
 
-/// Rigid fraction of an element where rigid regions have grown on every side by `growth` pixels: the mean over places
-/// in it, each soft, rigid or, where probes a quarter pixel away disagree, interface.
+/// Rigid fraction of an element where rigid regions have grown on every side by `growth` pixels: the mean over its
+/// area, each place soft, rigid or, where probes a quarter pixel away disagree, interface.
 double grown_fraction(const pattern::Layout& layout, int row, int column, double growth) {
-  const ReachedAlong up = reached_along(row, growth), across = reached_along(column, growth);
-  double sum = 0.0;
-  for (const auto& rows : up)
-    for (const auto& columns : across) {
-      int rigid = 0;
-      for (const Reached y : rows)
-        for (const Reached x : columns) rigid += any_rigid(layout, y, x) ? 1 : 0;
-      sum += rigid == kProbes * kProbes ? 1.0 : rigid == 0 ? 0.0 : 0.5;
+  const std::vector<Stretch> rows = stretches_of(row, 0.5 + growth), columns = stretches_of(column, 0.5 + growth);
+  double fraction = 0.0;
+  for (const Stretch& y : rows)
+    for (const Stretch& x : columns) {
+      std::size_t rigid = 0;
+      for (const Reached up : y.reached)
+        for (const Reached across : x.reached) rigid += any_rigid(layout, up, across) ? 1 : 0;
+      fraction += y.share * x.share * (rigid == kProbes.size() * kProbes.size() ? 1.0 : rigid == 0 ? 0.0 : 0.5);
     }
-  return sum / (kPlaces * kPlaces);
+  return std::clamp(fraction, 0.0, 1.0);
 }
 
 }  // namespace

@@ -20,13 +20,12 @@ double rigid_share(const pattern::Layout& layout, double growth_pixels) {
 // Layers of five pixels: each rigid one becomes thicker by the growth on either side, however small it is against an
 // element.
 TEST(LaidUnit, RigidRegionsGrowByWhatTheyAreSaidTo) {
-  constexpr double kHundredthOfAPixel = 0.01;
   for (const auto direction : {pattern::LayerDirection::along_x, pattern::LayerDirection::along_y}) {
     const pattern::Layout layers = pattern::laminate(direction, 5, 5);
     const double before = rigid_share(layers, 0.0);
     for (const double growth : {0.03, 0.06, 0.1, 0.17, 0.2, 0.36}) {
       const double thicker_by_pixels = (rigid_share(layers, growth) - before) * 10.0;
-      EXPECT_NEAR(thicker_by_pixels, 2.0 * growth, 2.0 * kHundredthOfAPixel) << growth;
+      EXPECT_NEAR(thicker_by_pixels, 2.0 * growth, 1e-9) << growth;
     }
   }
 }
