@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "baselines.hpp"
 #include "case.hpp"
@@ -120,9 +123,39 @@ Calibrated calibrate(const Case& study_case, const sysid::CalibrationSettings& s
                                         progress);
 }
 
+constexpr int kRound = 8, kMostFitted = 42;  // designs of a round; those that the study has
+
+/// The eight designs that the next round of the growing set brings (Table 3.5), to be predicted before they are fitted.
+Case next_round(const Case& now, std::uint64_t seed, const Options& options, const std::function<void()>& may_go_on) {
+  Options later = options;
+  later.fitted += kRound;
+  Case next = measured_case(seed, later, may_go_on);
+  const auto is_known = [&](const measurement::Replicates& each) {
+    return std::any_of(now.fitted.begin(), now.fitted.end(),
+                       [&](const measurement::Replicates& known) { return known.design.name() == each.design.name(); });
+  };
+  next.held_out.clear();
+  std::copy_if(next.fitted.begin(), next.fitted.end(), std::back_inserter(next.held_out), std::not_fn(is_known));
+  next.fitted = now.fitted;
+  return next;
+}
+
 struct Tables {
-  Table held_out, convergence, intervals;
+  Table held_out, convergence, intervals, next_round;
 };
+
+/// Errors of the first of `sets` and of the mean of all on the next round's designs, as a row behind `cells`.
+void add_next_round(std::vector<std::string> cells, const Case& next, const std::vector<material::ParameterSet>& sets,
+                    sysid::LocalSimulator& simulator, Table& table, const std::function<void()>& may_go_on) {
+  const auto predictions = sysid::predict(sets, next.held_out, simulator, may_go_on);
+  const PredictionErrors first = sysid::prediction_errors(next.held_out, predictions.front());
+  const PredictionErrors mean = sysid::prediction_errors(next.held_out, sysid::mean_prediction(predictions));
+  const Floor floor = floor_of(next, simulator, may_go_on);
+  cells.push_back(std::to_string(next.held_out.size()));
+  append(cells, {first.modulus_mean, first.toughness_mean, mean.toughness_mean, baselines_of(next).toughness_line,
+                 floor.toughness});
+  table.add(cells);
+}
 
 void study_one(const Options& options, std::uint64_t seed, const std::string& search, Tables& tables,
                const std::function<void()>& may_go_on) {
@@ -135,7 +168,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
       options.begin_at.empty() ? search : fmt::format("{} after {}", search, options.begin_at),
       std::to_string(options.fitted),
       std::to_string(options.budget)};
-  if (tables.held_out.has(cells)) return;
+  if (tables.held_out.has(cells) && (options.fitted >= kMostFitted || tables.next_round.has(cells))) return;
   const Case study_case = measured_case(seed, options, may_go_on);
   sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   sysid::CalibrationSettings settings;
@@ -150,6 +183,10 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   const Calibrated calibrated = calibrate(study_case, settings, options, simulator, may_go_on);
   std::vector<material::ParameterSet> sets = {settings.start, calibrated.parameters};
   sets.insert(sets.end(), calibrated.ensemble.begin(), calibrated.ensemble.end());
+  if (options.fitted < kMostFitted && !tables.next_round.has(cells))
+    add_next_round(cells, next_round(study_case, seed, options, may_go_on), {sets.begin() + 1, sets.end()}, simulator,
+                   tables.next_round, may_go_on);
+  if (tables.held_out.has(cells)) return;
   auto predictions = sysid::predict(sets, study_case.held_out, simulator, may_go_on);
   const PredictionErrors before = sysid::prediction_errors(study_case.held_out, predictions[0]);
   const PredictionErrors after = sysid::prediction_errors(study_case.held_out, predictions[1]);
@@ -221,7 +258,11 @@ void study_held_out(const Options& options) {
       Table(options.out + "/intervals.csv",
             {"fidelity", "effect", "seed", "search", "fitted", "budget", "parameter", "truth", "estimate", "low90",
              "high90", "determined"},
-            kKeyColumns + 1)};
+            kKeyColumns + 1),
+      Table(options.out + "/next_round.csv",
+            {"fidelity", "effect", "seed", "search", "fitted", "budget", "next", "E_next", "T_next", "T_ensemble",
+             "T_line", "T_floor"},
+            kKeyColumns)};
   for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
     for (const std::string& search : options.searches) {
       study_one(options, static_cast<std::uint64_t>(seed), search, tables, may_go_on);

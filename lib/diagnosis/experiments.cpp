@@ -103,7 +103,7 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
       PossibleTest coupon{pattern::Mixture{fraction},
                           TestKind::tensile,
                           {},
-                          "a pure coupon pulled " + speed + "to 2 % strain, back to 0.5 % and on"};
+                          "a homogeneous coupon pulled " + speed + "to 2 % strain, back to 0.5 % and on"};
       coupon.conditions.strain_rate_per_s *= factor;
       offer(coupon);
     }

@@ -16,15 +16,15 @@ struct PossibleTest {
 };
 
 /// Tests that a laboratory could add to these: turned twins of measured designs, a tenfold rate and half the thickness
-/// for the most measured ones, laminates and checkerboards of period 1, 2 and 5 both ways, pure coupons pulled and
-/// unloaded at two rates. What is measured already is left out.
+/// for the most measured ones, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous coupons pulled
+/// and unloaded at two rates. What is measured already is left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity fidelity);
 
 /// What a model predicts of a test, one value per feature that says something.
 FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
                                  tester::Fidelity fidelity);
 
-/// Strains of a pull to 2 %, back to no load and up again: what pure coupons are ordered with.
+/// Strains of a pull to 2 %, back to no load and up again: what homogeneous coupons are ordered with.
 std::vector<double> unload_history();
 
 /// Tests that would best tell the given models apart, by the expected squared difference of their predicted features

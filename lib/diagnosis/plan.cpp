@@ -78,7 +78,8 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
     std::string name = test.words;
     if (name.find("checkerboard") != std::string::npos) name = "checkerboards of period 1, 2 and 5";
     if (name.find("laminate") != std::string::npos) name = "laminates of period 1, 2 and 5, across and along the pull";
-    if (name.find("pure coupon") != std::string::npos) name = "pure coupons at two rates, unloaded on the way";
+    if (name.find("homogeneous coupon") != std::string::npos)
+      name = "homogeneous coupons at two rates, unloaded on the way";
     if (twin) name += fmt::format(", {} tests", tester::to_string(test.test));
     auto& tests = result[name];
     if (!twin || tests.size() < kMost) tests.push_back(test);
