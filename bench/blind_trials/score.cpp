@@ -22,8 +22,8 @@ std::string rate(int good, int all) {
   const double n = all, p = good / n, z = 1.96;
   const double middle = (p + z * z / (2 * n)) / (1 + z * z / n),
                half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n);
-  return fmt::format("{} of {} ({:.0f} %; 95 %: {:.0f} to {:.0f} %)", good, all, 100 * p, 100 * (middle - half),
-                     100 * (middle + half));
+  return fmt::format("{} of {} ({:.0f} %; 95 %: {:.0f} to {:.0f} %)", good, all, 100 * p,
+                     100 * std::max(0.0, middle - half), 100 * (middle + half));
 }
 
 std::vector<std::string> names_of(const Answer& answer) {
