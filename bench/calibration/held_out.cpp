@@ -168,7 +168,8 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
       options.begin_at.empty() ? search : fmt::format("{} after {}", search, options.begin_at),
       std::to_string(options.fitted),
       std::to_string(options.budget)};
-  if (tables.held_out.has(cells) && (options.fitted >= kMostFitted || tables.next_round.has(cells))) return;
+  const bool wants_next = options.fitted < kMostFitted && !tables.next_round.has(cells);
+  if (tables.held_out.has(cells) && !wants_next) return;
   const Case study_case = measured_case(seed, options, may_go_on);
   sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   sysid::CalibrationSettings settings;
@@ -183,7 +184,7 @@ void study_one(const Options& options, std::uint64_t seed, const std::string& se
   const Calibrated calibrated = calibrate(study_case, settings, options, simulator, may_go_on);
   std::vector<material::ParameterSet> sets = {settings.start, calibrated.parameters};
   sets.insert(sets.end(), calibrated.ensemble.begin(), calibrated.ensemble.end());
-  if (options.fitted < kMostFitted && !tables.next_round.has(cells))
+  if (wants_next)
     add_next_round(cells, next_round(study_case, seed, options, may_go_on), {sets.begin() + 1, sets.end()}, simulator,
                    tables.next_round, may_go_on);
   if (tables.held_out.has(cells)) return;

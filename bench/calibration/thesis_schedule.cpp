@@ -36,17 +36,16 @@ std::vector<optimize::Evaluation> read_log(const std::string& file) {
 }
 
 /// What the schedule found, in sample and on the designs that were not fitted.
-void add_result(const Options& options, std::uint64_t seed, const optimize::Evaluation& best, std::size_t evaluations,
+void add_result(const Options& options, std::uint64_t seed, const optimize::Evaluation& best, int evaluations,
                 const Case& study_case, const std::function<void()>& may_go_on) {
+  Table table(options.out + "/thesis.csv",
+              {"fidelity", "seed", "fitted", "evaluations", "T_objective", "T_held_out", "spearman"}, 4);
+  std::vector<std::string> cells = {options.fidelity, std::to_string(seed), std::to_string(options.fitted),
+                                    std::to_string(evaluations)};
+  if (table.has(cells)) return;
   sysid::LocalSimulator simulator = kept_simulator(options, options.fidelity);
   const auto predicted = sysid::predict({parameters_at(best.point)}, study_case.held_out, simulator, may_go_on);
   const sysid::PredictionErrors errors = sysid::prediction_errors(study_case.held_out, predicted.front());
-  Table table(options.out + "/thesis.csv",
-              {"fidelity", "seed", "fitted", "evaluations", "T_objective", "T_held_out", "spearman"}, 4);
-  const std::vector<std::string> key = {options.fidelity, std::to_string(seed), std::to_string(options.fitted),
-                                        std::to_string(evaluations)};
-  if (table.has(key)) return;
-  std::vector<std::string> cells = key;
   for (const double value : {*best.value, errors.toughness_mean, errors.toughness_spearman})
     cells.push_back(fmt::format("{:.4f}", value));
   table.add(cells);
@@ -91,7 +90,7 @@ void run_schedule(const Options& options, std::uint64_t seed, const std::functio
     std::ofstream(log, std::ios::app) << lines;
     optimizer->tell(values);
   }
-  add_result(options, seed, *optimizer->best(), read_log(log).size(), study_case, may_go_on);
+  add_result(options, seed, *optimizer->best(), settings.budget, study_case, may_go_on);
 }
 
 }  // namespace

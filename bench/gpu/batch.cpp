@@ -29,8 +29,8 @@ int places_on_device(const tester::FractureTest& typical, int most, bool emulate
 }
 
 std::vector<Result<tester::ToughnessResult>> pull_all(std::unique_ptr<gpu::Device> device, int places,
-                                                      const std::vector<tester::FractureTest>& tests, BatchTimes& times,
-                                                      const std::function<void(std::size_t)>& done) {
+                                                      const std::vector<tester::FractureTest>& tests,
+                                                      BatchTimes& times) {
   std::vector<std::optional<Result<gpu::PreparedTest>>> prepared(tests.size());
   const auto began = std::chrono::steady_clock::now();
   parallel_for(static_cast<int>(tests.size()), [&](int i) {
@@ -40,21 +40,17 @@ std::vector<Result<tester::ToughnessResult>> pull_all(std::unique_ptr<gpu::Devic
   times.preparing_s = seconds_since(began);
   gpu::BatchTester batch(std::move(device), places);
   std::vector<std::optional<Result<tester::ToughnessResult>>> results(tests.size());
-  std::size_t count = 0;
   for (std::size_t i = 0; i < tests.size(); ++i) {
     if (*prepared[i])
       batch.add({static_cast<int>(i), **std::move(prepared[i])});
     else
-      results[i] = tl::unexpected(prepared[i]->error()), ++count;
+      results[i] = tl::unexpected(prepared[i]->error());
     prepared[i].reset();
   }
   const auto pulling = std::chrono::steady_clock::now();
   while (batch.pending() > 0) {
-    for (gpu::NumberedResult& over : batch.turn()) {
+    for (gpu::NumberedResult& over : batch.turn())
       results[static_cast<std::size_t>(over.number)] = std::move(over.result);
-      ++count;
-    }
-    if (done) done(count);
   }
   times.pulling_s = seconds_since(pulling);
   std::vector<Result<tester::ToughnessResult>> in_order;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,9 +20,9 @@ struct BatchTimes {
   double pulling_s = 0.0;    ///< from the first specimen on the device to the last one off it
 };
 
-/// All tests through a batch of `places`, results in their order. `done(count)` after every turn.
+/// All tests through a batch of `places`, results in their order.
 std::vector<Result<tester::ToughnessResult>> pull_all(std::unique_ptr<gpu::Device> device, int places,
-                                                      const std::vector<tester::FractureTest>& tests, BatchTimes& times,
-                                                      const std::function<void(std::size_t)>& done = {});
+                                                      const std::vector<tester::FractureTest>& tests,
+                                                      BatchTimes& times);
 
 }  // namespace nacre::gpu_study

@@ -27,9 +27,9 @@ FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& 
 /// Strains of a pull to 2 %, back to no load and up again: what homogeneous coupons are ordered with.
 std::vector<double> unload_history();
 
-/// Tests that would best tell the given models apart, by the expected squared difference of their predicted features
-/// over the noise of `replicates` specimens. Fewer than two models: nothing to separate. Fracture tests are simulated,
-/// one per model and test.
+/// At most `count` tests that together would best tell the given models apart (choose_tests), by the differences of
+/// their predicted features over the noise of `replicates` specimens. Fewer than two models: nothing to separate.
+/// Fracture tests are simulated, one per model and test.
 std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model,
                                              const Observations& observations, tester::Fidelity fidelity, int count,
                                              int replicates = 3);
