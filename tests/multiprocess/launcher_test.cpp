@@ -1,15 +1,37 @@
 // The launcher against nodes that pretend: readiness, restarts, endings. Real processes, a real bus.
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <thread>
 
 #include "base/files.hpp"
 #include "program_test.hpp"
 
 namespace nacre {
 namespace {
+
+TEST(Processes, ThatEndWhileTheyAreLookedForDisturbNobody) {
+  std::atomic<bool> over = false;
+  std::thread births([&] {
+    while (!over) {
+      for (int child = 0; child < 8; ++child) {
+        if (::fork() == 0) ::_exit(0);
+      }
+      while (::waitpid(-1, nullptr, 0) > 0) continue;
+    }
+  });
+  EXPECT_NO_THROW({
+    for (int look = 0; look < 5000; ++look) processes_with("nobody has this command line");
+  });
+  over = true;
+  births.join();
+}
 
 class Launcher : public testing::Test {
  protected:

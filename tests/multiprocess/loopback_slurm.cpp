@@ -122,6 +122,8 @@ void LoopbackSlurm::mend_node() {
 }
 
 bool LoopbackSlurm::becomes_ready(double timeout_s) {
+  if (!controller_) start_controller();
+  if (!node_) start_node();
   return becomes_true(
       [&] {
         mend_node();

@@ -28,7 +28,8 @@ class LoopbackSlurm {
   /// What operators type when the controller has drained the node after a crash ("Duplicate jobid") or calls it down;
   /// at most once a second.
   void mend_node();
-  /// Whether the node is ready for tasks within timeout_s, mended where that is needed.
+  /// Whether the node is ready for tasks within timeout_s: daemons that were killed are started, the node is mended
+  /// where that is needed.
   bool becomes_ready(double timeout_s);
   /// What Slurm says of its node and tasks, for people.
   std::string standing() const;

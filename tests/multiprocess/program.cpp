@@ -7,12 +7,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include <gtest/gtest.h>
 
 #include "../instrumented.hpp"
+#include "base/files.hpp"
 #include "base/result.hpp"
 
 namespace nacre {
@@ -56,9 +55,13 @@ const fs::path& test_folder() {
   return folder.path();
 }
 
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// A process' command line; nothing of one that ends meanwhile (its file opens and then cannot be read).
+std::string command_line(const fs::path& process) {
+  try {
+    return read_file(process / "cmdline");
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 }  // namespace
@@ -82,7 +85,7 @@ Outcome run_nacre(const std::vector<std::string>& arguments, double timeout_s) {
   runtime::ProcessEnd end = wait_for_end(process, outcome.out, timeout_s);
   if (end.signal == SIGALRM) end.signal = SIGKILL;  // the destructor does it
   outcome.status = end.signal != 0 ? 128 + end.signal : end.exit_status;
-  outcome.err = content(errors);
+  outcome.err = read_file(errors);
   fs::remove(errors);
   return outcome;
 }
@@ -114,7 +117,7 @@ std::vector<int> processes_with(const std::string& text) {
     const std::string name = entry.path().filename();
     if (!std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; })) continue;
     if (std::stoi(name) == ::getpid()) continue;
-    std::string command = content(entry.path() / "cmdline");
+    std::string command = command_line(entry.path());
     std::replace(command.begin(), command.end(), '\0', ' ');
     if (command.find(text) != std::string::npos) found.push_back(std::stoi(name));
   }
