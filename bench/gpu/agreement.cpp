@@ -31,9 +31,7 @@ std::vector<pattern::Pattern> patterns_of(int count) {
 material::ParameterSet moved_parameters(const pattern::Pattern& pattern) {
   material::ParameterSet set = material::default_parameters();
   RandomStream random(pattern.bits(), "gpu agreement, moved");
-  material::ToughnessVector vector = to_vector(set.toughness);
-  for (double& value : vector) value *= 1.0 + kMoved * random.normal();
-  set.toughness = material::toughness_from_vector(vector);
+  set.toughness = material::perturbed(set.toughness, kMoved, random);
   return set;
 }
 

@@ -24,15 +24,6 @@ struct Options {
   study::TableOptions table{.table = "repeatability.csv"};
 };
 
-/// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5).
-material::ToughnessParameters perturbed(const material::ToughnessParameters& eta, double relative,
-                                        RandomStream& random) {
-  material::ToughnessVector vector = material::to_vector(eta);
-  for (double& value : vector) value *= 1.0 + relative * random.normal();
-  for (std::size_t i = 3; i < 6; ++i) vector[i] = std::min(vector[i], 0.499);
-  return material::toughness_from_vector(vector);
-}
-
 std::string key_of(const Options& options, const pattern::Pattern& pattern, double relative, int draw) {
   return fmt::format("{} {} {} {:g} {}", options.fidelity, options.table.seed, pattern.key(), relative, draw);
 }
@@ -45,7 +36,7 @@ std::vector<study::Wanted> wanted_rows(const Options& options, const std::vector
     wanted.push_back({key, [=] {
                         RandomStream random(1, "repeatability/" + key);
                         material::ParameterSet parameters = material::default_parameters();
-                        parameters.toughness = perturbed(parameters.toughness, relative, random);
+                        parameters.toughness = material::perturbed(parameters.toughness, relative, random);
                         return fracture_row(key, tester::test_toughness({pattern, parameters, {}, fidelity}));
                       }});
   };

@@ -17,6 +17,7 @@ struct ProposalSettings {
   int seeds = 2;                    ///< independent searches merged into one gamut
   int population = 20;              ///< of each search
   int designs = 4;                  ///< selected for the laboratory each round
+  int redraws = 3;  ///< further simulations of T of whatever may be selected, under parameters moved by a fifth
   bool operator==(const ProposalSettings&) const = default;
 };
 

@@ -253,6 +253,9 @@ std::vector<ScenarioKey> make_proposal_keys() {
                         at(table, &ProposalSettings::population)),
       whole_number<int>("proposal", "designs", "designs chosen for the laboratory each round", 1, 100,
                         at(table, &ProposalSettings::designs)),
+      whole_number<int>("proposal", "redraws",
+                        "further fracture tests of every candidate, parameters moved by a fifth; its T is their mean",
+                        0, 100, at(table, &ProposalSettings::redraws)),
   };
 }
 

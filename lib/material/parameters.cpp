@@ -136,6 +136,14 @@ double to_unit(const ParameterRange& range, double value) {
   return std::log(value / range.minimum) / std::log(range.maximum / range.minimum);
 }
 
+ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random) {
+  constexpr double kLargestPoissonRatio = 0.499;
+  ToughnessVector vector = to_vector(eta);
+  for (double& value : vector) value *= 1.0 + relative * random.normal();
+  for (std::size_t i = 3; i < 6; ++i) vector[i] = std::min(vector[i], kLargestPoissonRatio);
+  return toughness_from_vector(vector);
+}
+
 double from_unit(const ParameterRange& range, double unit) {
   if (!range.logarithmic()) return range.minimum + unit * (range.maximum - range.minimum);
   return range.minimum * std::pow(range.maximum / range.minimum, unit);

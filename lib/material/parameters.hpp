@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/random.hpp"
 #include "base/result.hpp"
 
 namespace nacre::material {
@@ -57,6 +58,10 @@ struct ParameterSet {
   Extensions extensions;
   bool operator==(const ParameterSet&) const = default;
 };
+
+/// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5): a draw of what
+/// nobody knows better.
+ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random);
 
 /// Feasible range of one parameter (thesis Tables A.1 and A.2). Ranges that span over a decade are searched in log10.
 struct ParameterRange {

@@ -1,11 +1,24 @@
+#include "proposal_agent/branch.hpp"
+
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "proposal_agent/proposal_core.hpp"
-
 namespace nacre::proposal_agent {
+
+std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Pattern> patterns,
+                                                  const wire::SimulateRequest& model, const std::string& id) {
+  std::vector<wire::SimulateRequest> requests;
+  for (std::size_t first = 0; first < patterns.size(); first += wire::kMaximumDesigns) {
+    wire::SimulateRequest request = model;
+    request.request_id = first == 0 ? id : fmt::format("{}/from{}", id, first);
+    const std::size_t count = std::min(wire::kMaximumDesigns, patterns.size() - first);
+    for (const pattern::Pattern& pattern : patterns.subspan(first, count)) request.designs.emplace_back(pattern);
+    requests.push_back(std::move(request));
+  }
+  return requests;
+}
 
 Branch::Branch(int number, const explore::SearchSettings& settings, std::string request_prefix)
     : search_(explore::make_search(settings)), prefix_(fmt::format("{}/s{}", request_prefix, number)) {}
@@ -31,13 +44,9 @@ std::vector<wire::SimulateRequest> Branch::requests_for(const wire::SimulateRequ
   ++generation_;
   performances_.assign(patterns.size(), std::nullopt);
   simulated_ += static_cast<int>(patterns.size());
-  for (std::size_t first = 0; first < patterns.size(); first += wire::kMaximumDesigns) {
-    wire::SimulateRequest request = model;
-    request.request_id = fmt::format("{}/g{}{}", prefix_, generation_, first == 0 ? "" : fmt::format("/from{}", first));
-    const std::size_t end = std::min(first + wire::kMaximumDesigns, patterns.size());
-    for (std::size_t index = first; index < end; ++index) request.designs.emplace_back(patterns[index]);
-    first_.emplace(request.request_id, first);
-    requests.push_back(std::move(request));
+  requests = requests_about(patterns, model, fmt::format("{}/g{}", prefix_, generation_));
+  for (std::size_t part = 0; part < requests.size(); ++part) {
+    first_.emplace(requests[part].request_id, part * wire::kMaximumDesigns);
   }
   return requests;
 }

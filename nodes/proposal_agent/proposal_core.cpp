@@ -74,7 +74,8 @@ explore::SearchSettings ProposalCore::search_settings(int branch) const {
 
 void ProposalCore::start_next_round(runtime::Outputs& outputs) {
   const auto next = waiting_.begin();
-  round_ = Round{.model = std::move(next->second), .branches = {}, .gamut = {}};
+  round_.emplace();
+  round_->model = std::move(next->second);
   waiting_.erase(next);
   const bool same_model = last_parameters_ == game::material_side(round_->model.parameters);
   log(outputs, runtime::LogLevel::info,
@@ -83,7 +84,7 @@ void ProposalCore::start_next_round(runtime::Outputs& outputs) {
                   same_model ? ", the model is that of the round before" : ""));
   for (int number = 0; number < scenario_.proposal.seeds; ++number) {
     explore::SearchSettings settings = search_settings(number);
-    (same_model ? settings.known : settings.former) = last_gamut_;
+    (same_model ? settings.known : settings.former) = last_found_;
     round_->branches.emplace_back(number, settings, fmt::format("proposal_agent/r{}", round_->model.round));
   }
   for (Branch& branch : round_->branches) ask_next(branch, outputs);
@@ -109,7 +110,7 @@ void ProposalCore::send(const std::vector<wire::SimulateRequest>& requests, runt
   for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
   const bool all_finished =
       std::all_of(round_->branches.begin(), round_->branches.end(), [](const Branch& each) { return each.finished(); });
-  if (all_finished && !round_->selecting) publish_gamut(outputs);
+  if (all_finished && !round_->redraws) draw_again(outputs);
 }
 
 void ProposalCore::accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs) {
@@ -130,6 +131,11 @@ void ProposalCore::accept_answer(const std::string& payload, runtime::Outputs& o
   if (!part) return log(outputs, runtime::LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
   if (!round_) return;
   const std::string request_id = part->request_id;
+  if (round_->redraws && round_->redraws->waits_for(request_id)) {
+    const auto answer = collector_.add(*std::move(part));
+    if (answer && round_->redraws->take(request_id, *answer)) draw_again(outputs);
+    return;
+  }
   const auto branch = std::find_if(round_->branches.begin(), round_->branches.end(),
                                    [&](const Branch& each) { return each.waits_for(request_id); });
   if (branch == round_->branches.end()) return;  // answered before, or not ours
@@ -142,20 +148,30 @@ int ProposalCore::simulations() const {
                          [](int sum, const Branch& branch) { return sum + branch.simulated(); });
 }
 
+void ProposalCore::draw_again(runtime::Outputs& outputs) {
+  if (!round_->redraws) {
+    std::vector<std::vector<explore::Evaluated>> gamuts;
+    for (const Branch& branch : round_->branches) gamuts.push_back(branch.evaluated());
+    round_->found = explore::merge_gamuts(gamuts);
+    round_->redraws.emplace(round_->found, round_->model.measured, scenario_.proposal.redraws, scenario_.seed,
+                            fmt::format("proposal_agent/r{}", round_->model.round));
+  }
+  const auto requests = round_->redraws->next(question_to_farm());
+  for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
+  if (requests.empty()) publish_gamut(outputs);
+}
+
 void ProposalCore::publish_gamut(runtime::Outputs& outputs) {
-  std::vector<std::vector<explore::Evaluated>> gamuts;
-  for (const Branch& branch : round_->branches) gamuts.push_back(branch.evaluated());
-  round_->gamut = explore::merge_gamuts(gamuts);
   round_->selecting = true;
   const std::vector<wire::GamutChunk> chunks =
-      wire::gamut_chunks(round_->model.round, scenario_.fidelity, round_->gamut);
+      wire::gamut_chunks(round_->model.round, scenario_.fidelity, round_->redraws->gamut());
   for (const wire::GamutChunk& chunk : chunks) outputs.messages.push_back({"GAMUT", wire::write(chunk)});
   outputs.computes.push_back({.id = fmt::format("select/r{}", round_->model.round),
                               .kind = "select",
                               .spec = selection_spec({.model = round_->model,
                                                       .gamut = chunks,
                                                       .count = scenario_.proposal.designs,
-                                                      .simulations = simulations()})});
+                                                      .simulations = simulations() + round_->redraws->simulated()})});
 }
 
 void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs) {
@@ -166,10 +182,12 @@ void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outpu
   }
   outputs.messages.push_back({"PROPOSAL", work.result});
   log(outputs, runtime::LogLevel::info,
-      fmt::format("round {}: {} designs proposed from {} samples, gamut hypervolume {:.4g} GPa MPa", proposal->round,
-                  proposal->designs.size(), round_->gamut.size(), proposal->gamut_hypervolume_staircase));
+      fmt::format("round {}: {} designs proposed from {} samples, their toughness from {} further draws; gamut "
+                  "hypervolume {:.4g} GPa MPa",
+                  proposal->round, proposal->designs.size(), round_->found.size(), round_->redraws->simulated(),
+                  proposal->gamut_hypervolume_staircase));
   last_parameters_ = game::material_side(round_->model.parameters);
-  last_gamut_ = std::move(round_->gamut);
+  last_found_ = std::move(round_->found);
   last_round_ = round_->model.round;
   round_.reset();
   if (!waiting_.empty()) start_next_round(outputs);
@@ -182,6 +200,8 @@ runtime::Status ProposalCore::status() const {
             .progress = -1.0,
             .finished = finished_};
   }
+  if (round_->redraws && !round_->selecting)
+    return {.phase = "drawing candidates again", .round = round_->model.round, .progress = -1.0, .finished = false};
   if (round_->selecting)
     return {.phase = "selecting designs", .round = round_->model.round, .progress = -1.0, .finished = false};
   return {.phase = "searching the gamut",

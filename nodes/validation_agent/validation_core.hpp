@@ -133,6 +133,7 @@ class ValidationCore : public runtime::NodeCore {
   FarmQuestions questions_;
   std::optional<Fitting> fitting_;
   std::vector<measurement::Replicates> held_out_set_;
+  std::vector<sysid::Prediction> proposed_;  // for each of held_out_set_
   sysid::PredictionErrors before_, after_, held_out_;
   sysid::Provenance provenance_;  ///< of model_
   int simulations_ = 0;

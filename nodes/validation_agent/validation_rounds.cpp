@@ -92,14 +92,14 @@ void ValidationCore::predict_held_out() {
     proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
   }
   held_out_set_.clear();
-  std::vector<sysid::Prediction> predictions;
+  proposed_.clear();
   for (const measurement::Replicates& measured : calibration_set_) {
     const auto prediction = proposed.find(measured.design.name());
     if (prediction == proposed.end() || calibrated_designs_.contains(prediction->first)) continue;
     held_out_set_.push_back(measured);
-    predictions.push_back(prediction->second);
+    proposed_.push_back(prediction->second);
   }
-  if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(predictions);
+  if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(proposed_);
   // What the testing machine makes of a prediction needs its curve, which a proposal does not carry: asked for again,
   // and answered from the farm's cache.
   sysid::WantedEvaluation evaluation{.id = "0", .parameters = model_, .modulus = true, .toughness = true, .items = {}};
@@ -110,8 +110,16 @@ void ValidationCore::predict_held_out() {
 
 void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predictions) {
   std::vector<sysid::Prediction> shown;
-  for (const sysid::Prediction& prediction : predictions) {
-    shown.push_back(game::has_measurement_side(model_) ? sysid::observed(prediction, model_.extensions) : prediction);
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    if (!game::has_measurement_side(model_)) {
+      shown.push_back(predictions[i]);
+      continue;
+    }
+    shown.push_back(sysid::observed(predictions[i], model_.extensions));
+    // The curve is one simulation's, what was proposed may be the mean of several.
+    auto& toughness_pa = shown.back().toughness_pa;
+    if (toughness_pa && predictions[i].toughness_pa)
+      *toughness_pa *= *proposed_[i].toughness_pa / *predictions[i].toughness_pa;
   }
   held_out_ = sysid::prediction_errors(held_out_set_, shown);
   if (trial_) {

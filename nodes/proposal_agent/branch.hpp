@@ -1,0 +1,55 @@
+#pragma once
+// One of the searches that are merged into a gamut.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "explore/search.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::proposal_agent {
+
+/// The model's question about every pattern, ID; where they are more than a message holds, ID/from64 and so on beside
+/// it.
+std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Pattern> patterns,
+                                                  const wire::SimulateRequest& model, const std::string& id);
+
+/// One of the searches that are merged into a gamut. Searches do not wait for each other: what one asks for depends on
+/// the answers to its own questions alone, so the farm stays busy while the merged result is the same.
+class Branch {
+ public:
+  Branch(int number, const explore::SearchSettings& settings, std::string request_prefix);
+
+  /// What must be worked out before next() (a learned search trains); nothing for a search that answers at once.
+  std::optional<explore::Question> question() const { return search_->question(); }
+  /// SIMULATE requests for the next generation; empty when the search has ended.
+  std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model);
+  /// The same, with the answer to question().
+  std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model, std::span<const pattern::Pattern> answer);
+  /// Takes the answer to one of the requests. Returns whether the generation is complete (then ask for next()).
+  bool take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer);
+  bool waits_for(const std::string& request_id) const { return first_.contains(request_id); }
+  bool finished() const { return finished_; }
+  /// Identity of the answer that the branch waits for or would ask for.
+  std::string question_id() const;
+  int simulated() const { return simulated_; }
+  const std::vector<explore::Evaluated>& evaluated() const { return search_->evaluated(); }
+
+ private:
+  std::vector<wire::SimulateRequest> requests_for(const wire::SimulateRequest& model,
+                                                  const std::vector<pattern::Pattern>& patterns);
+
+  std::unique_ptr<explore::Search> search_;
+  std::string prefix_;
+  int generation_ = 0;
+  std::map<std::string, std::size_t> first_;  // open request -> index of its first pattern
+  std::vector<std::optional<optimize::Performance>> performances_;
+  int simulated_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace nacre::proposal_agent
