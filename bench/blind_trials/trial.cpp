@@ -259,7 +259,8 @@ void print_what_was_ordered(const Trial& trial, const TrialOptions& options, con
     lab::Question question{.design = *pattern::design_from_name(ordered["design"].get<std::string>()),
                            .test = *tester::test_kind_from_string(ordered["test"].get<std::string>()),
                            .conditions = {},
-                           .fidelity = options.fidelity};
+                           .fidelity = options.fidelity,
+                           .loading = tester::loading_from_string(ordered["loading"].get<std::string>()).value()};
     question.conditions = {.orientation_deg = ordered["orientation_deg"],
                            .strain_rate_per_s = ordered["strain_rate_per_s"],
                            .thickness_mm = ordered["thickness_mm"]};

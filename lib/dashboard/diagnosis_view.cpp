@@ -48,6 +48,7 @@ Json next_experiments(const diagnosis_t& message) {
                            {"strain_rate_per_s", e.conditions.strain_rate_per_s},
                            {"thickness_mm", e.conditions.thickness_mm},
                            {"replicates", e.replicates},
+                           {"loading", e.loading},
                            {"reason", e.reason}});
   }
   return experiments;

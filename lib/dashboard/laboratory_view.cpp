@@ -58,6 +58,7 @@ Json orders_json(const game::LaboratoryFacts& facts) {
                       {"orientation_deg", order.conditions.orientation_deg},
                       {"strain_rate_per_s", order.conditions.strain_rate_per_s},
                       {"thickness_mm", order.conditions.thickness_mm},
+                      {"loading", tester::to_string(order.loading)},
                       {"batch", order.batch},
                       {"replicates", order.replicates},
                       {"arrived", progress[i].arrived},

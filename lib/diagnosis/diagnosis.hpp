@@ -12,6 +12,7 @@
 #include "diagnosis/numerics.hpp"
 #include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
+#include "tester/loading.hpp"
 #include "tester/tester.hpp"
 
 namespace nacre::diagnosis {
@@ -79,6 +80,7 @@ struct NextExperiment {
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
   int replicates = 3;
+  tester::Loading loading = {};
   std::string reason;
 };
 

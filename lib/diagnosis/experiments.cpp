@@ -46,12 +46,11 @@ Separation separation_of(const FeatureValues& one, const FeatureValues& other, T
 
 }  // namespace
 
+tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
+
 std::vector<double> unload_history() {
-  std::vector<double> strains;
-  for (int i = 0; i <= 40; ++i) strains.push_back(kCouponStrain * i / 40);
-  for (int i = 39; i >= 10; --i) strains.push_back(kCouponStrain * i / 40);
-  for (int i = 11; i <= 44; ++i) strains.push_back(kCouponStrain * i / 40);
-  return strains;
+  constexpr double kStep = kCouponStrain / 40.0;
+  return tester::strain_path(coupon_loading(), kStep);
 }
 
 std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity) {
@@ -164,7 +163,8 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
     const PossibleTest& test = tests[choice.test];
     const Separation& separation = values[choice.test].pairs[choice.pair];
     const auto& [a, b] = pairs[choice.pair];
-    experiments.push_back({test.design, test.test, test.conditions, replicates,
+    const tester::Loading loading = test.test == TestKind::tensile ? coupon_loading() : tester::Loading{};
+    experiments.push_back({test.design, test.test, test.conditions, replicates, loading,
                            fmt::format("{}: its {} separates {} from {} by {:.1f} standard errors", test.words,
                                        in_words(separation.feature), in_words(models[a].effects),
                                        in_words(models[b].effects), separation.errors)});

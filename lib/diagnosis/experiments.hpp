@@ -24,7 +24,9 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
 FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
                                  tester::Fidelity fidelity);
 
-/// Strains of a pull to 2 %, back to no load and up again: what homogeneous coupons are ordered with.
+/// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with; and the strains on
+/// its way.
+tester::Loading coupon_loading();
 std::vector<double> unload_history();
 
 /// At most `count` tests that together would best tell the given models apart (choose_tests), by the differences of

@@ -71,6 +71,7 @@ ordered_json json_of(const NextExperiment& e) {
           {"strain_rate_per_s", e.conditions.strain_rate_per_s},
           {"thickness_mm", e.conditions.thickness_mm},
           {"replicates", e.replicates},
+          {"loading", tester::to_string(e.loading)},
           {"reason", e.reason}};
 }
 

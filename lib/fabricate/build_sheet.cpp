@@ -34,7 +34,8 @@ Json test_json(const Model& model) {
             {"gauge_mm", geometry.gauge_mm},
             {"grip_mm", geometry.grip_mm},
             {"strain_rate_per_s", model.wanted.strain_rate_per_s},
-            {"speed_mm_per_min", test_speed_mm_per_min(model.wanted)}};
+            {"speed_mm_per_min", test_speed_mm_per_min(model.wanted)},
+            {"loading", model.wanted.loading}};
   if (model.wanted.kind == SpecimenKind::tensile_bar) test["gauge_without_extensometer_mm"] = bar_effective_gauge_mm();
   return test;
 }

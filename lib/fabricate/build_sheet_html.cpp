@@ -56,14 +56,15 @@ std::string models_table(const Job& job, const std::vector<WrittenModel>& writte
     rows += fmt::format(
         "<tr><td><a href=\"{0}preview.png\">{1}</a></td><td><code>{2}</code></td><td>{3}</td><td class=n>{4}</td>"
         "<td class=n>{5:g} x {6:g} x {7:g}</td><td><code>{0}slices/</code> {8} slices of {9} x {10}</td>"
-        "<td class=n>{11:.4f}</td><td class=n>{12:.4f}</td><td class=n>{13:.2f}</td></tr>\n",
+        "<td class=n>{11:.4f}</td><td class=n>{12:.4f}</td><td class=n>{13:.2f}</td><td>{14}</td></tr>\n",
         folder, escaped(model.name), escaped(readable_name(model.wanted.design)), to_string(model.wanted.kind),
         model.wanted.replicates, model.size_x_mm, model.size_y_mm, model.size_z_mm, written[i].count.layers,
         written[i].count.columns, written[i].count.rows, model.wanted.design.rigid_fraction(),
-        rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted));
+        rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted), escaped(model.wanted.loading));
   }
   return "<h2>Models</h2>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
-         "<th>slices</th><th>rigid, designed</th><th>rigid, counted in the slices</th><th>test speed, mm/min</th></tr>"
+         "<th>slices</th><th>rigid, designed</th><th>rigid, counted in the slices</th><th>test speed, "
+         "mm/min</th><th>pull</th></tr>"
          "\n" +
          rows + "</table>\n";
 }

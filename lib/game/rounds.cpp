@@ -111,7 +111,7 @@ std::vector<Order> discrimination_orders(const Scenario& scenario, int round, st
     if (static_cast<int>(orders.size()) >= scenario.diagnosis.discrimination_orders) break;
     const auto same_question = [&](const Order& order) {
       return order.design == experiment.design && order.test == experiment.test &&
-             answers(experiment.conditions, order.conditions);
+             order.loading == experiment.loading && answers(experiment.conditions, order.conditions);
     };
     if (std::any_of(orders.begin(), orders.end(), same_question)) continue;
     // The number keeps the id apart from a proposal's and from the same design's at another rate or thickness.
@@ -122,6 +122,7 @@ std::vector<Order> discrimination_orders(const Scenario& scenario, int round, st
                       .design = experiment.design,
                       .test = experiment.test,
                       .conditions = experiment.conditions,
+                      .loading = experiment.loading,
                       .replicates = experiment.replicates > 0 ? experiment.replicates : scenario.validation.replicates,
                       .batch = fmt::format("round-{}", round),
                       .reason = OrderReason::discrimination});

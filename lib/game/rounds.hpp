@@ -8,6 +8,7 @@
 
 #include "game/scenario.hpp"
 #include "pattern/design.hpp"
+#include "tester/loading.hpp"
 #include "tester/tester.hpp"
 
 namespace nacre::game {
@@ -22,6 +23,7 @@ struct Order {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
+  tester::Loading loading = {};  ///< of a coupon
   int replicates = 0;
   std::string batch;
   OrderReason reason = OrderReason::proposal;
@@ -32,6 +34,7 @@ struct Experiment {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
+  tester::Loading loading = {};  ///< of a coupon
   int replicates = 0;
 };
 

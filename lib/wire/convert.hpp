@@ -17,6 +17,7 @@
 #include "measurement/measurement.hpp"
 #include "pattern/design.hpp"
 #include "sysid/calibration.hpp"
+#include "tester/loading.hpp"
 #include "tester/tester.hpp"
 #include "wire/codec.hpp"
 
@@ -135,7 +136,7 @@ struct TestOrder {
   tester::Fidelity fidelity = tester::Fidelity::full;
   int replicates = 1;
   tester::TestConditions conditions;
-  std::string loading = "monotonic";
+  tester::Loading loading = {};
   std::string batch;
   std::string reason;
   bool operator==(const TestOrder&) const = default;

@@ -169,7 +169,7 @@ test_order_t to_wire(const TestOrder& order) {
   message.fidelity = to_wire(order.fidelity);
   message.replicates = order.replicates;
   message.conditions = to_wire(order.conditions);
-  message.loading = order.loading;
+  message.loading = tester::to_string(order.loading);
   message.batch = order.batch;
   message.reason = order.reason;
   return message;
@@ -188,8 +188,10 @@ Result<TestOrder> from_wire(const test_order_t& message) {
   if (!fidelity) return in_type(type, fidelity.error());
   const Result<tester::TestConditions> conditions = from_wire(message.conditions);
   if (!conditions) return in_type(type, conditions.error());
-  return TestOrder{message.round,      message.order_id, *design,         *test,         *fidelity,
-                   message.replicates, *conditions,      message.loading, message.batch, message.reason};
+  const Result<tester::Loading> loading = tester::loading_from_string(message.loading);
+  if (!loading) return in_type(type, loading.error());
+  return TestOrder{message.round,      message.order_id, *design,  *test,         *fidelity,
+                   message.replicates, *conditions,      *loading, message.batch, message.reason};
 }
 
 measurement_t to_wire(const Measurement& measurement) {
@@ -369,6 +371,8 @@ Result<void> validate(const diagnosis_t& message) {
     if (const auto test = test_kind_from_wire(next.test); !test) return in_type("diagnosis_t", test.error());
     if (const auto conditions = from_wire(next.conditions); !conditions)
       return in_type("diagnosis_t", conditions.error());
+    if (const auto loading = tester::loading_from_string(next.loading); !loading)
+      return in_type("diagnosis_t", loading.error());
     const Result<void> count = expect_range("diagnosis_t: replicates", next.replicates, 1, 1000);
     if (!count) return count;
   }

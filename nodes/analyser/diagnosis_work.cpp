@@ -63,8 +63,8 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
     message.reduction_high = d.gain->interval_high;
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    message.next_experiments.push_back(
-        {e.design.name(), wire::to_wire(e.test), wire::to_wire(e.conditions), e.replicates, e.reason});
+    message.next_experiments.push_back({e.design.name(), wire::to_wire(e.test), wire::to_wire(e.conditions),
+                                        e.replicates, tester::to_string(e.loading), e.reason});
   }
   message.n_effects = static_cast<std::int32_t>(message.effects.size());
   message.n_candidates = static_cast<std::int32_t>(message.candidates.size());

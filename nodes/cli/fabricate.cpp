@@ -100,6 +100,7 @@ std::vector<Wanted> wanted_by_game(const Options& options) {
                       .orientation_deg = order.order.conditions.orientation_deg,
                       .thickness_mm = order.order.conditions.thickness_mm,
                       .strain_rate_per_s = order.order.conditions.strain_rate_per_s,
+                      .loading = tester::to_string(order.order.loading),
                       .replicates = missing,
                       .order_id = order.order.id,
                       .reason = std::string(game::to_string(order.order.reason))});

@@ -31,6 +31,7 @@ game::Order order_of(const wire::TestOrder& message) {
           .design = message.design,
           .test = message.test,
           .conditions = message.conditions,
+          .loading = message.loading,
           .replicates = message.replicates,
           .batch = message.batch,
           .reason = reason};

@@ -22,8 +22,13 @@ std::vector<game::Experiment> experiments_of(const diagnosis_t& diagnosis) {
     const auto design = pattern::design_from_name(next.design);
     const auto test = wire::test_kind_from_wire(next.test);
     const auto conditions = wire::from_wire(next.conditions);
-    if (!design || !test || !conditions) continue;  // validated on arrival
-    experiments.push_back({.design = *design, .test = *test, .conditions = *conditions, .replicates = next.replicates});
+    const auto loading = tester::loading_from_string(next.loading);
+    if (!design || !test || !conditions || !loading) continue;  // validated on arrival
+    experiments.push_back({.design = *design,
+                           .test = *test,
+                           .conditions = *conditions,
+                           .loading = *loading,
+                           .replicates = next.replicates});
   }
   return experiments;
 }
@@ -68,7 +73,7 @@ void ValidationCore::send_orders(const std::vector<game::Order>& orders) {
                                        .fidelity = scenario_.fidelity,
                                        .replicates = order.replicates,
                                        .conditions = order.conditions,
-                                       .loading = "monotonic",
+                                       .loading = order.loading,
                                        .batch = order.batch,
                                        .reason = std::string(game::to_string(order.reason))});
   }

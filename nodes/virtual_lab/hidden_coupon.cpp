@@ -97,16 +97,17 @@ double coupon_strain(const Truth& truth, double rigid_fraction, const Making& ma
   return strain;
 }
 
-tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making, double strain, int points) {
+tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making,
+                           const std::vector<double>& strains) {
   constexpr int kSubsteps = 20;
   Strand strand(truth, rigid_fraction, making);
-  tester::Curve curve{.strain = {0.0}, .stress_pa = {0.0}};
-  const int steps = (points - 1) * kSubsteps;
-  for (int i = 1; i <= steps; ++i) {
-    const double at = strain * i / steps;
-    const double stress_pa = strand.pull(at, strain / steps / making.strain_rate_per_s);
-    if (i % kSubsteps != 0) continue;
-    curve.strain.push_back(at);
+  tester::Curve curve{.strain = {strains.front()}, .stress_pa = {0.0}};
+  for (std::size_t point = 1; point < strains.size(); ++point) {
+    const double from = strains[point - 1], step = (strains[point] - from) / kSubsteps;
+    double stress_pa = 0.0;
+    for (int i = 1; i <= kSubsteps; ++i)
+      stress_pa = strand.pull(from + step * i, std::abs(step) / making.strain_rate_per_s);
+    curve.strain.push_back(strains[point]);
     curve.stress_pa.push_back(stress_pa);
   }
   return curve;

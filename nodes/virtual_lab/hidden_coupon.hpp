@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "tester/curve.hpp"
 #include "virtual_lab/specimen_raster.hpp"
 
@@ -9,8 +11,9 @@ namespace nacre::virtual_laboratory {
 /// that parts it (per volume), with what the truth hides in its material; at most 2.
 double coupon_strain(const Truth& truth, double rigid_fraction, const Making& making, double share);
 
-/// Curve of an unnotched homogeneous coupon at the machine's rate, in `points` equally spaced strains up to `strain`,
-/// with what the truth hides in its material. Stress of the softened coupon is the mean over its cross-section.
-tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making, double strain, int points);
+/// Curve of an unnotched homogeneous coupon at the machine's rate, pulled and unloaded along `strains` from 0, with
+/// what the truth hides in its material. Stress of the softened coupon is the mean over its cross-section.
+tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making,
+                           const std::vector<double>& strains);
 
 }  // namespace nacre::virtual_laboratory

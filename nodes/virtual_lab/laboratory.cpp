@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -81,18 +82,26 @@ bool hides_a_curve(const HiddenEffects& effects) {
          effects.soft_overstress > 0.0 || effects.progressive_damage > 0.0 || effects.drawn_out_damage > 0.0;
 }
 
+/// Where a coupon's curve is read: up to most of what it bears, or along the way that was ordered.
+std::vector<double> coupon_strains(const Truth& truth, const Question& question, double rigid_fraction) {
+  tester::Loading loading = question.loading;
+  if (loading.turns.empty()) loading = {{coupon_strain(truth, rigid_fraction, making_of(question), kCouponEnergy)}};
+  double way = 0.0, last = 0.0;
+  for (const double turn : loading.turns) way += std::abs(turn - std::exchange(last, turn));
+  return tester::strain_path(loading, way / (kCurvePoints - 1));
+}
+
 Result<Response> respond_tensile(const Truth& truth, const Question& question) {
   const pattern::Mixture* mixture = question.design.mixture();
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
   Response response;
-  const double end = coupon_strain(truth, mixture->rigid_fraction, making_of(question), kCouponEnergy);
+  const std::vector<double> strains = coupon_strains(truth, question, mixture->rigid_fraction);
   if (hides_a_curve(truth.effects)) {
-    response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(question), end, kCurvePoints);
+    response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(question), strains);
     return response;
   }
   const material::Lame lame = homogeneous_lame(truth, mixture->rigid_fraction, making_of(question));
-  for (int i = 0; i < kCurvePoints; ++i) {
-    const double strain = end * i / (kCurvePoints - 1);
+  for (const double strain : strains) {
     response.curve.strain.push_back(strain);
     response.curve.stress_pa.push_back(material::uniaxial_stress(strain, lame).nominal_stress_pa);
   }
@@ -182,6 +191,8 @@ void fill_in(SpecimenRecord& record, const Truth& truth, const Response& respons
 }  // namespace
 
 Result<Response> respond(const Truth& truth, const Question& question) {
+  if (question.test != TestKind::tensile && !question.loading.turns.empty())
+    return fail("loading \"{}\": only unnotched coupons are unloaded here", tester::to_string(question.loading));
   const double orientation = question.conditions.orientation_deg;
   if (orientation != 0.0 && orientation != 90.0) return fail("orientation {} degrees, expected 0 or 90", orientation);
   switch (question.test) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measurement/measurement.hpp"
+#include "tester/loading.hpp"
 #include "virtual_lab/truth.hpp"
 
 namespace nacre::virtual_laboratory {
@@ -19,6 +20,7 @@ struct Question {
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
   tester::Fidelity fidelity = tester::Fidelity::full;
+  tester::Loading loading = {};  ///< of a coupon; every other test is monotonic
   bool operator==(const Question&) const = default;
 };
 

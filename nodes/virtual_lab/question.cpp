@@ -12,7 +12,8 @@ std::string to_spec(const Question& question) {
               {"fidelity", tester::to_string(question.fidelity)},
               {"orientation_deg", question.conditions.orientation_deg},
               {"strain_rate_per_s", question.conditions.strain_rate_per_s},
-              {"thickness_mm", question.conditions.thickness_mm}}
+              {"thickness_mm", question.conditions.thickness_mm},
+              {"loading", tester::to_string(question.loading)}}
       .dump();
 }
 
@@ -24,12 +25,15 @@ Result<Question> question_from_spec(std::string_view spec) try {
   if (!test) return tl::unexpected(test.error());
   const auto fidelity = tester::fidelity_from_string(fields.at("fidelity").get<std::string>());
   if (!fidelity) return tl::unexpected(fidelity.error());
+  const auto loading = tester::loading_from_string(fields.at("loading").get<std::string>());
+  if (!loading) return tl::unexpected(loading.error());
   return Question{.design = *design,
                   .test = *test,
                   .conditions = {.orientation_deg = fields.at("orientation_deg").get<double>(),
                                  .strain_rate_per_s = fields.at("strain_rate_per_s").get<double>(),
                                  .thickness_mm = fields.at("thickness_mm").get<double>()},
-                  .fidelity = *fidelity};
+                  .fidelity = *fidelity,
+                  .loading = *loading};
 } catch (const json::exception& error) {
   return fail("question of the virtual laboratory: {}", error.what());
 }

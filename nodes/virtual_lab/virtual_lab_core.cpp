@@ -19,7 +19,11 @@ constexpr const char* kWorkKind = "measure";
 constexpr int kPrintPositions = 1000;
 
 Question question_of(const wire::TestOrder& order) {
-  return {.design = order.design, .test = order.test, .conditions = order.conditions, .fidelity = order.fidelity};
+  return {.design = order.design,
+          .test = order.test,
+          .conditions = order.conditions,
+          .fidelity = order.fidelity,
+          .loading = order.loading};
 }
 
 /// Where on the print bed's list a specimen stands: drawn, so that it is known before the rest of the batch is.
@@ -60,10 +64,6 @@ void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
   }
   latest_round_ = std::max(latest_round_, order->round);
   const Question question = question_of(*order);
-  if (order->loading != "monotonic") {
-    report(*order, question, fail("loading \"{}\": this laboratory only pulls monotonically", order->loading), outputs);
-    return;
-  }
   const std::string spec = to_spec(question);
   const std::string id = "measure/" + content_hash(spec);
   const auto [simulation, first] =

@@ -171,8 +171,13 @@ TEST(Diagnosis, SeparatingExperimentsAreOrderedBesideTheProposals) {
       next.conditions.strain_rate_per_s = rate;
       next.conditions.thickness_mm = 3.2;
       next.replicates = 2;
+      next.loading = "monotonic";
       diagnosis.next_experiments.push_back(next);
     }
+    next_experiment_t& unloaded = diagnosis.next_experiments[1];
+    unloaded.design = "rigid";
+    unloaded.test = 2;
+    unloaded.loading = "strain 0.02 0.005";
     return diagnosis;
   });
   std::vector<wire::TestOrder> separating;
@@ -183,6 +188,8 @@ TEST(Diagnosis, SeparatingExperimentsAreOrderedBesideTheProposals) {
   EXPECT_EQ(separating[0].design, coupon);
   EXPECT_EQ(separating[1].conditions.strain_rate_per_s, 6.17e-3);
   EXPECT_EQ(separating[1].replicates, 2);
+  EXPECT_EQ(separating[0].loading, tester::Loading{});
+  EXPECT_EQ(separating[1].loading, (tester::Loading{{0.02, 0.005}}));
 }
 
 TEST(Diagnosis, RoundOneOrdersRotatedTwins) {

@@ -217,7 +217,7 @@ TEST_F(PersonGame, SpecimensMeasuredInAdvanceAnswerLaterOrders) {
                           .fidelity = scenario_.fidelity,
                           .replicates = order.replicates,
                           .conditions = order.conditions,
-                          .loading = "monotonic",
+                          .loading = {},
                           .batch = "",
                           .reason = ""};
     for (auto measured : measure(early, {})) {

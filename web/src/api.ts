@@ -169,6 +169,7 @@ export interface Order {
   orientation_deg: number;
   strain_rate_per_s: number;
   thickness_mm: number;
+  loading: string;
   batch: string;
   replicates: number;
   arrived: number;
@@ -236,6 +237,7 @@ export interface Experiment {
   strain_rate_per_s: number;
   thickness_mm: number;
   replicates: number;
+  loading: string;
   reason: string;
 }
 

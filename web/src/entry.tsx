@@ -68,7 +68,8 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
                 {open.map((o) => (
                   <option key={o.order} value={o.order}>
                     {o.design.slice(0, 16)} · {o.test}
-                    {o.orientation_deg ? " turned" : ""} · {o.arrived} of {o.replicates} here
+                    {o.orientation_deg ? " turned" : ""}
+                    {o.loading === "monotonic" ? "" : ` (${o.loading})`} · {o.arrived} of {o.replicates} here
                   </option>
                 ))}
               </select>

@@ -13,6 +13,7 @@
 #include "material/extensions.hpp"
 #include "material/pulled_bar.hpp"
 #include "pattern/random_pattern.hpp"
+#include "tester/loading.hpp"
 #include "tester/tester.hpp"
 #include "virtual_lab/fracture_bench.hpp"
 #include "virtual_lab/hidden_coupon.hpp"
@@ -207,10 +208,32 @@ TEST(HiddenLaw, AShrunkStripComesToRestAndPullsAsBefore) {
   EXPECT_NEAR(curve.stress_pa.back() / base.stress_pa.back(), 0.99, 0.01);
 }
 
+TEST(HiddenCoupons, AreUnloadedAsOrdered) {
+  Truth truth = plain_truth();
+  Question question{.design = pattern::Mixture{1.0},
+                    .test = tester::TestKind::tensile,
+                    .conditions = {},
+                    .fidelity = tester::Fidelity::full,
+                    .loading = {{0.02, 0.005, 0.022}}};
+  const auto stress_at_low_point = [&] {
+    const tester::Curve curve = respond(truth, question).value().curve;
+    const auto turn = std::find(curve.strain.begin(), curve.strain.end(), 0.005) - curve.strain.begin();
+    EXPECT_EQ(curve.strain.back(), 0.022);
+    EXPECT_NEAR(*std::max_element(curve.strain.begin(), curve.strain.begin() + turn), 0.02, 1e-12);
+    return curve.stress_pa.at(static_cast<std::size_t>(turn));
+  };
+  const double elastic = stress_at_low_point();
+  EXPECT_GT(elastic, 0.0);
+  truth.effects.rigid_yield_pa = 3e7;  // flows before 2 %: what it flowed is missing on the way back
+  EXPECT_LT(stress_at_low_point(), 0.2 * elastic);
+  question.test = tester::TestKind::modulus;
+  EXPECT_FALSE(respond(truth, question)) << "nothing else is unloaded";
+}
+
 TEST(HiddenCoupons, YieldStiffenAndRelaxAsTheSimulatorsDo) {
   Truth truth = plain_truth();
   const auto differs = [&](double rigid_fraction, double strain, const material::Extensions& extensions) {
-    const tester::Curve curve = coupon_curve(truth, rigid_fraction, {}, strain, 50);
+    const tester::Curve curve = coupon_curve(truth, rigid_fraction, {}, tester::strain_path({{strain}}, strain / 49.0));
     tester::Simulation simulation{.design = pattern::Mixture{rigid_fraction},
                                   .parameters = material::default_parameters(),
                                   .conditions = {},

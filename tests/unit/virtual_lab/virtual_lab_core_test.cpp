@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/result.hpp"
+#include "virtual_lab/question.hpp"
 
 namespace nacre::virtual_laboratory {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using runtime::Message;
 using runtime::Outputs;
 using runtime::WorkDone;
-using testing::HasSubstr;
 
 Truth truth() { return draw_truth(31, tester::Fidelity::tiny); }
 
@@ -103,17 +103,15 @@ TEST(VirtualLabCore, EqualQuestionsAreSimulatedOnce) {
   EXPECT_EQ(computes, 2);
 }
 
-TEST(VirtualLabCore, AnUnknownLoadingProgrammeGivesInvalidSpecimensAtOnce) {
+TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherQuestion) {
   VirtualLabCore core(truth());
-  wire::TestOrder cyclic = order("r1/a/toughness", "rigid", tester::TestKind::tensile);
-  cyclic.loading = "load to 0.01, unload";
-  const Outputs outputs = core.step(message(cyclic));
-  EXPECT_TRUE(outputs.computes.empty());
-  ASSERT_EQ(outputs.messages.size(), 3u);
-  const auto measurement = wire::read<wire::Measurement>(outputs.messages.front().payload);
-  ASSERT_TRUE(measurement) << measurement.error().message;
-  EXPECT_FALSE(measurement->record.valid);
-  EXPECT_THAT(measurement->record.note, HasSubstr("only pulls monotonically"));
+  const wire::TestOrder pulled = order("r1/a/tensile", "rigid", tester::TestKind::tensile);
+  wire::TestOrder unloaded = order("r1/b/tensile", "rigid", tester::TestKind::tensile);
+  unloaded.loading = {{0.02, 0.005, 0.022}};
+  EXPECT_EQ(core.step(message(pulled)).computes.size(), 1u);
+  const Outputs outputs = core.step(message(unloaded));
+  ASSERT_EQ(outputs.computes.size(), 1u);
+  EXPECT_EQ(question_from_spec(outputs.computes.front().spec).value().loading, unloaded.loading);
 }
 
 TEST(VirtualLabCore, HostileInputIsRefusedWithAWarningAndChangesNothing) {

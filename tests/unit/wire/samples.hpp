@@ -150,7 +150,7 @@ inline diagnosis_t diagnosis() {
   m.summary = "the machine gives way";
   m.effects.push_back({"machine_compliance", "machine", 1e-9, 0.0, 2e-9, "m/N"});
   m.candidates.push_back({"droplet_mixing", "excluded", 0.1, 0.9, 0.2});
-  m.next_experiments.push_back({"mix:0.65", 0, {0.0, 6.17e-4, 3.2}, 2, "thick against thin"});
+  m.next_experiments.push_back({"mix:0.65", 0, {0.0, 6.17e-4, 3.2}, 2, "monotonic", "thick against thin"});
   return m;
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+// How a coupon is pulled.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace nacre::tester {
+
+/// On and on, or from no strain to one nominal strain after another: where the next is smaller, the coupon is unloaded.
+struct Loading {
+  std::vector<double> turns;  ///< strains; empty: monotonic
+  bool operator==(const Loading&) const = default;
+};
+
+/// "monotonic", or "strain 0.02 0.005 0.022": the text of TEST_ORDER and of the documents.
+std::string to_string(const Loading& loading);
+
+/// Reads to_string() back. At most 20 strains from 0 to 2, each other than the one before.
+Result<Loading> loading_from_string(std::string_view text);
+
+/// Nominal strains along the programme, 0 first, about `step` apart and with every turn among them. The programme has
+/// turns.
+std::vector<double> strain_path(const Loading& loading, double step);
+
+}  // namespace nacre::tester
