@@ -14,10 +14,9 @@
 #include "fracture_row.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
-#include "runtime/journal.hpp"
+#include "played_game.hpp"
 #include "study/study_command.hpp"
 #include "study/study_table.hpp"
-#include "wire/convert.hpp"
 
 namespace {
 
@@ -41,33 +40,9 @@ struct Proposed {
   double measured_log_toughness = 0.0;
 };
 
-/// Everything that a validation agent heard and said, as far as it is wanted here.
-struct Game {
-  std::map<int, wire::AdoptedModel> models;
-  std::map<int, wire::Proposal> proposals;
-  std::vector<measurement::SpecimenRecord> specimens;
-};
-
-Game read_game(const std::filesystem::path& run) {
-  Game game;
-  runtime::LogReader journal(run / "nodes" / "validation_agent" / "journal.lcm");
-  while (const auto record = journal.next()) {
-    if (record->channel == std::string(runtime::kOutPrefix) + "PARAMETERS") {
-      if (const auto model = wire::read<wire::AdoptedModel>(record->data)) game.models.emplace(model->round, *model);
-    } else if (record->channel == "PROPOSAL") {
-      if (const auto proposal = wire::read<wire::Proposal>(record->data)) {
-        game.proposals.emplace(proposal->round, *proposal);
-      }
-    } else if (record->channel == "MEASUREMENT") {
-      if (const auto measured = wire::read<wire::Measurement>(record->data)) game.specimens.push_back(measured->record);
-    }
-  }
-  return game;
-}
-
 /// Round 0 is left out: what it knows of fracture is the base materials.
 std::vector<Proposed> measured_proposals(const std::string& run) {
-  const Game game = read_game(run);
+  const PlayedGame game = read_game(run);
   const std::vector<measurement::Replicates> measured = game::calibration_set(game.specimens);
   std::vector<Proposed> all;
   for (const auto& [round, proposal] : game.proposals) {

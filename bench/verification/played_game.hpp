@@ -1,0 +1,22 @@
+#pragma once
+// What a played game said about its designs, from the validation agent's journal.
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "wire/convert.hpp"
+
+namespace nacre::verification {
+
+struct PlayedGame {
+  std::map<int, wire::AdoptedModel> models;               ///< by round
+  std::map<int, std::vector<explore::Evaluated>> gamuts;  ///< by round
+  std::map<int, wire::Proposal> proposals;                ///< by round
+  std::vector<measurement::SpecimenRecord> specimens;
+};
+
+/// Reads a run's folder. Throws InputError when it holds no journal.
+PlayedGame read_game(const std::filesystem::path& run);
+
+}  // namespace nacre::verification
