@@ -160,6 +160,7 @@ double shown_replicate_sd(const Observations& observations) {
 /// Models that the next test should separate: the rivals left, or what an unexplained misfit comes nearest to.
 std::vector<Fit> models_to_separate(const Evidence& evidence, const Decision& decision) {
   if (decision.verdict == Verdict::ambiguous) return decision.possible;
+  if (decision.verdict == Verdict::named) return {decision.possible.front(), evidence.base.fit};
   if (decision.verdict != Verdict::unexplained) return {};
   std::vector<Fit> models = evidence.singles;
   std::stable_sort(models.begin(), models.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });

@@ -62,7 +62,9 @@ class ValidationCore : public runtime::NodeCore {
     std::vector<std::string> effects;  ///< sorted
     material::ParameterSet model;      ///< the base refitted with them
     std::map<std::string, sysid::Prediction>
-        foretold;              ///< what it expects of the designs of this round, through the testing machine
+        foretold;  ///< what it expects of the designs of this round, through the testing machine
+    std::map<std::string, sysid::Prediction>
+        adopted;               ///< and the adopted model of those that separate the two, beside the proposals
     game::TrialErrors errors;  ///< of all rounds since it was first named
   };
 
@@ -81,6 +83,8 @@ class ValidationCore : public runtime::NodeCore {
 
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);
+  std::vector<game::Experiment> experiments() const;  ///< that the last diagnosis wants
+  std::vector<pattern::Design> separating_designs() const;
   void foretell();
   void finish_foretelling();
   void begin_unfitted();
@@ -132,6 +136,7 @@ class ValidationCore : public runtime::NodeCore {
   std::vector<measurement::Replicates> calibration_set_;
   FarmQuestions questions_;
   std::optional<Fitting> fitting_;
+  std::vector<measurement::Replicates> foretold_designs_;  // proposals first
   std::vector<measurement::Replicates> held_out_set_;
   std::vector<sysid::Prediction> proposed_;  // for each of held_out_set_
   sysid::PredictionErrors before_, after_, held_out_;

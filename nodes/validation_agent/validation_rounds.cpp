@@ -12,28 +12,8 @@
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::validation_agent {
-namespace {
 
 using runtime::LogLevel;
-
-std::vector<game::Experiment> experiments_of(const diagnosis_t& diagnosis) {
-  std::vector<game::Experiment> experiments;
-  for (const next_experiment_t& next : diagnosis.next_experiments) {
-    const auto design = pattern::design_from_name(next.design);
-    const auto test = wire::test_kind_from_wire(next.test);
-    const auto conditions = wire::from_wire(next.conditions);
-    const auto loading = tester::loading_from_string(next.loading);
-    if (!design || !test || !conditions || !loading) continue;  // validated on arrival
-    experiments.push_back({.design = *design,
-                           .test = *test,
-                           .conditions = *conditions,
-                           .loading = *loading,
-                           .replicates = next.replicates});
-  }
-  return experiments;
-}
-
-}  // namespace
 
 void ValidationCore::begin_round(int round) {
   round_ = round;
@@ -55,12 +35,29 @@ void ValidationCore::begin_unfitted() {
   publish_model();
 }
 
+std::vector<game::Experiment> ValidationCore::experiments() const {
+  std::vector<game::Experiment> experiments;
+  if (!diagnosis_) return experiments;
+  for (const next_experiment_t& next : diagnosis_->next_experiments) {
+    const auto design = pattern::design_from_name(next.design);
+    const auto test = wire::test_kind_from_wire(next.test);
+    const auto conditions = wire::from_wire(next.conditions);
+    const auto loading = tester::loading_from_string(next.loading);
+    if (!design || !test || !conditions || !loading) continue;  // validated on arrival
+    experiments.push_back({.design = *design,
+                           .test = *test,
+                           .conditions = *conditions,
+                           .loading = *loading,
+                           .replicates = next.replicates});
+  }
+  return experiments;
+}
+
 void ValidationCore::order() {
   std::vector<pattern::Design> designs;
   for (const wire::ProposedDesign& proposed : proposals_.at(round_ - 1).designs) designs.push_back(proposed.design);
-  const auto experiments = diagnosis_ ? experiments_of(*diagnosis_) : std::vector<game::Experiment>{};
   phase_ = Phase::measuring;
-  send_orders(desk_.open_round(round_, std::move(designs), experiments));
+  send_orders(desk_.open_round(round_, std::move(designs), experiments()));
   measure_on();
 }
 
@@ -130,7 +127,8 @@ void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predi
   if (trial_) {
     std::map<std::string, sysid::Prediction> adopted;
     for (std::size_t i = 0; i < held_out_set_.size(); ++i) adopted.emplace(held_out_set_[i].design.name(), shown[i]);
-    trial_->errors.add(held_out_set_, adopted, trial_->foretold);
+    adopted.merge(trial_->adopted);
+    trial_->errors.add(calibration_set_, adopted, trial_->foretold);
   }
   extending_ = false;
   begin_calibration(model_);

@@ -5,9 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "game/model.hpp"
 #include "material/extensions.hpp"
+#include "measurement/conditions.hpp"
 #include "sysid/objective.hpp"
 #include "validation_agent/validation_core.hpp"
 
@@ -46,7 +48,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
   for (const effect_t& effect : diagnosis.effects) effects.push_back(effect.name);
   std::sort(effects.begin(), effects.end());
   if (!trial_ || trial_->effects != effects)
-    trial_ = OnTrial{.effects = std::move(effects), .model = {}, .foretold = {}, .errors = {}};
+    trial_ = OnTrial{.effects = std::move(effects), .model = {}, .foretold = {}, .adopted = {}, .errors = {}};
   extending_ = true;
   begin_calibration(*extended);
 }
@@ -78,30 +80,80 @@ void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   publish_model();
 }
 
-// What the extension on trial expects of the proposed designs is asked for before any of them is ordered.
+namespace {
+
+/// A design by itself, as the farm is asked about it.
+measurement::Replicates unmeasured(const pattern::Design& design) {
+  measurement::Replicates one;
+  one.design = design;
+  return one;
+}
+
+std::vector<std::size_t> numbers(std::size_t first, std::size_t end) {
+  std::vector<std::size_t> all(end - first);
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+}  // namespace
+
+/// Designs that the diagnosis wants measured since the named model and the base differ on their moduli, printed
+/// upright and new to both.
+std::vector<pattern::Design> ValidationCore::separating_designs() const {
+  std::vector<pattern::Design> designs;
+  for (const game::Experiment& each : experiments()) {
+    const bool is_plain = each.test == tester::TestKind::modulus && each.design.layout() != nullptr &&
+                          measurement::same_conditions(each.conditions, {});
+    const std::string name = each.design.name();
+    const auto& proposed = proposals_.at(round_ - 1).designs;
+    const bool is_proposed =
+        std::any_of(proposed.begin(), proposed.end(), [&](const auto& one) { return one.design.name() == name; });
+    if (is_plain && !is_proposed && !calibrated_designs_.contains(name)) designs.push_back(each.design);
+  }
+  return designs;
+}
+
+// What the extension on trial expects of the designs of the round is asked for before any of them is ordered. What the
+// adopted model expects stands in PROPOSAL; of designs that only separate the two it is asked for, too.
 void ValidationCore::foretell() {
   std::vector<measurement::Replicates> designs;
-  sysid::WantedEvaluation evaluation{
-      .id = "0", .parameters = trial_->model, .modulus = true, .toughness = true, .items = {}};
-  for (const wire::ProposedDesign& proposed : proposals_.at(round_ - 1).designs) {
-    evaluation.items.push_back(designs.size());
-    designs.emplace_back().design = proposed.design;
+  for (const wire::ProposedDesign& proposed : proposals_.at(round_ - 1).designs)
+    designs.push_back(unmeasured(proposed.design));
+  const std::size_t proposed = designs.size();
+  for (const pattern::Design& design : separating_designs()) designs.push_back(unmeasured(design));
+  std::vector<sysid::WantedEvaluation> wanted = {
+      {.id = "0", .parameters = trial_->model, .modulus = true, .toughness = true, .items = numbers(0, proposed)}};
+  for (const auto& [id, parameters] : {std::pair{"1", &trial_->model}, std::pair{"2", &model_}}) {
+    if (designs.size() == proposed) break;
+    wanted.push_back({.id = id,
+                      .parameters = *parameters,
+                      .modulus = true,
+                      .toughness = false,
+                      .items = numbers(proposed, designs.size())});
   }
+  foretold_designs_ = designs;
   phase_ = Phase::foretelling;
-  ask_farm("f", {evaluation}, designs);
+  ask_farm("f", wanted, designs);
 }
 
 void ValidationCore::finish_foretelling() {
-  const std::vector<sysid::Prediction>& predictions = questions_.predictions().front();
-  const auto& designs = proposals_.at(round_ - 1).designs;
+  const auto through_machine = [](sysid::Prediction prediction, const material::ParameterSet& model) {
+    return game::has_measurement_side(model) ? sysid::observed(prediction, model.extensions) : prediction;
+  };
+  const auto& predictions = questions_.predictions();
+  const std::size_t proposed = predictions.front().size();
   trial_->foretold.clear();
-  for (std::size_t i = 0; i < designs.size(); ++i) {
-    sysid::Prediction shown = predictions[i];
-    if (game::has_measurement_side(trial_->model)) shown = sysid::observed(shown, trial_->model.extensions);
-    say(LogLevel::info, fmt::format("round {}: before it is measured, {} expects E {:.4g} MPa, T {:.4g} MPa of {}",
-                                    round_, fmt::join(trial_->effects, " with "), 1e-6 * shown.modulus_pa.value_or(0.0),
-                                    1e-6 * shown.toughness_pa.value_or(0.0), designs[i].design.name()));
-    trial_->foretold.emplace(designs[i].design.name(), std::move(shown));
+  trial_->adopted.clear();
+  for (std::size_t i = 0; i < foretold_designs_.size(); ++i) {
+    const std::string name = foretold_designs_[i].design.name();
+    const sysid::Prediction shown =
+        through_machine(i < proposed ? predictions[0][i] : predictions[1][i - proposed], trial_->model);
+    say(LogLevel::info,
+        fmt::format("round {}: before it is measured, {} expects E {:.4g} MPa{} of {}", round_,
+                    fmt::join(trial_->effects, " with "), 1e-6 * shown.modulus_pa.value_or(0.0),
+                    shown.toughness_pa ? fmt::format(", T {:.4g} MPa", 1e-6 * *shown.toughness_pa) : "", name));
+    trial_->foretold.emplace(name, shown);
+    if (i >= proposed) trial_->adopted.emplace(name, through_machine(predictions[2][i - proposed], model_));
   }
   order();
 }

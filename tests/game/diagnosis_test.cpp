@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "in_process_game.hpp"
+#include "pattern/coupons.hpp"
 #include "stand_ins.hpp"
 
 namespace nacre::game_test {
@@ -104,6 +105,43 @@ TEST(Diagnosis, WhatAnExtensionExpectsIsNotedBeforeAnythingIsOrdered) {
     noted += static_cast<int>(answer.results.size());
   }
   EXPECT_EQ(noted, 4) << "designs proposed in round 1";
+}
+
+TEST(Diagnosis, WhatSeparatesANameFromTheBaseIsForetoldByBothAndOrdered) {
+  game::Scenario scenario = small_scenario();
+  scenario.rounds = 2;
+  scenario.proposal.designs = 4;
+  LaboratorySettings laboratory;
+  laboratory.hidden["droplet_mixing"] = {0.3};
+  const auto diagnosed = [](int) {
+    diagnosis_t diagnosis = named("droplet_mixing", 0.3);
+    for (const int period : {1, 2}) {
+      next_experiment_t next{};
+      next.design = pattern::Design(pattern::checkerboard(period)).name();
+      next.conditions = wire::to_wire(tester::TestConditions{});
+      next.replicates = 2;
+      next.loading = "monotonic";
+      diagnosis.next_experiments.push_back(next);
+    }
+    next_experiment_t turned = diagnosis.next_experiments.front();
+    turned.conditions.orientation_deg = 90.0;  // no design of the calibration: the trial has no use for it
+    diagnosis.next_experiments.push_back(turned);
+    return diagnosis;
+  };
+  const auto game = played(scenario, diagnosed, laboratory);
+  int by_the_name = 0, by_the_adopted = 0;
+  for (const auto& answer : game.said<wire::SimulateResult>("SIMULATED")) {
+    const int designs = static_cast<int>(answer.results.size());
+    if (answer.request_id.starts_with("validation_agent/r2/f/1/")) by_the_name += designs;
+    if (answer.request_id.starts_with("validation_agent/r2/f/2/")) by_the_adopted += designs;
+  }
+  EXPECT_EQ(by_the_name, 2);
+  EXPECT_EQ(by_the_adopted, 2);
+  int ordered = 0;
+  for (const auto& order : game.said<wire::TestOrder>("TEST_ORDER"))
+    ordered += order.round == 2 && order.reason == "discrimination" ? 1 : 0;
+  EXPECT_EQ(ordered, 2);
+  EXPECT_TRUE(adopted(game, "droplet_mixing").back()) << "six designs were foretold, four proposals would not do";
 }
 
 TEST(Diagnosis, AnEffectOfTheTestingMachineActsInComparisonsOnly) {
