@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sysid/objective.hpp"
+
 namespace nacre::game {
 namespace {
 
@@ -19,6 +21,10 @@ material::ParameterSet material_side(material::ParameterSet parameters) {
 
 bool has_measurement_side(const material::ParameterSet& parameters) {
   return std::any_of(parameters.extensions.begin(), parameters.extensions.end(), acts_in_measurement);
+}
+
+sysid::Prediction through_machine(const sysid::Prediction& prediction, const material::ParameterSet& model) {
+  return has_measurement_side(model) ? sysid::observed(prediction, model.extensions) : prediction;
 }
 
 }  // namespace nacre::game

@@ -3,6 +3,7 @@
 
 #include "material/extensions.hpp"
 #include "material/parameters.hpp"
+#include "sysid/calibration.hpp"
 
 namespace nacre::game {
 
@@ -12,5 +13,9 @@ material::ParameterSet material_side(material::ParameterSet parameters);
 
 /// Whether the model holds effects of the testing machine.
 bool has_measurement_side(const material::ParameterSet& parameters);
+
+/// What the testing machine makes of a prediction of the material side; without such effects the prediction itself,
+/// which then needs no curve.
+sysid::Prediction through_machine(const sysid::Prediction& prediction, const material::ParameterSet& model);
 
 }  // namespace nacre::game

@@ -85,6 +85,7 @@ class ValidationCore : public runtime::NodeCore {
   void begin_round(int round);
   std::vector<game::Experiment> experiments() const;  ///< that the last diagnosis wants
   std::vector<pattern::Design> separating_designs() const;
+  std::vector<measurement::Replicates> foretold_designs() const;
   void foretell();
   void finish_foretelling();
   void begin_unfitted();
@@ -136,7 +137,6 @@ class ValidationCore : public runtime::NodeCore {
   std::vector<measurement::Replicates> calibration_set_;
   FarmQuestions questions_;
   std::optional<Fitting> fitting_;
-  std::vector<measurement::Replicates> foretold_designs_;  // proposals first
   std::vector<measurement::Replicates> held_out_set_;
   std::vector<sysid::Prediction> proposed_;  // for each of held_out_set_
   sysid::PredictionErrors before_, after_, held_out_;

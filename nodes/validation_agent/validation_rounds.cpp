@@ -8,7 +8,6 @@
 #include "base/random.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
-#include "sysid/objective.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::validation_agent {
@@ -113,14 +112,10 @@ void ValidationCore::predict_held_out() {
 void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predictions) {
   std::vector<sysid::Prediction> shown;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
-    if (!game::has_measurement_side(model_)) {
-      shown.push_back(predictions[i]);
-      continue;
-    }
-    shown.push_back(sysid::observed(predictions[i], model_.extensions));
+    shown.push_back(game::through_machine(predictions[i], model_));
     // The curve is one simulation's, what was proposed may be the mean of several.
     auto& toughness_pa = shown.back().toughness_pa;
-    if (toughness_pa && predictions[i].toughness_pa)
+    if (toughness_pa && predictions[i].toughness_pa.value_or(0.0) > 0.0)
       *toughness_pa *= *proposed_[i].toughness_pa / *predictions[i].toughness_pa;
   }
   held_out_ = sysid::prediction_errors(held_out_set_, shown);

@@ -10,7 +10,6 @@
 #include "game/model.hpp"
 #include "material/extensions.hpp"
 #include "measurement/conditions.hpp"
-#include "sysid/objective.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::validation_agent {
@@ -82,13 +81,6 @@ void ValidationCore::finish_trial(const sysid::Calibrated& result) {
 
 namespace {
 
-/// A design by itself, as the farm is asked about it.
-measurement::Replicates unmeasured(const pattern::Design& design) {
-  measurement::Replicates one;
-  one.design = design;
-  return one;
-}
-
 std::vector<std::size_t> numbers(std::size_t first, std::size_t end) {
   std::vector<std::size_t> all(end - first);
   std::iota(all.begin(), all.end(), first);
@@ -113,14 +105,20 @@ std::vector<pattern::Design> ValidationCore::separating_designs() const {
   return designs;
 }
 
+/// The proposed designs, and behind them those that separate.
+std::vector<measurement::Replicates> ValidationCore::foretold_designs() const {
+  std::vector<measurement::Replicates> designs;
+  for (const wire::ProposedDesign& each : proposals_.at(round_ - 1).designs)
+    designs.emplace_back().design = each.design;
+  for (const pattern::Design& each : separating_designs()) designs.emplace_back().design = each;
+  return designs;
+}
+
 // What the extension on trial expects of the designs of the round is asked for before any of them is ordered. What the
 // adopted model expects stands in PROPOSAL; of designs that only separate the two it is asked for, too.
 void ValidationCore::foretell() {
-  std::vector<measurement::Replicates> designs;
-  for (const wire::ProposedDesign& proposed : proposals_.at(round_ - 1).designs)
-    designs.push_back(unmeasured(proposed.design));
-  const std::size_t proposed = designs.size();
-  for (const pattern::Design& design : separating_designs()) designs.push_back(unmeasured(design));
+  const std::vector<measurement::Replicates> designs = foretold_designs();
+  const std::size_t proposed = proposals_.at(round_ - 1).designs.size();
   std::vector<sysid::WantedEvaluation> wanted = {
       {.id = "0", .parameters = trial_->model, .modulus = true, .toughness = true, .items = numbers(0, proposed)}};
   for (const auto& [id, parameters] : {std::pair{"1", &trial_->model}, std::pair{"2", &model_}}) {
@@ -131,29 +129,26 @@ void ValidationCore::foretell() {
                       .toughness = false,
                       .items = numbers(proposed, designs.size())});
   }
-  foretold_designs_ = designs;
   phase_ = Phase::foretelling;
   ask_farm("f", wanted, designs);
 }
 
 void ValidationCore::finish_foretelling() {
-  const auto through_machine = [](sysid::Prediction prediction, const material::ParameterSet& model) {
-    return game::has_measurement_side(model) ? sysid::observed(prediction, model.extensions) : prediction;
-  };
+  const std::vector<measurement::Replicates> designs = foretold_designs();
   const auto& predictions = questions_.predictions();
   const std::size_t proposed = predictions.front().size();
   trial_->foretold.clear();
   trial_->adopted.clear();
-  for (std::size_t i = 0; i < foretold_designs_.size(); ++i) {
-    const std::string name = foretold_designs_[i].design.name();
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const std::string name = designs[i].design.name();
     const sysid::Prediction shown =
-        through_machine(i < proposed ? predictions[0][i] : predictions[1][i - proposed], trial_->model);
+        game::through_machine(i < proposed ? predictions[0][i] : predictions[1][i - proposed], trial_->model);
     say(LogLevel::info,
         fmt::format("round {}: before it is measured, {} expects E {:.4g} MPa{} of {}", round_,
                     fmt::join(trial_->effects, " with "), 1e-6 * shown.modulus_pa.value_or(0.0),
                     shown.toughness_pa ? fmt::format(", T {:.4g} MPa", 1e-6 * *shown.toughness_pa) : "", name));
     trial_->foretold.emplace(name, shown);
-    if (i >= proposed) trial_->adopted.emplace(name, through_machine(predictions[2][i - proposed], model_));
+    if (i >= proposed) trial_->adopted.emplace(name, game::through_machine(predictions[2][i - proposed], model_));
   }
   order();
 }

@@ -114,6 +114,16 @@ TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherQuestion) {
   EXPECT_EQ(question_from_spec(outputs.computes.front().spec).value().loading, unloaded.loading);
 }
 
+TEST(VirtualLabCore, AnUnknownLoadingProgrammeIsRefusedWithAWarningThatQuotesIt) {
+  VirtualLabCore core(truth());
+  test_order_t cyclic = wire::to_wire(order("r1/a/tensile", "rigid", tester::TestKind::tensile));
+  cyclic.loading = "load to 0.01, unload";
+  const Outputs outputs = core.step(Message{.channel = "TEST_ORDER", .payload = wire::encode(cyclic)});
+  EXPECT_TRUE(outputs.messages.empty() && outputs.computes.empty());
+  ASSERT_EQ(outputs.log.size(), 1u);
+  EXPECT_THAT(outputs.log.front().text, testing::HasSubstr("load to 0.01, unload"));
+}
+
 TEST(VirtualLabCore, HostileInputIsRefusedWithAWarningAndChangesNothing) {
   VirtualLabCore core(truth());
   for (const runtime::Input& input : {runtime::Input(Message{.channel = "TEST_ORDER", .payload = "garbage"}),
