@@ -1,73 +1,98 @@
 #include "game/extension_trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "base/statistics.hpp"
 
 namespace nacre::game {
 namespace {
 
-constexpr double kLevel = 0.05;
+const double kOdds = std::log10(20.0);
 constexpr int kFewestDesigns = 3;
+constexpr double kFreedom = 4.0;
 
-void add_error(std::vector<ForetoldError>& errors, const std::string& design, double measured,
+void add_error(std::vector<ForetoldError>& errors, int round, const std::string& design, double measured,
                const std::optional<double>& adopted, const std::optional<double>& extended) {
   if (!(measured > 0.0) || !adopted || !extended || !(*adopted > 0.0) || !(*extended > 0.0)) return;
-  errors.push_back({design, std::abs(std::log(*adopted / measured)), std::abs(std::log(*extended / measured))});
+  errors.push_back({.design = design,
+                    .round = round,
+                    .adopted = std::log(*adopted / measured),
+                    .extended = std::log(*extended / measured)});
+}
+
+/// Errors in units of their scatter, by the round of the prediction.
+using ByRound = std::map<int, std::vector<double>>;
+
+/// Log likelihood of the errors of one round, up to a constant: their common offset is integrated out over a standard
+/// normal distribution by the trapezoid rule.
+double log_likelihood(std::span<const double> errors) {
+  constexpr double kReach = 4.0, kStep = 0.125;
+  std::vector<double> logs;
+  for (double offset = -kReach; offset <= kReach; offset += kStep) {
+    double sum = -0.5 * offset * offset;
+    for (const double error : errors)
+      sum -= 0.5 * (kFreedom + 1.0) * std::log1p(std::pow(error - offset, 2) / kFreedom);
+    logs.push_back(sum);
+  }
+  const double largest = std::ranges::max(logs);
+  double total = 0.0;
+  for (const double each : logs) total += std::exp(each - largest);
+  return largest + std::log(total);
+}
+
+/// 1.48 times the median absolute error: of normal errors the standard deviation.
+double scatter_of(std::span<const ForetoldError> errors, double ForetoldError::*model, double least) {
+  std::vector<double> sizes;
+  for (const ForetoldError& each : errors) sizes.push_back(std::abs(each.*model));
+  return std::max(least, 1.4826 * quantile(std::move(sizes), 0.5));
+}
+
+double evidence(std::span<const ForetoldError> errors, double ForetoldError::*model, double least) {
+  const double scatter = scatter_of(errors, model, least);
+  ByRound of_model, of_mean;
+  for (const ForetoldError& each : errors) {
+    of_model[each.round].push_back(each.*model / scatter);
+    of_mean[each.round].push_back(0.5 * (each.adopted + each.extended) / scatter);
+  }
+  double logarithm = 0.0;
+  for (const auto& [round, own] : of_model) logarithm += log_likelihood(own) - log_likelihood(of_mean.at(round));
+  return logarithm / std::numbers::ln10;
 }
 
 }  // namespace
 
-void TrialErrors::add(const std::vector<measurement::Replicates>& measured,
+void TrialErrors::add(int round, const std::vector<measurement::Replicates>& measured,
                       const std::map<std::string, sysid::Prediction>& adopted,
                       const std::map<std::string, sysid::Prediction>& extended) {
   for (const measurement::Replicates& each : measured) {
     const std::string name = each.design.name();
     const auto by_adopted = adopted.find(name), by_extended = extended.find(name);
     if (by_adopted == adopted.end() || by_extended == extended.end()) continue;
-    add_error(modulus, name, each.modulus_pa, by_adopted->second.modulus_pa, by_extended->second.modulus_pa);
-    add_error(toughness, name, each.toughness_pa, by_adopted->second.toughness_pa, by_extended->second.toughness_pa);
+    add_error(modulus, round, name, each.modulus_pa, by_adopted->second.modulus_pa, by_extended->second.modulus_pa);
+    add_error(toughness, round, name, each.toughness_pa, by_adopted->second.toughness_pa,
+              by_extended->second.toughness_pa);
   }
 }
 
-double student_exceedance(double t, int freedom) {
-  const double angle = std::atan(std::abs(t) / std::sqrt(freedom)), sine = std::sin(angle), cosine = std::cos(angle);
-  const bool odd = freedom % 2 == 1;
-  // Share of the distribution within |t|.
-  double term = odd ? cosine : 1.0, sum = freedom == 1 ? 0.0 : term;
-  for (int k = odd ? 3 : 2; k < freedom - 1; k += 2) {
-    term *= cosine * cosine * (k - 1.0) / k;
-    sum += term;
-  }
-  const double within = odd ? 2.0 / std::numbers::pi * (angle + sine * sum) : sine * sum;
-  return t >= 0.0 ? 0.5 * (1.0 - within) : 0.5 * (1.0 + within);
-}
-
-TrialGain gain_of(std::span<const ForetoldError> errors, double least) {
-  TrialGain gain;
-  gain.designs = static_cast<int>(errors.size());
-  if (gain.designs < 2) return gain;
-  const auto factor = [least](const ForetoldError& each) {
-    return std::log((each.adopted + least) / (each.extended + least));
-  };
-  double mean = 0.0, squares = 0.0;
+TrialStanding standing_of(std::span<const ForetoldError> errors, double least) {
+  TrialStanding standing;
+  standing.designs = static_cast<int>(errors.size());
+  if (errors.empty()) return standing;
   for (const ForetoldError& each : errors) {
-    gain.adopted += each.adopted / gain.designs;
-    gain.extended += each.extended / gain.designs;
-    mean += factor(each) / gain.designs;
+    standing.adopted += std::abs(each.adopted) / standing.designs;
+    standing.extended += std::abs(each.extended) / standing.designs;
   }
-  for (const ForetoldError& each : errors) squares += std::pow(factor(each) - mean, 2);
-  const double standard_error = std::sqrt(squares / (gain.designs - 1) / gain.designs);
-  const double t = mean / std::max(standard_error, 1e-12);
-  if (mean > 0.0 && gain.extended < gain.adopted) gain.p_gain = student_exceedance(t, gain.designs - 1);
-  if (mean < 0.0 && gain.extended > gain.adopted) gain.p_loss = student_exceedance(-t, gain.designs - 1);
-  return gain;
+  standing.for_extended = evidence(errors, &ForetoldError::extended, least);
+  standing.for_adopted = evidence(errors, &ForetoldError::adopted, least);
+  return standing;
 }
 
-bool gain_is_established(const TrialErrors& errors, int rounds) {
-  const double level = kLevel / std::max(rounds, 1);
-  const TrialGain modulus = gain_of(errors.modulus, kLeastModulusError),
-                  toughness = gain_of(errors.toughness, kLeastToughnessError);
-  return modulus.designs >= kFewestDesigns && modulus.p_gain <= level && toughness.p_loss > level;
+bool gain_is_established(const TrialErrors& errors) {
+  const TrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
+                      toughness = standing_of(errors.toughness, kLeastToughnessError);
+  return modulus.designs >= kFewestDesigns && modulus.for_extended >= kOdds && toughness.for_adopted < kOdds;
 }
 
 }  // namespace nacre::game

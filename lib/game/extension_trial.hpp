@@ -1,6 +1,6 @@
 #pragma once
 // Whether an extension that a diagnosis named predicts designs better that nobody had measured: both models say what
-// they expect before the laboratory is asked, and only that counts.
+// they expect before the laboratory is asked, and only that counts (docs/decisions/0015).
 
 #include <map>
 #include <optional>
@@ -12,10 +12,11 @@
 
 namespace nacre::game {
 
-/// How far two models were off on one quantity of one design: absolute differences of natural logarithms, predictions
-/// older than the measurement.
+/// How far two models were off on one quantity of one design: natural logarithms of prediction over measurement, both
+/// predictions older than the measurement.
 struct ForetoldError {
   std::string design;
+  int round = 0;  ///< that both predictions are from: errors of one round's model have an offset in common
   double adopted = 0.0, extended = 0.0;
 };
 
@@ -24,33 +25,30 @@ struct TrialErrors {
   std::vector<ForetoldError> modulus, toughness;
   /// Adds the designs of `measured` for which both have a prediction (by canonical design name, as the testing machine
   /// would show it).
-  void add(const std::vector<measurement::Replicates>& measured,
+  void add(int round, const std::vector<measurement::Replicates>& measured,
            const std::map<std::string, sysid::Prediction>& adopted,
            const std::map<std::string, sysid::Prediction>& extended);
 };
 
-/// What the extended model gained on one quantity.
-struct TrialGain {
+/// How two models foretold one quantity.
+struct TrialStanding {
   int designs = 0;
-  double adopted = 0.0, extended = 0.0;  ///< mean errors
-  double p_gain = 1.0;                   ///< one-sided chance of such a gain when there is none
-  double p_loss = 1.0;                   ///< of such a loss
+  double adopted = 0.0, extended = 0.0;          ///< mean absolute errors
+  double for_extended = 0.0, for_adopted = 0.0;  ///< evidence: decadic logarithm of the odds against the mean forecast
 };
 
-/// Student's t over the designs' log((adopted + least)/(extended + least)): how many times smaller the error is, design
-/// by design, since errors of designs differ by far more than models do. `least` is an error that scatter and numerics
-/// leave anyway. Gain and loss also ask for the mean error to fall or rise.
-TrialGain gain_of(std::span<const ForetoldError> errors, double least);
+/// Evidence for a model is the likelihood of what it foretold over that of the mean of both models' forecasts: two
+/// models that are equally far off straddle the truth, and then their mean does better than either. Odds of N to 1 turn
+/// up with a chance of 1/N at most, whenever one looks (Ville's inequality), where either the mean or the other model
+/// is right. An error is Student's t with 4 degrees of freedom about an offset of its round, both with the scatter that
+/// the model's own errors show, at least `least`: what scatter and numerics leave anyway.
+TrialStanding standing_of(std::span<const ForetoldError> errors, double least);
 
 /// What scatter and numerics leave of log E and of log T.
 inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
 
-/// 5 % over the whole game: E is predicted better at 5 % over the number of rounds, as the diagnosis of a game compares
-/// moduli, and T is not shown to be predicted worse at the same level. At least three designs.
-bool gain_is_established(const TrialErrors& errors, int rounds);
-
-/// Chance that Student's t with `freedom` (at least 1) degrees of freedom exceeds t: the finite series for whole
-/// numbers.
-double student_exceedance(double t, int freedom);
+/// Odds of 20 to 1 that E is foretold better, so that 5 % of games at most adopt an extension that is no better, and
+/// not the same odds that T is foretold worse. At least three designs.
+bool gain_is_established(const TrialErrors& errors);
 
 }  // namespace nacre::game

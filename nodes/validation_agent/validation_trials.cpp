@@ -56,25 +56,27 @@ void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   const std::string name = fmt::format("{}", fmt::join(trial_->effects, " with "));
   const bool adopted_before = std::all_of(trial_->effects.begin(), trial_->effects.end(),
                                           [&](const std::string& each) { return model_.extensions.contains(each); });
-  const game::TrialGain gain = game::gain_of(trial_->errors.modulus, game::kLeastModulusError);
-  if (adopted_before || game::gain_is_established(trial_->errors, scenario_.rounds)) {
+  const game::TrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
+  if (adopted_before || game::gain_is_established(trial_->errors)) {
     take_over(result);
     trial_.reset();
     say(LogLevel::info,
         adopted_before
             ? fmt::format("round {}: {} gets the size that the diagnosis now gives it", round_, name)
             : fmt::format("round {}: the model is extended by {}: it foretold E of {} designs with a mean error of "
-                          "{:.1f} % against {:.1f} % (chance {:.4f})",
-                          round_, name, gain.designs, 100.0 * gain.extended, 100.0 * gain.adopted, gain.p_gain));
+                          "{:.1f} % against {:.1f} % (odds 10^{:.1f})",
+                          round_, name, moduli.designs, 100.0 * moduli.extended, 100.0 * moduli.adopted,
+                          moduli.for_extended));
   } else {
     trial_->model = result.parameters;
     say(LogLevel::info,
-        gain.designs == 0
+        moduli.designs == 0
             ? fmt::format("round {}: {} is on trial: it has to foretell designs better before it is adopted", round_,
                           name)
             : fmt::format("round {}: {} stays on trial: it foretold E of {} designs with a mean error of {:.1f} % "
-                          "against {:.1f} % (chance {:.4f})",
-                          round_, name, gain.designs, 100.0 * gain.extended, 100.0 * gain.adopted, gain.p_gain));
+                          "against {:.1f} % (odds 10^{:.1f}, 10^1.3 adopt)",
+                          round_, name, moduli.designs, 100.0 * moduli.extended, 100.0 * moduli.adopted,
+                          moduli.for_extended));
   }
   publish_model();
 }
