@@ -53,6 +53,11 @@ std::vector<double> unload_history() {
   return tester::strain_path(coupon_loading(), kStep);
 }
 
+bool answers(const PossibleTest& test, const Observation& group) {
+  return test.design == group.design && test.test == group.test && test.conditions == group.conditions &&
+         (test.test != TestKind::tensile || group.unloaded);
+}
+
 std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity) {
   std::vector<PossibleTest> possible;
   std::set<std::string> taken;
@@ -60,7 +65,8 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
     return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test),
                        t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
   };
-  for (const Observation& g : observations.groups) taken.insert(name_of({g.design, g.test, g.conditions, ""}));
+  for (const Observation& g : observations.groups)
+    if (answers({g.design, g.test, g.conditions, ""}, g)) taken.insert(name_of({g.design, g.test, g.conditions, ""}));
   const auto offer = [&](PossibleTest test) {
     if (taken.insert(name_of(test)).second) possible.push_back(std::move(test));
   };

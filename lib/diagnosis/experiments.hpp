@@ -15,6 +15,9 @@ struct PossibleTest {
   std::string words;  ///< "turned twin", "second rate", ...
 };
 
+/// Whether a measured group is that test already: homogeneous coupons are to be unloaded.
+bool answers(const PossibleTest& test, const Observation& group);
+
 /// Tests that a laboratory could add to these: turned twins of measured designs, a tenfold rate and half the thickness
 /// for the most measured ones, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous coupons pulled
 /// and unloaded at two rates. What is measured already is left out.

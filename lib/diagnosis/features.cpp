@@ -145,11 +145,12 @@ FeatureValues tensile_features(const tester::Curve& curve) {
   return values;
 }
 
+bool is_unloaded(const tester::Curve& curve) {
+  return std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
+}
+
 std::optional<double> carried_strain(const tester::Curve& curve) {
-  if (curve.empty()) return std::nullopt;
-  const bool unloaded =
-      std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
-  if (unloaded) return std::nullopt;
+  if (curve.empty() || is_unloaded(curve)) return std::nullopt;
   const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
   if (*peak <= 0.0) return std::nullopt;
   const auto parted =

@@ -55,6 +55,9 @@ FeatureValues fracture_features(const tester::Curve& curve);
 /// strain is not among them: it is where the test was stopped.
 FeatureValues tensile_features(const tester::Curve& curve);
 
+/// Whether a tensile curve goes back on its way.
+bool is_unloaded(const tester::Curve& curve);
+
 /// Where a tensile curve is to be read to: the strain up to which it carries four fifths of its largest stress, so that
 /// a material that flows is read while it flows, and none while it parts; nothing when it was unloaded on the way (then
 /// all of it).

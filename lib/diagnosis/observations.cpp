@@ -17,12 +17,17 @@ namespace {
 using measurement::SpecimenRecord;
 using tester::TestKind;
 
-using GroupKey = std::tuple<int, std::string, double, double, double>;
+using GroupKey = std::tuple<int, std::string, double, double, double, bool>;
+
+bool is_unloaded_coupon(const SpecimenRecord& specimen) {
+  return specimen.test == TestKind::tensile && is_unloaded(specimen.curve);
+}
 
 GroupKey key_of(const SpecimenRecord& specimen) {
   const tester::TestConditions& c = specimen.conditions;
-  return {static_cast<int>(specimen.test), specimen.design.name(), c.orientation_deg, c.strain_rate_per_s,
-          c.thickness_mm};
+  return {
+      static_cast<int>(specimen.test), specimen.design.name(), c.orientation_deg, c.strain_rate_per_s, c.thickness_mm,
+      is_unloaded_coupon(specimen)};
 }
 
 bool has_coupons(const std::vector<SpecimenRecord>& specimens) {
@@ -87,6 +92,7 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   group.design = first.design;
   group.test = first.test;
   group.conditions = first.conditions;
+  group.unloaded = is_unloaded_coupon(first);
   group.batch = first.batch;
   group.replicates = static_cast<int>(replicates.size());
   for (const Measured& each : replicates) {

@@ -11,11 +11,13 @@
 
 namespace nacre::diagnosis {
 
-/// One group of replicate specimens: a design under one test and one set of conditions.
+/// One group of replicate specimens: a design under one test and one set of conditions. Coupons that were unloaded on
+/// their way are a group of their own.
 struct Observation {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
+  bool unloaded = false;   ///< a coupon that was unloaded on its way
   FeatureValues features;  ///< means over the valid replicates
   int replicates = 0;
   double print_order = 0.0;      ///< mean, 0 when unknown

@@ -270,11 +270,13 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i) {
       const Row& row = observations.rows[static_cast<std::size_t>(i)];
-      const auto is = [&](const auto& other) {
-        return other.design == observations.group_of(i).design && other.test == row.test &&
-               other.conditions == observations.group_of(i).conditions;
+      const auto is_planned = [&](const Observation& other) {
+        const Observation& group = observations.group_of(i);
+        return other.design == group.design && other.test == group.test && other.conditions == group.conditions &&
+               other.unloaded == group.unloaded;
       };
-      if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is) ||
+      const auto is = [&](const PossibleTest& test) { return answers(test, observations.group_of(i)); };
+      if (row.group < 0 || std::any_of(alone.groups.begin(), alone.groups.end(), is_planned) ||
           std::any_of(tests.begin(), tests.end(), is))
         rows.push_back(i);
     }

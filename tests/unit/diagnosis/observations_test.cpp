@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/experiments.hpp"
 #include "diagnosis/observations.hpp"
 #include "pattern/coupons.hpp"
 
@@ -37,6 +38,39 @@ TEST(Observations, ScatterIsThatOfTheReplicates) {
   const Observations observations = observed({pulled("a/1", 0, 2e8), pulled("a/2", 0, 2.1e8)});
   EXPECT_NEAR(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus),
               std::log(2.1 / 2.0) / std::sqrt(2.0), 1e-12);
+}
+
+measurement::SpecimenRecord coupon(const std::string& specimen, std::vector<double> strain) {
+  measurement::SpecimenRecord record;
+  record.specimen = specimen;
+  record.design = pattern::Mixture{1.0};
+  record.test = tester::TestKind::tensile;
+  for (const double each : strain) record.curve.stress_pa.push_back(1e9 * each);
+  record.curve.strain = std::move(strain);
+  return record;
+}
+
+TEST(Observations, CouponsThatWereUnloadedAreAGroupOfTheirOwn) {
+  const std::vector<double> straight = {0.0, 0.005, 0.01, 0.015, 0.02},
+                            unloaded = {0.0, 0.005, 0.01, 0.015, 0.02, 0.015, 0.01, 0.005, 0.01};
+  const Observations both = observed({coupon("a/1", straight), coupon("a/2", straight), coupon("b/1", unloaded)});
+  ASSERT_EQ(both.groups.size(), 2u);
+  for (const Observation& group : both.groups) {
+    EXPECT_EQ(group.replicates, group.unloaded ? 1 : 2);
+    EXPECT_EQ(value_of(group.features, Feature::log_unloading).has_value(), group.unloaded);
+  }
+}
+
+TEST(Observations, ACouponThatWasOnlyPulledMayStillBeUnloaded) {
+  const auto offers_it = [](const Observations& measured) {
+    const auto tests = possible_tests(measured, tester::Fidelity::tiny);
+    return std::any_of(tests.begin(), tests.end(), [](const PossibleTest& test) {
+      return test.test == tester::TestKind::tensile && test.design == pattern::Design(pattern::Mixture{1.0}) &&
+             test.conditions == tester::TestConditions{};
+    });
+  };
+  EXPECT_TRUE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02})})));
+  EXPECT_FALSE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02, 0.005, 0.022})})));
 }
 
 Observations three_groups() {
