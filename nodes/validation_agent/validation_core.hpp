@@ -83,7 +83,8 @@ class ValidationCore : public runtime::NodeCore {
 
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);
-  std::vector<game::Experiment> experiments() const;  ///< that the last diagnosis wants
+  /// That the last diagnosis wants; none once the model holds what it names: they would tell it from the base.
+  std::vector<game::Experiment> experiments() const;
   std::vector<pattern::Design> separating_designs() const;
   std::vector<measurement::Replicates> foretold_designs() const;
   void foretell();
@@ -99,6 +100,7 @@ class ValidationCore : public runtime::NodeCore {
   void take_over(const sysid::Calibrated& result);
   void diagnose();
   std::optional<material::ParameterSet> extended_by(const diagnosis_t& diagnosis);
+  bool model_holds(const diagnosis_t& diagnosis) const;
   void weigh(const diagnosis_t& diagnosis);
   void finish_trial(const sysid::Calibrated& result);
   void publish_model();

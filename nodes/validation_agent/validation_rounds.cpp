@@ -36,7 +36,7 @@ void ValidationCore::begin_unfitted() {
 
 std::vector<game::Experiment> ValidationCore::experiments() const {
   std::vector<game::Experiment> experiments;
-  if (!diagnosis_) return experiments;
+  if (!diagnosis_ || model_holds(*diagnosis_)) return experiments;
   for (const next_experiment_t& next : diagnosis_->next_experiments) {
     const auto design = pattern::design_from_name(next.design);
     const auto test = wire::test_kind_from_wire(next.test);

@@ -33,6 +33,13 @@ std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosi
   return extended;
 }
 
+/// Whether all that a diagnosis names is part of the adopted model already.
+bool ValidationCore::model_holds(const diagnosis_t& diagnosis) const {
+  return !diagnosis.effects.empty() &&
+         std::all_of(diagnosis.effects.begin(), diagnosis.effects.end(),
+                     [&](const effect_t& each) { return model_.extensions.contains(each.name); });
+}
+
 void ValidationCore::weigh(const diagnosis_t& diagnosis) {
   const bool named = diagnosis.verdict == "named" && !diagnosis.effects.empty();
   const auto extended = named ? extended_by(diagnosis) : std::nullopt;
@@ -54,8 +61,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
 
 void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   const std::string name = fmt::format("{}", fmt::join(trial_->effects, " with "));
-  const bool adopted_before = std::all_of(trial_->effects.begin(), trial_->effects.end(),
-                                          [&](const std::string& each) { return model_.extensions.contains(each); });
+  const bool adopted_before = model_holds(*diagnosis_);
   const game::TrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
   if (adopted_before || game::gain_is_established(trial_->errors)) {
     take_over(result);
