@@ -65,8 +65,10 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
     return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test),
                        t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
   };
-  for (const Observation& g : observations.groups)
-    if (answers({g.design, g.test, g.conditions, ""}, g)) taken.insert(name_of({g.design, g.test, g.conditions, ""}));
+  for (const Observation& g : observations.groups) {
+    const PossibleTest measured{g.design, g.test, g.conditions, ""};
+    if (answers(measured, g)) taken.insert(name_of(measured));
+  }
   const auto offer = [&](PossibleTest test) {
     if (taken.insert(name_of(test)).second) possible.push_back(std::move(test));
   };

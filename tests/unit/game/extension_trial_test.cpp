@@ -28,6 +28,11 @@ TEST(ExtensionTrial, OneDesignThatSaysEverythingIsEnough) {
   EXPECT_TRUE(gain_is_established(errors_of({2.7, 0.010, -0.015, 0.02}, {0.05, -0.01, 0.02, -0.01})));
 }
 
+// Designs on which the adopted model is off by little and by much.
+TEST(ExtensionTrial, ErrorsOfDifferentSizeDoNotHideAGain) {
+  EXPECT_TRUE(gain_is_established(errors_of({0.60, 0.25, 0.12, 0.31}, {0.01, 0.02, 0.01, 0.01})));
+}
+
 TEST(ExtensionTrial, DesignsThatBothForetellSayNothing) {
   EXPECT_FALSE(gain_is_established(errors_of({0.03, -0.02, 0.02, -0.02}, {0.02, -0.02, 0.015, -0.02})));
 }
