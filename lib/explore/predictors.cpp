@@ -136,12 +136,22 @@ Predictors fit_networks(const LogSamples& all, std::size_t settled, const Search
 
 }  // namespace
 
+std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int most) {
+  const std::size_t count = std::min(samples.size(), static_cast<std::size_t>(most)), best = (count + 1) / 2;
+  std::vector<Evaluated> by_rank = best_by_rank(samples, samples.size());
+  const double stride =
+      static_cast<double>(by_rank.size() - best) / std::max<double>(1.0, static_cast<double>(count - best));
+  for (std::size_t i = best; i < count; ++i)
+    by_rank[i] = by_rank[best + static_cast<std::size_t>(stride * static_cast<double>(i - best))];
+  by_rank.resize(count, samples.front());
+  return by_rank;
+}
+
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings, const Predictors& base) {
   const LogSamples all = logarithms(samples, settings.learned);
   const std::size_t stage = settled_samples(samples.size());
   if (settings.learned.predictor == "networks") return fit_networks(all, stage, settings, base);
-  const LogSamples learnt =
-      logarithms(best_by_rank(samples, static_cast<std::size_t>(settings.learned.most_samples)), settings.learned);
+  const LogSamples learnt = logarithms(learnt_samples(samples, settings.learned.most_samples), settings.learned);
   const auto fit = [&](const std::vector<double> LogSamples::*property, surrogate::PriorMean prior_mean,
                        const std::shared_ptr<const Predictor>& of_base) {
     return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), prior_mean},

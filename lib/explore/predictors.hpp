@@ -15,6 +15,10 @@ struct Predictors {
   std::shared_ptr<const surrogate::Predictor> modulus, toughness;
 };
 
+/// Which of `samples` (at least one) are learnt from when they are more than `most`: one half are the best by rank, the
+/// other is spread evenly over the rest. Who learns from the best alone no longer knows what makes the others worse.
+std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int most);
+
 /// Fitted to `samples` (at least one), on top of `base` predictors where there are such. Depends on its arguments only.
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings,
                           const Predictors& base = {});

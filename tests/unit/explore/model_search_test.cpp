@@ -82,6 +82,20 @@ TEST(Predictors, HowBadABadPatternIsMattersNotToTheOthers) {
   EXPECT_GT(largest_change(0.0), 0.5) << "without the floor they do";
 }
 
+TEST(Predictors, LearnFromOrdinarySamplesTooWhenThereAreTooMany) {
+  std::vector<Evaluated> samples;
+  RandomStream random(7, "test");
+  for (int i = 0; i < 400; ++i) {
+    const pattern::Pattern pattern = pattern::random_pattern(random);
+    samples.push_back({pattern, synthetic_performance(pattern)});
+  }
+  const std::vector<Evaluated> learnt = learnt_samples(samples, 40), ordered = best_by_rank(samples, samples.size());
+  const auto place = [&](const Evaluated& sample) { return std::ranges::find(ordered, sample) - ordered.begin(); };
+  ASSERT_EQ(learnt.size(), 40u);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(place(learnt[static_cast<std::size_t>(i)]), i < 20 ? i : 20 + 19 * (i - 20));
+  EXPECT_THAT(learnt_samples(samples, 400), ::testing::UnorderedElementsAreArray(samples));
+}
+
 TEST(Learned, ChoosingByRankAsTheThesisDoesLearnsToo) {
   SearchSettings by_rank = settings("learned", 1, 120);
   by_rank.learned.choice = "rank";
