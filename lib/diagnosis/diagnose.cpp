@@ -7,6 +7,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/named_size.hpp"
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
 #include "diagnosis/verdict.hpp"
@@ -16,26 +17,6 @@ namespace nacre::diagnosis {
 namespace {
 
 constexpr int kNextExperiments = 4;
-
-/// 90 % interval from the local covariance; Student's factor for the degrees of freedom of the replicate scatter.
-std::vector<NamedEffect> named_effects(const Evidence& evidence, const Fit& fit) {
-  const CoordinateMap map = evidence.model.map(fit.effects);
-  const Whitener whitener(evidence.observations.covariance());
-  const int dof = evidence.observations.replicate_dof();
-  const double student =
-      dof > 0 ? 1.645 * (1.0 + 0.93 / dof) : 2.0;  // Cornish-Fisher, within 1 % from 4 degrees of freedom on
-  std::vector<NamedEffect> named;
-  for (std::size_t k = 0; k < fit.effects.size(); ++k) {
-    const material::Effect& effect = *material::find_effect(fit.effects[k]);
-    const int i = map.first_coordinate(k);
-    const double half = student * std::sqrt(fit.variance(i, whitener));
-    // A limit falls as its effect grows stronger.
-    const double a = map.value(i, std::max(fit.u[i] - half, map.lower(i))), b = map.value(i, fit.u[i] + half);
-    named.push_back({fit.effects[k], std::string(effect.family), map.value(i, fit.u[i]), std::min(a, b), std::max(a, b),
-                     std::string(effect.parameters.front().unit)});
-  }
-  return named;
-}
 
 std::string names_of(const std::vector<Fit>& fits) {
   std::string text;
@@ -216,9 +197,10 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.candidates = candidates_of(evidence, decision);
   for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
   diagnosis.common_ground = common_ground(diagnosis.possible);
-  const Fit& extended = !decision.possible.empty() ? decision.possible.front()
-                        : decision.partial         ? *decision.partial
-                                                   : evidence.base.fit;
+  Fit extended = !decision.possible.empty() ? decision.possible.front()
+                 : decision.partial         ? *decision.partial
+                                            : evidence.base.fit;
+  if (decision.verdict == Verdict::named) extended = fit_for_size(evidence, extended);
   diagnosis.extended_fit = extended.parameters;
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
   for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
