@@ -42,7 +42,7 @@ std::vector<PatchCovariance::Row> PatchCovariance::window_factors(int half_width
       for (int offset = -half_width; offset <= half_width; ++offset) {
         if ((row >> mirrored(c + offset)) & 1) factor *= decay;
       }
-      factors[static_cast<std::size_t>(row)][static_cast<std::size_t>(c)] = static_cast<float>(factor);
+      factors[static_cast<std::size_t>(row)].lanes[c] = static_cast<float>(factor);
     }
   }
   return factors;
@@ -61,23 +61,19 @@ PatchCovariance::PatchCovariance(const PatchKernel& kernel)
 
 // One vector of 16 columns per row; the lanes are added in a fixed order at the end.
 NACRE_VECTOR_CLONES double PatchCovariance::operator()(const QuarterRows& a, const QuarterRows& b) const {
-  const Row* patch[kQuarter + 2];
-  const Row* region[kQuarter + 4];
+  const Lanes *patch[kQuarter + 2], *region[kQuarter + 4];
   int different = 0;
   for (int r = -2; r < kQuarter + 2; ++r) {
     const auto row = static_cast<std::size_t>(mirrored(r));
     const std::uint16_t differences = a[row] ^ b[row];
-    region[r + 2] = &region_[differences];
-    if (r >= -1 && r <= kQuarter) patch[r + 1] = &patch_[differences];
+    region[r + 2] = &region_[differences].lanes;
+    if (r >= -1 && r <= kQuarter) patch[r + 1] = &patch_[differences].lanes;
     if (r >= 0 && r < kQuarter) different += std::popcount(differences);
   }
-  alignas(64) float patches[kLanes] = {}, regions[kLanes] = {};
+  Lanes patches = {}, regions = {};
   for (int r = 0; r < kQuarter; ++r) {
-    const float *above = patch[r]->data(), *at = patch[r + 1]->data(), *below = patch[r + 2]->data();
-    const float *r0 = region[r]->data(), *r1 = region[r + 1]->data(), *r2 = region[r + 2]->data(),
-                *r3 = region[r + 3]->data(), *r4 = region[r + 4]->data();
-    for (int lane = 0; lane < kLanes; ++lane) patches[lane] += above[lane] * at[lane] * below[lane];
-    for (int lane = 0; lane < kLanes; ++lane) regions[lane] += (r0[lane] * r1[lane]) * (r2[lane] * r3[lane]) * r4[lane];
+    patches += *patch[r] * *patch[r + 1] * *patch[r + 2];
+    regions += (*region[r] * *region[r + 1]) * (*region[r + 2] * *region[r + 3]) * *region[r + 4];
   }
   double patch_sum = 0.0, region_sum = 0.0;
   for (int lane = 0; lane < kQuarter; ++lane) patch_sum += patches[lane], region_sum += regions[lane];

@@ -40,7 +40,11 @@ class PatchCovariance {
  private:
   static constexpr int kLanes = 16;  ///< columns of the quarter, filled up with zeros
   static constexpr int kRowValues = 1 << pattern::kQuarter;
-  using Row = std::array<float, kLanes>;
+  /// A vector by name: left to themselves, compilers take loops over its lanes apart.
+  using Lanes __attribute__((vector_size(kLanes * sizeof(float)))) = float;
+  struct alignas(sizeof(Lanes)) Row {
+    Lanes lanes;
+  };
   /// Factors of one row of differences for the windows around each column.
   static std::vector<Row> window_factors(int half_width, double decay);
 
