@@ -200,7 +200,11 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   Fit extended = !decision.possible.empty() ? decision.possible.front()
                  : decision.partial         ? *decision.partial
                                             : evidence.base.fit;
-  if (decision.verdict == Verdict::named) extended = fit_for_size(evidence, extended);
+  if (decision.verdict == Verdict::named) {
+    NamedModel named = measure_size(evidence, extended);
+    extended = std::move(named.fit);
+    diagnosis.effects = std::move(named.effects);
+  }
   diagnosis.extended_fit = extended.parameters;
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
   for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
@@ -209,7 +213,6 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     std::vector<Fit> models = evidence.singles;
     if (extended.effects.size() > 1) models.push_back(extended);
     const Gain gain = held_out_gain(observations, evidence.base.fit, models, needed_drop(evidence), settings.seed);
-    if (decision.verdict == Verdict::named) diagnosis.effects = named_effects(evidence, extended);
     // What the nearest effect gains where none is named is a partial gain, and said to be one.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }

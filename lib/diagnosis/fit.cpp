@@ -34,17 +34,18 @@ Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
   return u;
 }
 
-/// Coordinates that do not stand on a bound which the descent direction would leave.
+/// Coordinates that may move at all, and do not stand on a bound which the descent direction would leave.
 std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, const Eigen::VectorXd& y,
-                                  const Whitener& whitener) {
+                                  const Whitener& whitener, const std::vector<int>& held) {
   Fit whole = fit;
   whole.free.resize(static_cast<std::size_t>(map.size()));
   std::iota(whole.free.begin(), whole.free.end(), 0);
   const Eigen::VectorXd descent = whole.whitened_columns(whitener).transpose() * whole.whitened_residual(y, whitener);
   std::vector<int> free;
   for (int i = 0; i < map.size(); ++i) {
-    const bool held = (fit.u[i] <= map.lower(i) && descent[i] < 0.0) || (fit.u[i] >= map.upper(i) && descent[i] > 0.0);
-    if (!held) free.push_back(i);
+    const bool leaves =
+        (fit.u[i] <= map.lower(i) && descent[i] < 0.0) || (fit.u[i] >= map.upper(i) && descent[i] > 0.0);
+    if (!leaves && std::ranges::find(held, i) == held.end()) free.push_back(i);
   }
   return free;
 }
@@ -135,7 +136,7 @@ Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
 }
 
 Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
-              const Eigen::VectorXd& start) {
+              const Eigen::VectorXd& start, const std::vector<int>& held) {
   const CoordinateMap map = model.map(effects);
   const Eigen::VectorXd& y = observations.values;
   const Whitener whitener(observations.covariance());
@@ -144,7 +145,7 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
-    fit.free = free_coordinates(fit, map, y, whitener);
+    fit.free = free_coordinates(fit, map, y, whitener, held);
     double gained = 0.0;
     for (int attempt = 0; attempt < 6 && gained <= 0.0; ++attempt) {
       const Eigen::VectorXd candidate = clamped(map, fit.u + damped_step(fit, y, whitener, damping));
@@ -163,7 +164,7 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
     if (gained < kConverged) break;
   }
   fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
-  fit.free = free_coordinates(fit, map, y, whitener);
+  fit.free = free_coordinates(fit, map, y, whitener, held);
   fit.parameters = map.parameters(fit.u);
   fit.extension_on_bound = ends_on_bound(map, fit.u);
   return fit;

@@ -34,9 +34,9 @@ struct Fit {
 };
 
 /// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1)
-/// predictions of all rows an iteration.
+/// predictions of all rows an iteration. Coordinates that are `held` stay where they start.
 Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
-              const Eigen::VectorXd& start);
+              const Eigen::VectorXd& start, const std::vector<int>& held = {});
 
 /// The base model at given coordinates, with its linearisation there and every coordinate free; chi2 is not computed.
 Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u);

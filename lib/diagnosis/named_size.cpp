@@ -2,46 +2,162 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace nacre::diagnosis {
 namespace {
 
-/// Rows with the numerics of one model in place of those of the base and all its rivals.
-Observations with_numerics_of(const Evidence& evidence, const Fit& fit) {
+/// Sizes that are tried first beside the named one, as shares of it.
+constexpr double kFirstShares[] = {1.2, 1.45, 0.83, 0.67};
+/// -2 log likelihood: sizes that are so much less likely than the best are of no interest; between sizes that differ by
+/// more than a step a further one is tried, so often. A fit that is worse by so much got caught.
+constexpr double kOfInterest = 8.0, kStep = 2.5, kCaught = 30.0;
+constexpr int kHalvings = 3;
+
+/// The model at one size, with its own numerics.
+struct Sized {
+  Fit fit;
+  double deviance = 0.0;  ///< -2 log likelihood of the data, up to a constant; prior of the base constants included
+};
+
+/// By coordinate of the size.
+using Profile = std::map<double, Sized>;
+
+/// Rows with what finer elements change at this model, in place of what they change at the base and all its rivals.
+Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
   Observations observations = evidence.observations;
-  if (observations.numerics_shared.rows() == observations.size()) {
-    observations.numerics_shared =
-        evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(evidence.model.map(fit.effects), fit.u);
-  }
+  if (observations.numerics_shared.rows() == observations.size())
+    observations.numerics_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
   return observations;
+}
+
+Sized sized(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
+            const std::vector<int>& held) {
+  const Observations observations = with_numerics_at(evidence, evidence.model.map(effects), start);
+  Sized at{.fit = fit_model(evidence.model, observations, effects, start, held)};
+  const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
+  at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  return at;
+}
+
+double least_deviance(const Profile& profile) {
+  return std::ranges::min_element(profile, {}, [](const Profile::value_type& known) { return known.second.deviance; })
+      ->second.deviance;
+}
+
+/// Tries one more size of coordinate i, from the constants of the nearest size of those that are not far from the best:
+/// a fit that a hill has caught would catch its neighbours.
+void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
+  const Fit& any = profile.begin()->second.fit;
+  size = std::clamp(size, any.lower[i], any.upper[i]);
+  if (profile.contains(size)) return;
+  const double least = least_deviance(profile);
+  const Fit* nearest = nullptr;
+  for (const auto& [known, at] : profile) {
+    if (at.deviance - least < kCaught && (!nearest || std::abs(known - size) < std::abs(nearest->u[i] - size)))
+      nearest = &at.fit;
+  }
+  Eigen::VectorXd start = nearest->u;
+  start[i] = size;
+  profile[size] = sized(evidence, nearest->effects, start, {i});
+}
+
+/// Middles between neighbours of interest that differ by more than a step, and what lies beyond ends that are of
+/// interest.
+std::vector<double> missing_sizes(const Profile& profile) {
+  const double least = least_deviance(profile);
+  const auto& [first, first_at] = *profile.begin();
+  const auto& [last, last_at] = *profile.rbegin();
+  std::vector<double> missing;
+  if (first_at.deviance - least < kOfInterest) missing.push_back(first > 0.0 ? 0.6 * first : 1.4 * first);
+  if (last_at.deviance - least < kOfInterest) missing.push_back(last > 0.0 ? 1.4 * last : 0.6 * last);
+  for (auto a = profile.begin(), b = std::next(a); b != profile.end(); ++a, ++b) {
+    const auto [low, high] = std::minmax(a->second.deviance, b->second.deviance);
+    if (low - least < kOfInterest && high - low > kStep) missing.push_back(0.5 * (a->first + b->first));
+  }
+  return missing;
+}
+
+Profile profile_of(const Evidence& evidence, const Fit& named, int i) {
+  Profile profile;
+  profile[named.u[i]] = sized(evidence, named.effects, named.u, {i});
+  for (const double share : kFirstShares) try_size(evidence, profile, i, share * named.u[i]);
+  for (int halving = 0; halving < kHalvings; ++halving)
+    for (const double size : missing_sizes(profile)) try_size(evidence, profile, i, size);
+  return profile;
+}
+
+/// The size below which this share of the likelihood lies; at least two sizes.
+double quantile_of(const Profile& profile, double share) {
+  const double least = least_deviance(profile);
+  std::vector<double> sizes, below = {0.0};
+  double former = 0.0;
+  for (const auto& [size, at] : profile) {
+    const double likelihood = std::exp(-0.5 * (at.deviance - least));
+    if (!sizes.empty()) below.push_back(below.back() + 0.5 * (former + likelihood) * (size - sizes.back()));
+    sizes.push_back(size);
+    former = likelihood;
+  }
+  const double wanted = share * below.back();
+  const std::size_t k = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::ranges::upper_bound(below, wanted) - below.begin()), 1, sizes.size() - 1);
+  return sizes[k - 1] + (sizes[k] - sizes[k - 1]) * (wanted - below[k - 1]) / (below[k] - below[k - 1]);
+}
+
+struct Interval {
+  double low = 0.0, middle = 0.0, high = 0.0;
+};
+
+/// Student's factor for the degrees of freedom of the replicate scatter, over the normal one; Cornish-Fisher, within 1
+/// % from 4 degrees of freedom on. Without replicates: a little.
+double student(const Evidence& evidence) {
+  const int dof = evidence.observations.replicate_dof();
+  return dof > 0 ? 1.0 + 0.93 / dof : 1.2;
+}
+
+Interval by_likelihood(const Evidence& evidence, const Fit& named, int i) {
+  const Profile profile = profile_of(evidence, named, i);
+  const double middle = quantile_of(profile, 0.5), widened = student(evidence);
+  return {middle + widened * (quantile_of(profile, 0.05) - middle), middle,
+          middle + widened * (quantile_of(profile, 0.95) - middle)};
+}
+
+Interval by_covariance(const Evidence& evidence, Fit named, int i) {
+  named.free.resize(static_cast<std::size_t>(named.u.size()));
+  std::iota(named.free.begin(), named.free.end(), 0);
+  const Whitener whitener(evidence.observations.covariance());
+  const double half = 1.645 * student(evidence) * std::sqrt(named.variance(i, whitener));
+  return {named.u[i] - half, named.u[i], named.u[i] + half};
+}
+
+NamedEffect in_units(const CoordinateMap& map, const material::Effect& effect, int i, const Interval& u) {
+  // A limit falls as its effect grows stronger.
+  const double a = map.value(i, std::max(u.low, map.lower(i))), b = map.value(i, std::min(u.high, map.upper(i)));
+  return {std::string(effect.name), std::string(effect.family),
+          map.value(i, u.middle),   std::min(a, b),
+          std::max(a, b),           std::string(effect.parameters.front().unit)};
 }
 
 }  // namespace
 
-Fit fit_for_size(const Evidence& evidence, const Fit& named) {
-  return fit_model(evidence.model, with_numerics_of(evidence, named), named.effects, named.u);
-}
-
-std::vector<NamedEffect> named_effects(const Evidence& evidence, Fit fit) {
-  const CoordinateMap map = evidence.model.map(fit.effects);
-  const Whitener whitener(with_numerics_of(evidence, fit).covariance());
-  const int dof = evidence.observations.replicate_dof();
-  const double student =
-      dof > 0 ? 1.645 * (1.0 + 0.93 / dof) : 2.0;  // Cornish-Fisher, within 1 % from 4 degrees of freedom on
-  fit.free.resize(static_cast<std::size_t>(map.size()));
-  std::iota(fit.free.begin(), fit.free.end(), 0);
-  std::vector<NamedEffect> named;
-  for (std::size_t k = 0; k < fit.effects.size(); ++k) {
-    const material::Effect& effect = *material::find_effect(fit.effects[k]);
+NamedModel measure_size(const Evidence& evidence, const Fit& named) {
+  const CoordinateMap map = evidence.model.map(named.effects);
+  const bool has_numerics = evidence.observations.numerics_shared.rows() == evidence.observations.size();
+  NamedModel model;
+  Eigen::VectorXd middles = named.u;
+  std::vector<int> held;
+  for (std::size_t k = 0; k < named.effects.size(); ++k) {
+    const material::Effect& effect = *material::find_effect(named.effects[k]);
     const int i = map.first_coordinate(k);
-    const double half = student * std::sqrt(fit.variance(i, whitener));
-    // A limit falls as its effect grows stronger.
-    const double a = map.value(i, std::max(fit.u[i] - half, map.lower(i))), b = map.value(i, fit.u[i] + half);
-    named.push_back({fit.effects[k], std::string(effect.family), map.value(i, fit.u[i]), std::min(a, b), std::max(a, b),
-                     std::string(effect.parameters.front().unit)});
+    const bool moves_elements = has_numerics && effect.side == material::EffectSide::material;
+    const Interval interval = moves_elements ? by_likelihood(evidence, named, i) : by_covariance(evidence, named, i);
+    model.effects.push_back(in_units(map, effect, i, interval));
+    middles[i] = interval.middle;
+    held.push_back(i);
   }
-  return named;
+  model.fit = sized(evidence, named.effects, middles, held).fit;
+  return model;
 }
 
 }  // namespace nacre::diagnosis

@@ -1,6 +1,6 @@
 #pragma once
-// How large a named effect is. A name is decided against the base model, its noise included; a size is asked of the
-// named model, and has a noise of its own.
+// How large a named effect is. A name is decided against the base model, with its numerics; a size is asked of the
+// named model, with numerics of its own.
 
 #include <vector>
 
@@ -8,12 +8,17 @@
 
 namespace nacre::diagnosis {
 
-/// `named` fitted once more, with what finer elements change at its own constants. Beside the base's fit, which bent
-/// itself towards the data and may stand on bounds of its ranges, they change something else.
-Fit fit_for_size(const Evidence& evidence, const Fit& named);
+/// A named model at its most likely sizes, and what is known of them.
+struct NamedModel {
+  Fit fit;  ///< base constants fitted, sizes held at the medians
+  std::vector<NamedEffect> effects;
+};
 
-/// Size and 90 % interval of every effect of `fit`, from the local covariance with every constant of the base free (one
-/// that stands on a bound is not known any better for it); Student's factor for the replicate scatter.
-std::vector<NamedEffect> named_effects(const Evidence& evidence, Fit fit);
+/// Sizes with 90 % intervals. Of an effect that changes the material under modulus tests: by the likelihood over its
+/// size, base constants fitted and numerics taken anew at every size, because what elements cost goes up and down with
+/// where the edges of changed regions fall between them (several hills, the base's own numerics on none of them). Of
+/// others: from the local covariance, with every base constant free (one that stands on a bound is not known any better
+/// for it).
+NamedModel measure_size(const Evidence& evidence, const Fit& named);
 
 }  // namespace nacre::diagnosis
