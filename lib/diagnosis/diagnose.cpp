@@ -86,8 +86,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
   // What numerics share among rows is in the predictions, as far as these residuals tell it.
   Eigen::VectorXd variances = observations.covariance().diagonal();
-  if (observations.numerics_shared.rows() == observations.size())
-    variances -= observations.numerics_shared.rowwise().squaredNorm();
+  if (observations.has_shared_numerics()) variances -= observations.numerics_shared.rowwise().squaredNorm();
   const auto with_numerics = [&](const Fit& fit) -> Eigen::VectorXd {
     std::vector<Eigen::Index> all(static_cast<std::size_t>(observations.size()));
     std::iota(all.begin(), all.end(), 0);
@@ -197,11 +196,13 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.candidates = candidates_of(evidence, decision);
   for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
   diagnosis.common_ground = common_ground(diagnosis.possible);
-  Fit extended = !decision.possible.empty() ? decision.possible.front()
-                 : decision.partial         ? *decision.partial
-                                            : evidence.base.fit;
+  const Fit& decided = !decision.possible.empty() ? decision.possible.front()
+                       : decision.partial         ? *decision.partial
+                                                  : evidence.base.fit;
+  Fit extended = decided;
   if (decision.verdict == Verdict::named) {
-    NamedModel named = measure_size(evidence, extended);
+    if (settings.progress) settings.progress(0.92, "the size of what is named");
+    NamedModel named = measure_size(evidence, decided);
     extended = std::move(named.fit);
     diagnosis.effects = std::move(named.effects);
   }
@@ -211,7 +212,8 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.curves = curves_of(workbench, observations, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {
     std::vector<Fit> models = evidence.singles;
-    if (extended.effects.size() > 1) models.push_back(extended);
+    // As it was decided, sizes free: folds must not know a size that all the data told.
+    if (decided.effects.size() > 1) models.push_back(decided);
     const Gain gain = held_out_gain(observations, evidence.base.fit, models, needed_drop(evidence), settings.seed);
     // What the nearest effect gains where none is named is a partial gain, and said to be one.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;

@@ -38,8 +38,7 @@ Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
 std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, const Eigen::VectorXd& y,
                                   const Whitener& whitener, const std::vector<int>& held) {
   Fit whole = fit;
-  whole.free.resize(static_cast<std::size_t>(map.size()));
-  std::iota(whole.free.begin(), whole.free.end(), 0);
+  whole.free_all();
   const Eigen::VectorXd descent = whole.whitened_columns(whitener).transpose() * whole.whitened_residual(y, whitener);
   std::vector<int> free;
   for (int i = 0; i < map.size(); ++i) {
@@ -80,6 +79,11 @@ bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
 }
 
 }  // namespace
+
+void Fit::free_all() {
+  free.resize(static_cast<std::size_t>(u.size()));
+  std::iota(free.begin(), free.end(), 0);
+}
 
 Eigen::MatrixXd Fit::whitened_columns(const Whitener& whitener) const {
   const Eigen::Index n = jacobian.rows();
@@ -129,8 +133,7 @@ Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
   const CoordinateMap map = model.base_map();
   Fit fit = begun(model, map, u);
   fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
-  fit.free.resize(static_cast<std::size_t>(map.size()));
-  std::iota(fit.free.begin(), fit.free.end(), 0);
+  fit.free_all();
   fit.parameters = map.parameters(fit.u);
   return fit;
 }

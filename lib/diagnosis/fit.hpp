@@ -25,6 +25,7 @@ struct Fit {
   std::vector<int> free;            ///< coordinates that may move; the others are held by a bound that they would leave
   double chi2 = 0.0;                ///< weighted sum of squares, prior included
   bool extension_on_bound = false;  ///< an extension parameter ended on a bound of its range (zero does not count)
+  void free_all();                  ///< every coordinate may move, also one on a bound
   /// Whitened columns of the free coordinates: rows, then those of the prior.
   Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
   /// Whitened residual of data: rows, then those of the prior.

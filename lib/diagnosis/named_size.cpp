@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace nacre::diagnosis {
 namespace {
@@ -27,7 +26,7 @@ using Profile = std::map<double, Sized>;
 /// Rows with what finer elements change at this model, in place of what they change at the base and all its rivals.
 Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
   Observations observations = evidence.observations;
-  if (observations.numerics_shared.rows() == observations.size())
+  if (observations.has_shared_numerics())
     observations.numerics_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
   return observations;
 }
@@ -113,7 +112,7 @@ struct Interval {
 /// % from 4 degrees of freedom on. Without replicates: a little.
 double student(const Evidence& evidence) {
   const int dof = evidence.observations.replicate_dof();
-  return dof > 0 ? 1.0 + 0.93 / dof : 1.2;
+  return dof > 0 ? 1.0 + 0.93 / dof : 2.0 / 1.645;
 }
 
 Interval by_likelihood(const Evidence& evidence, const Fit& named, int i) {
@@ -124,8 +123,7 @@ Interval by_likelihood(const Evidence& evidence, const Fit& named, int i) {
 }
 
 Interval by_covariance(const Evidence& evidence, Fit named, int i) {
-  named.free.resize(static_cast<std::size_t>(named.u.size()));
-  std::iota(named.free.begin(), named.free.end(), 0);
+  named.free_all();
   const Whitener whitener(evidence.observations.covariance());
   const double half = 1.645 * student(evidence) * std::sqrt(named.variance(i, whitener));
   return {named.u[i] - half, named.u[i], named.u[i] + half};
@@ -143,14 +141,14 @@ NamedEffect in_units(const CoordinateMap& map, const material::Effect& effect, i
 
 NamedModel measure_size(const Evidence& evidence, const Fit& named) {
   const CoordinateMap map = evidence.model.map(named.effects);
-  const bool has_numerics = evidence.observations.numerics_shared.rows() == evidence.observations.size();
   NamedModel model;
   Eigen::VectorXd middles = named.u;
   std::vector<int> held;
   for (std::size_t k = 0; k < named.effects.size(); ++k) {
     const material::Effect& effect = *material::find_effect(named.effects[k]);
     const int i = map.first_coordinate(k);
-    const bool moves_elements = has_numerics && effect.side == material::EffectSide::material;
+    const bool moves_elements =
+        evidence.observations.has_shared_numerics() && effect.side == material::EffectSide::material;
     const Interval interval = moves_elements ? by_likelihood(evidence, named, i) : by_covariance(evidence, named, i);
     model.effects.push_back(in_units(map, effect, i, interval));
     middles[i] = interval.middle;

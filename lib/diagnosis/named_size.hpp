@@ -8,9 +8,9 @@
 
 namespace nacre::diagnosis {
 
-/// A named model at its most likely sizes, and what is known of them.
+/// A named model at the medians of its sizes, and what is known of them.
 struct NamedModel {
-  Fit fit;  ///< base constants fitted, sizes held at the medians
+  Fit fit;  ///< base constants fitted, sizes held
   std::vector<NamedEffect> effects;
 };
 

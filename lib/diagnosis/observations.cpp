@@ -199,14 +199,14 @@ CovarianceParts Observations::covariance_parts() const {
       parts.fixed(i, j) = parts.fixed(j, i) = numerics;
     }
   }
-  if (numerics_shared.rows() == size()) parts.fixed += numerics_shared * numerics_shared.transpose();
+  if (has_shared_numerics()) parts.fixed += numerics_shared * numerics_shared.transpose();
   if (emulator_variance.size() == size()) parts.fixed.diagonal() += emulator_variance;
   return parts;
 }
 
 Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows,
                                               const std::vector<Eigen::Index>& at) const {
-  if (numerics_shared.rows() != size()) return Eigen::VectorXd::Zero(size());
+  if (!has_shared_numerics()) return Eigen::VectorXd::Zero(size());
   const Eigen::MatrixXd all = covariance();
   const Eigen::VectorXd weights = all(at, at).llt().solve(residuals_at_rows);
   return numerics_shared * (numerics_shared(at, Eigen::all).transpose() * weights);

@@ -106,6 +106,7 @@ struct Observations {
     return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)];
   }
   bool has(tester::TestKind test) const;
+  bool has_shared_numerics() const { return numerics_shared.rows() == size(); }
   /// Fewest degrees of freedom behind the scatter of a test that is present.
   int replicate_dof() const;
   double replicate_sd(Feature feature, tester::TestKind test) const;

@@ -137,14 +137,12 @@ Predictors fit_networks(const LogSamples& all, std::size_t settled, const Search
 }  // namespace
 
 std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int most) {
-  const std::size_t count = std::min(samples.size(), static_cast<std::size_t>(most)), best = (count + 1) / 2;
-  std::vector<Evaluated> by_rank = best_by_rank(samples, samples.size());
-  const double stride =
-      static_cast<double>(by_rank.size() - best) / std::max<double>(1.0, static_cast<double>(count - best));
-  for (std::size_t i = best; i < count; ++i)
-    by_rank[i] = by_rank[best + static_cast<std::size_t>(stride * static_cast<double>(i - best))];
-  by_rank.resize(count, samples.front());
-  return by_rank;
+  std::vector<Evaluated> learnt = best_by_rank(samples, samples.size());
+  const std::size_t all = learnt.size(), count = static_cast<std::size_t>(most), best = count / 2;
+  if (all <= count) return learnt;
+  for (std::size_t i = best; i < count; ++i) learnt[i] = learnt[best + (i - best) * (all - best) / (count - best)];
+  learnt.erase(learnt.begin() + most, learnt.end());
+  return learnt;
 }
 
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings, const Predictors& base) {
