@@ -21,8 +21,11 @@ struct Options {
   int seeds = 1;
   double minutes = 1e6;
   int threads = 0;
-  std::vector<int> checkpoints = {100, 200, 300, 500, 800};  ///< held out: samples learnt from
-  int next = 100;                                            ///< held out: samples predicted
+  std::vector<int> checkpoints = {100, 200, 300, 500, 800};               ///< held out: samples learnt from
+  int next = 100;                                                         ///< held out: samples predicted
+  std::vector<std::string> variants = {"learned", "nsga2-single-pixel"};  ///< growth: curves of the figure
+  int most = 5000;                                                        ///< growth: samples, the end of the figure
+  std::string out;                                                        ///< of a figure
 };
 
 /// Searches, seed after seed. Returns whether all came to their end before the minutes were over.
@@ -31,6 +34,12 @@ bool run_searches(const Options& options);
 void predict_held_out(const Options& options);
 /// Samples until the reference's final hypervolume, final hypervolumes, times: one line per variant.
 void summarise(const Options& options);
+
+/// Hypervolume against samples, mean and range over the seeds, as a picture (Figures 3-9 and 3-10 of the thesis).
+void draw_growth(const Options& options);
+/// E and T predicted against simulated, on the samples of one run that were learnt from and on those asked for next, as
+/// two pictures, OUT-modulus.svg and OUT-toughness.svg (Figure 3-11 of the thesis).
+void draw_predicted(const Options& options);
 
 /// "tiny-default-nsga2-1" in the work folder, for a run's files.
 std::string run_path(const Options& options, const std::string& variant, std::uint64_t seed);

@@ -34,6 +34,10 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--surrogate-population", learned.population)->capture_default_str();
   command.add_option("--optimism", learned.optimism)->capture_default_str();
   command.add_option("--most-samples", learned.most_samples)->capture_default_str();
+  command.add_option("--members", learned.members)->capture_default_str();
+  command.add_option("--warm-start", learned.warm_start)->capture_default_str();
+  command.add_option("--weight-decay", learned.weight_decay)->capture_default_str();
+  command.add_option("--dropout", learned.dropout)->capture_default_str();
   command.add_option("--floor-deviations", learned.floor_deviations)->capture_default_str();
   command.add_flag_function(
       "--thesis", [&learned](std::int64_t) { learned = nacre::explore::thesis_learning(); }, "the learning of 2.3.3");
@@ -50,16 +54,27 @@ int main(int argc, char** argv) {
   CLI::App* held_out = app.add_subcommand("held-out", "Predict what a finished run asked for next");
   CLI::App* summary =
       app.add_subcommand("summary", "Samples to the goal, final hypervolumes and times of all variants");
-  for (CLI::App* command : {run, held_out, summary}) add_common(*command, options);
-  for (CLI::App* command : {run, held_out}) add_learning(*command, options);
+  CLI::App* growth = app.add_subcommand("growth", "Draw hypervolume against samples");
+  CLI::App* predicted = app.add_subcommand("predicted", "Draw predicted against simulated");
+  for (CLI::App* command : {run, held_out, summary, growth, predicted}) add_common(*command, options);
+  for (CLI::App* command : {run, held_out, predicted}) add_learning(*command, options);
   run->add_option("--algorithm", options.search.algorithm)->check(CLI::IsMember(nacre::explore::algorithms()));
   run->add_option("--budget", options.search.budget)->capture_default_str();
   run->add_option("--population", options.search.population)->capture_default_str();
   run->add_option("--batch", options.search.batch)->capture_default_str();
   run->add_option("--minutes", options.minutes, "stop after this time; run again to go on");
   run->add_option("--threads", options.threads, "0: all allowed cores");
-  held_out->add_option("--checkpoints", options.checkpoints, "samples learnt from")->capture_default_str();
-  held_out->add_option("--next", options.next, "samples predicted")->capture_default_str();
+  for (CLI::App* command : {held_out, predicted}) {
+    command->add_option("--checkpoints", options.checkpoints, "samples learnt from; a picture takes the first")
+        ->capture_default_str();
+    command->add_option("--next", options.next, "samples predicted")->capture_default_str();
+  }
+  growth->add_option("--variants", options.variants, "curves")->capture_default_str();
+  growth->add_option("--most", options.most, "samples where the picture ends")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  growth->add_option("--out", options.out, "the picture")->required();
+  predicted->add_option("--out", options.out, "begin of the pictures' names")->required();
   summary->add_option("--reference", options.reference, "variant whose final hypervolume is the goal")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
@@ -69,6 +84,8 @@ int main(int argc, char** argv) {
     if (*run) finished = run_searches(options);
     if (*held_out) predict_held_out(options);
     if (*summary) summarise(options);
+    if (*growth) draw_growth(options);
+    if (*predicted) draw_predicted(options);
   });
   if (!finished) fmt::print("time is up; run the same command again\n");
   return status != 0 ? status : finished ? 0 : 1;

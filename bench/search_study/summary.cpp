@@ -1,59 +1,21 @@
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "base/csv.hpp"
-#include "base/files.hpp"
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "commands.hpp"
+#include "growth.hpp"
 
 namespace nacre::search_study {
 namespace {
 
-/// One row of a growth table.
-struct Step {
-  double hypervolume = 0.0, thinking_s = 0.0, simulating_s = 0.0;
-};
-using Growth = std::map<int, Step>;  // by samples
-
-Growth read_growth(const std::string& path) {
-  Growth growth;
-  const std::string text = read_file(path);
-  CsvReader reader(text, path);
-  CsvRow row;
-  reader.next(row);
-  while (reader.next(row)) {
-    const auto number = [&](std::size_t column) {
-      if (row.cells.size() != 5) throw InputError::format("{}:{}: expected 5 cells", path, row.line);
-      const auto value = number_from_text(row.cells[column].text);
-      if (!value) throw InputError::format("{}:{}: {}", path, row.line, value.error().message);
-      return *value;
-    };
-    growth[static_cast<int>(number(0))] = {number(1), number(3), number(4)};
-  }
-  return growth;
-}
-
-/// Growths of all seeds of a variant that have run.
-std::vector<Growth> growths_of(const Options& options, const std::string& variant) {
-  std::vector<Growth> growths;
-  for (int i = 0; i < options.seeds; ++i) {
-    const std::string path =
-        run_path(options, variant, options.first_seed + static_cast<std::uint64_t>(i)) + "-growth.csv";
-    if (std::filesystem::exists(path)) growths.push_back(read_growth(path));
-    if (!growths.empty() && growths.back().empty()) growths.pop_back();
-  }
-  return growths;
-}
-
 /// First number of samples with at least this hypervolume.
 std::optional<int> samples_until(const Growth& growth, double hypervolume) {
   for (const auto& [samples, step] : growth) {
-    if (step.hypervolume >= hypervolume) return samples;
+    if (step.hypervolume_gpa_mpa >= hypervolume) return samples;
   }
   return std::nullopt;
 }
@@ -81,10 +43,10 @@ void print_variant(const Options& options, const std::string& variant, double go
   int most = 0;
   for (const Growth& growth : growths) {
     if (const auto samples = samples_until(growth, goal)) until.push_back(*samples);
-    final.push_back(growth.rbegin()->second.hypervolume);
+    final.push_back(growth.rbegin()->second.hypervolume_gpa_mpa);
     most = std::max(most, growth.rbegin()->first);
     const auto thousand = growth.upper_bound(1000);
-    if (thousand != growth.begin()) at_1000.push_back(std::prev(thousand)->second.hypervolume);
+    if (thousand != growth.begin()) at_1000.push_back(std::prev(thousand)->second.hypervolume_gpa_mpa);
     for (const auto& [samples, step] : growth) thinking += step.thinking_s, simulating += step.simulating_s;
   }
   const auto range = [](const std::vector<double>& values) {
@@ -110,7 +72,7 @@ void summarise(const Options& options) {
   std::vector<double> final;
   double samples = 0.0;
   for (const Growth& growth : reference) {
-    final.push_back(growth.rbegin()->second.hypervolume);
+    final.push_back(growth.rbegin()->second.hypervolume_gpa_mpa);
     samples += growth.rbegin()->first / static_cast<double>(reference.size());
   }
   const double goal = mean(final);
