@@ -10,7 +10,7 @@
 #include "base/statistics.hpp"
 #include "commands.hpp"
 #include "explore/gamut_csv.hpp"
-#include "explore/predictors.hpp"
+#include "foretold.hpp"
 #include "growth.hpp"
 
 namespace nacre::search_study {
@@ -93,20 +93,15 @@ void draw_growth(const Options& options) {
 void draw_predicted(const Options& options) {
   const auto gamut = explore::read_gamut_csv(run_path(options, options.variant, options.first_seed) + "-gamut.csv");
   const auto learnt = static_cast<std::size_t>(options.checkpoints.front());
-  const std::size_t end = std::min(gamut.size(), learnt + static_cast<std::size_t>(options.next));
   if (learnt >= gamut.size())
     throw InputError::format("{} samples in the run, {} to be learnt from", gamut.size(), learnt);
-  explore::SearchSettings settings = options.search;
-  settings.seed = options.first_seed;
-  const auto predictors = explore::fit_predictors(std::span(gamut).first(learnt), settings);
-  std::vector<pattern::Pattern> patterns;
-  for (std::size_t i = 0; i < end; ++i) patterns.push_back(gamut[i].pattern);
-  const auto guesses = explore::believed(predictors, patterns, 0.0);
+  const Foretold foretold = foretell(options, options.first_seed, gamut, learnt);
   const auto draw = [&](double optimize::Performance::*property, double unit, const std::string& title,
                         const std::string& quantity, const std::string& suffix) {
     std::vector<analyser::Point> known, next;
-    for (std::size_t i = 0; i < end; ++i)
-      (i < learnt ? known : next).push_back({gamut[i].performance.*property / unit, guesses[i].*property / unit});
+    for (std::size_t i = 0; i < foretold.samples.size(); ++i)
+      (i < learnt ? known : next)
+          .push_back({foretold.samples[i].performance.*property / unit, foretold.predicted[i].*property / unit});
     write_figure(options.out + suffix, predicted_figure(known, next, title, quantity));
   };
   draw(&optimize::Performance::modulus_pa, 1e9, fmt::format("Modulus, {} learnt from", learnt), "E, GPa",

@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "base/processor_time.hpp"
 #include "base/statistics.hpp"
 #include "commands.hpp"
 #include "explore/gamut_csv.hpp"
-#include "explore/predictors.hpp"
+#include "foretold.hpp"
 
 namespace nacre::search_study {
 namespace {
@@ -39,24 +38,14 @@ void predict_held_out(const Options& options) {
     for (const int count : options.checkpoints) {
       const auto learnt = static_cast<std::size_t>(count);
       if (learnt >= gamut.size()) break;
-      const std::span<const explore::Evaluated> all(gamut), first = all.first(learnt);
-      const auto later = all.subspan(learnt, std::min(static_cast<std::size_t>(options.next), all.size() - learnt));
-      const double begin = processor_time_s();
-      explore::SearchSettings settings = options.search;
-      settings.seed = seed;
-      const explore::Predictors predictors = explore::fit_predictors(first, settings);
-      const double fitting = processor_time_s() - begin;
-      const auto predict = [&](std::span<const explore::Evaluated> samples) {
-        std::vector<pattern::Pattern> patterns;
-        for (const auto& sample : samples) patterns.push_back(sample.pattern);
-        return explore::believed(predictors, patterns, 0.0);
-      };
-      const auto guesses = predict(later);
-      const Accuracy e = accuracy(later, guesses, &optimize::Performance::modulus_pa);
-      const Accuracy t = accuracy(later, guesses, &optimize::Performance::toughness_pa);
-      const Accuracy own = accuracy(first, predict(first), &optimize::Performance::toughness_pa);
+      const Foretold foretold = foretell(options, seed, gamut, learnt);
+      const auto first = foretold.samples.first(learnt), later = foretold.samples.subspan(learnt);
+      const std::span<const optimize::Performance> guesses(foretold.predicted);
+      const Accuracy e = accuracy(later, guesses.subspan(learnt), &optimize::Performance::modulus_pa);
+      const Accuracy t = accuracy(later, guesses.subspan(learnt), &optimize::Performance::toughness_pa);
+      const Accuracy own = accuracy(first, guesses.first(learnt), &optimize::Performance::toughness_pa);
       fmt::print("{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f}\n", options.variant, seed, learnt, later.size(),
-                 e.rank, e.error, t.rank, t.error, own.rank, fitting);
+                 e.rank, e.error, t.rank, t.error, own.rank, foretold.fitting_s);
     }
   }
 }

@@ -45,8 +45,7 @@ void print_variant(const Options& options, const std::string& variant, double go
     if (const auto samples = samples_until(growth, goal)) until.push_back(*samples);
     final.push_back(growth.rbegin()->second.hypervolume_gpa_mpa);
     most = std::max(most, growth.rbegin()->first);
-    const auto thousand = growth.upper_bound(1000);
-    if (thousand != growth.begin()) at_1000.push_back(std::prev(thousand)->second.hypervolume_gpa_mpa);
+    at_1000.push_back(hypervolume_at(growth, 1000));
     for (const auto& [samples, step] : growth) thinking += step.thinking_s, simulating += step.simulating_s;
   }
   const auto range = [](const std::vector<double>& values) {

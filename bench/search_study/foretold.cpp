@@ -1,0 +1,25 @@
+#include "foretold.hpp"
+
+#include <algorithm>
+
+#include "base/processor_time.hpp"
+#include "explore/predictors.hpp"
+
+namespace nacre::search_study {
+
+Foretold foretell(const Options& options, std::uint64_t seed, std::span<const explore::Evaluated> run,
+                  std::size_t learnt) {
+  Foretold foretold;
+  foretold.samples = run.first(std::min(run.size(), learnt + static_cast<std::size_t>(options.next)));
+  explore::SearchSettings settings = options.search;
+  settings.seed = seed;
+  const double begin = processor_time_s();
+  const explore::Predictors predictors = explore::fit_predictors(run.first(learnt), settings);
+  foretold.fitting_s = processor_time_s() - begin;
+  std::vector<pattern::Pattern> patterns;
+  for (const explore::Evaluated& sample : foretold.samples) patterns.push_back(sample.pattern);
+  foretold.predicted = explore::believed(predictors, patterns, 0.0);
+  return foretold;
+}
+
+}  // namespace nacre::search_study
