@@ -124,7 +124,7 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
   settings.start.toughness = truth.toughness;
   settings.fidelity = options.fidelity;
   settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
-  diagnosis::PlannedScatter scatter{
+  diagnosis::AssumedScatter scatter{
       .modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
   const diagnosis::Plan plan = diagnosis::plan_diagnosis(specimens, settings, scatter, false);
   std::string text;

@@ -10,7 +10,6 @@ namespace nacre::diagnosis {
 namespace {
 
 /// Size of an effect, as a share of its range, at which it is asked whether these data could show it.
-constexpr int kTypicalSize = 2;  // index of 0.3 among the sizes of a signature
 
 bool holds(const std::vector<Fit>& fits, const std::string& effect) {
   return std::any_of(fits.begin(), fits.end(), [&](const Fit& f) {

@@ -13,6 +13,8 @@ inline constexpr double kVisibleSignal = 3.8, kToldApart = 2.2;
 /// between effects of different families. What such a look-alike leaves, s sqrt(1 - 0.8^2), is noticed from a
 /// signal-to-noise of 6.3 on: below it no name is given.
 inline constexpr double kLookalike = 0.8, kNameableSignal = kVisibleSignal / 0.6;
+/// A rival leaves the set only when data from it would so seldom look like ours.
+inline constexpr double kExclusionLevel = 0.005;
 /// Share of a signature that the base imitates above which the effect is called invisible.
 inline constexpr double kInvisibleAbsorption = 0.95;
 

@@ -146,6 +146,7 @@ std::vector<Descriptor> descriptors() {
       {"strain rate", [](const Observation& g) { return std::log(g.conditions.strain_rate_per_s); }},
       {"thickness", [](const Observation& g) { return g.conditions.thickness_mm; }},
       {"print order", [](const Observation& g) { return g.print_order; }},
+      {"batch", [](const Observation& g) { return g.batch_step; }},
   };
   for (const LayoutDescriptor& descriptor : kLayoutDescriptors)
     all.push_back({descriptor.name, [of = descriptor.of](const Observation& g) {

@@ -137,6 +137,29 @@ double shown_replicate_sd(const Observations& observations) {
   return observations.replicate_sd(Feature::log_peak, TestKind::tensile);
 }
 
+std::vector<tester::TestKind> tests_in(const Observations& observations) {
+  std::vector<tester::TestKind> tests;
+  for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness, tester::TestKind::tensile})
+    if (observations.has(test)) tests.push_back(test);
+  return tests;
+}
+
+std::vector<tester::TestKind> tests_without_replicates(const Observations& observations) {
+  std::vector<tester::TestKind> tests = tests_in(observations);
+  std::erase_if(tests, [&](tester::TestKind test) { return observations.replicate_dof(test) > 0; });
+  return tests;
+}
+
+std::string assumption_in_words(const std::vector<tester::TestKind>& unreplicated, bool others_have_replicates) {
+  if (unreplicated.empty()) return "";
+  if (!others_have_replicates)
+    return " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
+  std::string tests;
+  for (const tester::TestKind test : unreplicated)
+    tests += (tests.empty() ? "" : " and ") + std::string(tester::to_string(test));
+  return fmt::format(" Specimens of the {} test have no replicates: a scatter of 2 % was assumed for them.", tests);
+}
+
 /// Models that the next test should separate: the rivals left, or what an unexplained misfit comes nearest to.
 std::vector<Fit> models_to_separate(const Evidence& evidence, const Decision& decision) {
   if (decision.verdict == Verdict::ambiguous) return decision.possible;
@@ -173,6 +196,13 @@ std::string_view to_string(Verdict verdict) {
   return "unexplained";
 }
 
+Diagnosis undecided(const std::string& why) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::ambiguous;
+  diagnosis.summary = "These data cannot tell yet: " + why + ".";
+  return diagnosis;
+}
+
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
   if (settings.bootstraps * settings.name_level < 2.0) {
     throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}",
@@ -191,7 +221,8 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.replicate_sd = shown_replicate_sd(observations);
   diagnosis.numerics_sd = observations.numerics_sd;
   diagnosis.numerics_shared_sd = observations.numerics_shared.norm() / std::sqrt(observations.size());
-  diagnosis.noise_known = observations.replicate_dof() > 0;
+  const std::vector<tester::TestKind> unreplicated = tests_without_replicates(observations);
+  diagnosis.noise_known = unreplicated.size() < tests_in(observations).size();
   diagnosis.base_fit = evidence.base.fit.parameters;
   diagnosis.candidates = candidates_of(evidence, decision);
   for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
@@ -233,9 +264,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     diagnosis.summary += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.",
                                      check.changed, in_words(check.feature), 100.0 * check.largest);
   }
-  if (!diagnosis.noise_known)
-    diagnosis.summary +=
-        " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
+  diagnosis.summary += assumption_in_words(unreplicated, diagnosis.noise_known);
   if (settings.progress) settings.progress(1.0, "done");
   return diagnosis;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.hpp"
 #include "diagnosis/features.hpp"
 #include "diagnosis/modulus_floor.hpp"
 #include "diagnosis/numerics.hpp"
@@ -135,7 +136,7 @@ struct Diagnosis {
   double replicate_sd = 0.0;        ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
   double numerics_sd = 0.0;         ///< what numerics leave of log E: independent part, per layout
   double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over groups
-  bool noise_known = true;          ///< false: no replicates, relative statements only
+  bool noise_known = true;          ///< false: no test has replicates, relative statements only
   material::ParameterSet base_fit;
   material::ParameterSet extended_fit;  ///< base parameters and extension of the named model; base fit otherwise
   std::vector<ResidualRow> residuals;
@@ -143,8 +144,8 @@ struct Diagnosis {
   std::vector<std::string> descriptors;  ///< names of what residuals are shown against
   std::vector<GroupCurves> curves;       ///< of fracture tests and coupons
   int simulations = 0;                   ///< of fracture tests, really done
-  std::string procedure;  ///< hash of library, features, contrasts and thresholds: two diagnoses with the same one
-                          ///< asked the same
+  std::string procedure;  ///< hash of library, features, contrasts, thresholds, numerics floor and fidelity: two
+                          ///< diagnoses with the same one asked the same
 };
 
 struct DiagnosisSettings {
@@ -164,10 +165,18 @@ struct DiagnosisSettings {
   std::function<void(double, std::string_view)> progress = {};
 };
 
-/// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws InputError when
-/// fewer than eight groups of layouts have a valid test and fewer than four coupons a curve, or when there are too few
-/// bootstraps for the level of a name.
+/// Specimens that are too few for any statement: the answer is undecided().
+class TooFewSpecimens : public InputError {
+  using InputError::InputError;
+};
+
+/// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws TooFewSpecimens when
+/// fewer than eight groups of layouts have a valid test and fewer than four coupons a curve, InputError when there are
+/// too few bootstraps for the level of a name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
+
+/// What is said where nothing can be computed: `ambiguous`, nothing claimed, and why.
+Diagnosis undecided(const std::string& why);
 
 /// The JSON document of `nacre diagnose --json`.
 std::string to_json(const Diagnosis& diagnosis);

@@ -15,14 +15,6 @@ constexpr double kWellKnown = 1.5;
 /// Effects whose fits are simulated: those that come near the best.
 constexpr std::size_t kRefinedEffects = 4;
 
-/// The model with `added` after the effects of `fit`, at the same coordinates and with the added parameters at zero.
-Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
-  u.head(fit.u.size()) = fit.u;
-  for (int i = static_cast<int>(fit.u.size()) + 1; i < map.size(); ++i) u[i] = map.usual(i);
-  return u;
-}
-
 /// Sizes at which a one-sided or two-sided effect is tried, in the order of its signature's changes.
 std::vector<double> signed_sizes(bool one_sided) {
   std::vector<double> sizes(std::begin(kSizes), std::end(kSizes));

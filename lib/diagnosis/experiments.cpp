@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <set>
 
 #include "base/parallel.hpp"
@@ -15,7 +17,7 @@ namespace {
 using tester::TestKind;
 
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
-constexpr int kConditionTwins = 3;      // designs that are tested under other conditions
+constexpr int kConditionTwins = 3;      // designs of a test that are also tested under other conditions
 constexpr double kCouponStrain = 0.02;  // said in the words of possible_tests()
 
 /// Scatter where nothing was measured of a test: a logarithm's, and a strain's.
@@ -44,6 +46,26 @@ Separation separation_of(const FeatureValues& one, const FeatureValues& other, T
   return best;
 }
 
+/// Groups of layouts that are not coupons, those of most replicates first.
+std::vector<const Observation*> layouts_most_measured_first(const Observations& observations) {
+  std::vector<const Observation*> groups;
+  for (const Observation& g : observations.groups)
+    if (g.design.layout() && g.test != TestKind::tensile) groups.push_back(&g);
+  std::ranges::stable_sort(groups, std::greater<>(), &Observation::replicates);
+  return groups;
+}
+
+/// How most upright designs are tested: what is tested otherwise is a twin already.
+tester::TestConditions usual_conditions(const std::vector<const Observation*>& groups, TestKind test) {
+  std::map<std::pair<double, double>, int> counts;
+  for (const Observation* g : groups)
+    if (g->test == test && g->conditions.orientation_deg == 0.0)
+      ++counts[{g->conditions.strain_rate_per_s, g->conditions.thickness_mm}];
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
+  if (most == counts.end()) return {};
+  return {.orientation_deg = 0.0, .strain_rate_per_s = most->first.first, .thickness_mm = most->first.second};
+}
+
 }  // namespace
 
 tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
@@ -58,7 +80,7 @@ bool answers(const PossibleTest& test, const Observation& group) {
          (test.test != TestKind::tensile || group.unloaded);
 }
 
-std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity) {
+std::vector<PossibleTest> possible_tests(const Observations& observations) {
   std::vector<PossibleTest> possible;
   std::set<std::string> taken;
   const auto name_of = [](const PossibleTest& t) {
@@ -77,17 +99,17 @@ std::vector<PossibleTest> possible_tests(const Observations& observations, teste
     if (std::any_of(observations.groups.begin(), observations.groups.end(),
                     [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       tests.push_back(test);
-  int twins = 0;
-  for (const Observation& g : observations.groups) {
-    if (!g.design.layout() || g.test == TestKind::tensile) continue;
-    PossibleTest turned{g.design, g.test, g.conditions, "a twin printed turned by 90 degrees"};
-    turned.conditions.orientation_deg = g.conditions.orientation_deg == 0.0 ? 90.0 : 0.0;
+  std::map<TestKind, int> twins;
+  const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
+  for (const Observation* g : layouts) {
+    PossibleTest turned{g->design, g->test, g->conditions, "a twin printed turned by 90 degrees"};
+    turned.conditions.orientation_deg = g->conditions.orientation_deg == 0.0 ? 90.0 : 0.0;
     offer(turned);
-    if (g.conditions.orientation_deg != 0.0 || twins++ >= kConditionTwins) continue;
-    PossibleTest faster{g.design, g.test, g.conditions, "a twin pulled ten times as fast"};
+    if (g->conditions != usual_conditions(layouts, g->test) || twins[g->test]++ >= kConditionTwins) continue;
+    PossibleTest faster{g->design, g->test, g->conditions, "a twin pulled ten times as fast"};
     faster.conditions.strain_rate_per_s *= kSecondRate;
     offer(faster);
-    PossibleTest thinner{g.design, g.test, g.conditions, "a twin of half the thickness"};
+    PossibleTest thinner{g->design, g->test, g->conditions, "a twin of half the thickness"};
     thinner.conditions.thickness_mm *= kSecondThickness;
     offer(thinner);
   }
@@ -143,7 +165,7 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
                                              const Observations& observations, tester::Fidelity fidelity, int count,
                                              int replicates) {
   if (models.size() < 2) return {};
-  std::vector<PossibleTest> tests = possible_tests(observations, fidelity);
+  std::vector<PossibleTest> tests = possible_tests(observations);
   // Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: the others say the
   // same for less.
   if (observations.has(TestKind::modulus))

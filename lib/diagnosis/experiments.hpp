@@ -19,9 +19,9 @@ struct PossibleTest {
 bool answers(const PossibleTest& test, const Observation& group);
 
 /// Tests that a laboratory could add to these: turned twins of measured designs, a tenfold rate and half the thickness
-/// for the most measured ones, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous coupons pulled
-/// and unloaded at two rates. What is measured already is left out.
-std::vector<PossibleTest> possible_tests(const Observations& observations, tester::Fidelity fidelity);
+/// for the three most measured ones of each test, laminates and checkerboards of period 1, 2 and 5 both ways,
+/// homogeneous coupons pulled and unloaded at two rates. What is measured already is left out.
+std::vector<PossibleTest> possible_tests(const Observations& observations);
 
 /// What a model predicts of a test, one value per feature that says something.
 FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,

@@ -12,6 +12,7 @@ namespace {
 constexpr int kPoints = 128;
 constexpr double kDropOffset = 0.05;
 constexpr double kCarriedShare = 0.8;  // of its largest stress: a coupon that carries less is parting
+constexpr double kShallowest = 0.8;    // an unloading that goes back less far has no slope to speak of
 
 struct Names {
   std::string_view name, words;
@@ -92,11 +93,15 @@ void put_unloading(FeatureValues& values, const tester::Curve& curve) {
     }
     return std::nullopt;
   };
-  const auto high = strain_at(0.9 * top), low = strain_at(0.5 * top);
+  std::size_t end = turn;
+  while (end + 1 < curve.size() && curve.strain[end + 1] <= curve.strain[end]) ++end;
+  const double highest = 0.9 * top, lowest = std::max(0.5 * top, curve.stress_pa[end]);
+  if (lowest > kShallowest * top) return;
+  const auto high = strain_at(highest), low = strain_at(lowest);
   if (!high || !low || *high <= *low) return;
-  const double slope = 0.4 * top / (*high - *low);
+  const double slope = (highest - lowest) / (*high - *low);
   value_of(values, Feature::log_unloading) = std::log(slope);
-  value_of(values, Feature::set_share) = (*low - 0.5 * top / slope) / curve.strain[turn];
+  value_of(values, Feature::set_share) = (*low - lowest / slope) / curve.strain[turn];
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ enum class Feature {
   log_peak_strain,  ///< strain at the peak, log
   drop,             ///< how much farther the strain goes until half the peak: log(0.05 + strain over peak strain)
   tail,             ///< share of the energy behind the peak
-  log_unloading,    ///< slope of the first unloading, between 90 and 50 % of the stress where it begins
+  log_unloading,    ///< slope of the first unloading, between 90 and 50 % of the stress where it begins, or as far as
+                    ///< it goes where that is to 80 % at least
   set_share,        ///< where that line meets zero stress, over the strain where unloading begins
   toe_share,  ///< toe_strain over the strain at 30 % of the peak (coupons: some are pulled a hundred times as far as
               ///< others)

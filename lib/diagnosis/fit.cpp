@@ -69,10 +69,12 @@ bool is_share(const material::EffectParameter& parameter) {
 bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
   for (std::size_t k = 0; k < map.effects().size(); ++k) {
     const material::Effect& effect = *material::find_effect(map.effects()[k]);
-    const int i = map.first_coordinate(k);
-    if (is_share(effect.parameters.front())) continue;
-    for (const double bound : {map.lower(i), map.upper(i)}) {
-      if (bound != 0.0 && std::abs(u[i] - bound) < 1e-6) return true;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+      const int i = map.first_coordinate(k) + static_cast<int>(p);
+      if (is_share(effect.parameters[p])) continue;
+      for (const double bound : {map.lower(i), map.upper(i)}) {
+        if (bound != 0.0 && std::abs(u[i] - bound) < 1e-6) return true;
+      }
     }
   }
   return false;
@@ -102,6 +104,13 @@ Eigen::VectorXd Fit::whitened_residual(const Eigen::VectorXd& y, const Whitener&
   return residual;
 }
 
+Fit Fit::restricted(const std::vector<Eigen::Index>& rows) const {
+  Fit part = *this;
+  part.predicted = predicted(rows);
+  part.jacobian = jacobian(rows, Eigen::all);
+  return part;
+}
+
 double Fit::variance(int coordinate, const Whitener& whitener) const {
   const auto place = std::find(free.begin(), free.end(), coordinate);
   if (place == free.end()) return 0.0;
@@ -128,6 +137,13 @@ Fit begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::Vect
 }
 
 }  // namespace
+
+Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
+  u.head(fit.u.size()) = fit.u;
+  for (int i = static_cast<int>(fit.u.size()) + 1; i < map.size(); ++i) u[i] = map.usual(i);
+  return u;
+}
 
 Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
   const CoordinateMap map = model.base_map();

@@ -30,6 +30,8 @@ struct Fit {
   Eigen::MatrixXd whitened_columns(const Whitener& whitener) const;
   /// Whitened residual of data: rows, then those of the prior.
   Eigen::VectorXd whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const;
+  /// The same fit, seen from some of its rows.
+  Fit restricted(const std::vector<Eigen::Index>& rows) const;
   /// Variance of one coordinate; 0 when it is held.
   double variance(int coordinate, const Whitener& whitener) const;
 };
@@ -38,6 +40,10 @@ struct Fit {
 /// predictions of all rows an iteration. Coordinates that are `held` stay where they start.
 Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
               const Eigen::VectorXd& start, const std::vector<int>& held = {});
+
+/// Start of a model with one effect more than `fit` has: the same coordinates, the new effect at zero, what belongs to
+/// it at its usual value.
+Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map);
 
 /// The base model at given coordinates, with its linearisation there and every coordinate free; chi2 is not computed.
 Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u);

@@ -10,14 +10,6 @@ namespace {
 constexpr int kFolds = 5;
 constexpr int kIntervalDraws = 2000;
 
-/// The rows of a fit that belong to `rows`.
-Fit restricted(const Fit& fit, const std::vector<Eigen::Index>& rows) {
-  Fit part = fit;
-  part.predicted = fit.predicted(rows);
-  part.jacobian = fit.jacobian(rows, Eigen::all);
-  return part;
-}
-
 struct Refit {
   double chi2 = 0.0;
   Eigen::VectorXd delta;
@@ -25,7 +17,7 @@ struct Refit {
 
 Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y, const Whitener& whitener) {
   Refit result;
-  result.chi2 = linear_refit(restricted(fit, rows), y(rows), whitener, &result.delta);
+  result.chi2 = linear_refit(fit.restricted(rows), y(rows), whitener, &result.delta);
   return result;
 }
 

@@ -11,6 +11,11 @@ namespace {
 
 using tester::TestKind;
 
+/// What stands for a feature that the model does not show: no toe, no set, and the way back as steep as the way up.
+double unshown(const FeatureValues& values, Feature feature) {
+  return feature == Feature::log_unloading ? value_of(values, Feature::log_tangent_30).value_or(0.0) : 0.0;
+}
+
 }  // namespace
 
 tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
@@ -99,8 +104,7 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
   const FeatureValues values = tensile_features(coupon_curve(g, set));
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[static_cast<std::size_t>(row)].feature);
-    // A feature that the model does not show (a permanent set, say) is one that it puts at nothing.
-    rows[row] = value.value_or(0.0);
+    rows[row] = value.value_or(unshown(values, observations_.rows[static_cast<std::size_t>(row)].feature));
   }
 }
 

@@ -93,12 +93,10 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   group.test = first.test;
   group.conditions = first.conditions;
   group.unloaded = is_unloaded_coupon(first);
-  group.batch = first.batch;
   group.replicates = static_cast<int>(replicates.size());
   for (const Measured& each : replicates) {
     group.print_order += static_cast<double>(each.specimen->print_order) / group.replicates;
     group.batch_step += each.batch_step / group.replicates;
-    if (each.specimen->batch != group.batch) group.batch.clear();
   }
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     // A feature that one replicate lacks says nothing of the group: groups of one kind are then alike.
@@ -160,15 +158,6 @@ std::string Observation::material() const { return design.layout() ? "layout" : 
 
 bool Observations::has(TestKind test) const {
   return std::any_of(groups.begin(), groups.end(), [test](const Observation& g) { return g.test == test; });
-}
-
-int Observations::replicate_dof() const {
-  int fewest = -1;
-  for (int t = 0; t < 3; ++t) {
-    if (has(static_cast<TestKind>(t)) && (fewest < 0 || scatter[static_cast<std::size_t>(t)].dof < fewest))
-      fewest = scatter[static_cast<std::size_t>(t)].dof;
-  }
-  return std::max(fewest, 0);
 }
 
 double Observations::replicate_sd(Feature feature, TestKind test) const {

@@ -22,7 +22,6 @@ struct Observation {
   int replicates = 0;
   double print_order = 0.0;      ///< mean, 0 when unknown
   double batch_step = 0.0;       ///< mean number of the batch, the first is 0
-  std::string batch;             ///< empty when the replicates are of several batches
   tester::Curve curve;           ///< of the replicate whose peak is the middle one; empty when none was recorded
   std::string material() const;  ///< "layout" or the name of the homogeneous material
 };
@@ -107,8 +106,8 @@ struct Observations {
   }
   bool has(tester::TestKind test) const;
   bool has_shared_numerics() const { return numerics_shared.rows() == size(); }
-  /// Fewest degrees of freedom behind the scatter of a test that is present.
-  int replicate_dof() const;
+  /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
+  int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
   /// Covariance of the rows. What two numerics differ by is the same for all specimens of one layout under one test:
   /// rotated twins share it. Along the shared directions all rows go together.

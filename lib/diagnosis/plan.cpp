@@ -8,6 +8,7 @@
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/experiments.hpp"
+#include "diagnosis/scatter.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 using measurement::SpecimenRecord;
 using tester::TestKind;
 
-constexpr int kTypicalSize = 2;  // index of 0.3 among the sizes of a signature
 constexpr int kAddedReplicates = 3;
 
 /// What the specimens would show if the start parameters were the truth: values for whatever they lack.
@@ -69,10 +69,10 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
 }
 
 /// Tests that a person would order together, by what they are called.
-std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations, tester::Fidelity fidelity) {
+std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations) {
   constexpr std::size_t kMost = 3;
   std::map<std::string, std::vector<PossibleTest>> result;
-  for (const PossibleTest& test : possible_tests(observations, fidelity)) {
+  for (const PossibleTest& test : possible_tests(observations)) {
     const bool twin = test.words.find("twin") != std::string::npos;
     if (!twin && test.test == TestKind::toughness) continue;  // the same as a modulus says, for more
     std::string name = test.words;
@@ -87,33 +87,6 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
   return result;
 }
 
-void assume_scatter(Observations& observations, const PlannedScatter& scatter) {
-  for (std::size_t t = 0; t < observations.scatter.size(); ++t) {
-    Eigen::MatrixXd& covariance = observations.scatter[t].covariance;
-    covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
-    for (int i = 0; i < kFeatureCount; ++i) {
-      const auto feature = static_cast<Feature>(i);
-      const bool of_strain = feature == Feature::log_peak_strain || feature == Feature::knee ||
-                             feature == Feature::set_share || feature == Feature::toe_share;
-      const double sd = feature == Feature::log_modulus  ? scatter.modulus
-                        : feature == Feature::toe_strain ? scatter.toe_strain
-                        : of_strain                      ? scatter.strain
-                                                         : scatter.stress;
-      covariance(i, i) = sd * sd;
-    }
-    // Stresses of one specimen go together: a thicker print is stiffer from the first strain to the last.
-    constexpr double kTogether = 0.9;
-    const auto stress = [](int i) {
-      const auto f = static_cast<Feature>(i);
-      return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 ||
-             f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
-    };
-    for (int i = 0; i < kFeatureCount; ++i)
-      for (int j = 0; j < kFeatureCount; ++j)
-        if (i != j && stress(i) && stress(j)) covariance(i, j) = kTogether * scatter.stress * scatter.stress;
-  }
-}
-
 /// Signatures of all acting effects over all rows, base and covariance: what every subset of rows is judged by.
 struct Sheet {
   const Observations& observations;
@@ -121,13 +94,6 @@ struct Sheet {
   std::vector<Signature> signatures;
   Eigen::MatrixXd covariance;
 };
-
-Fit restricted(const Fit& fit, const std::vector<Eigen::Index>& rows) {
-  Fit part = fit;
-  part.predicted = fit.predicted(rows);
-  part.jacobian = fit.jacobian(rows, Eigen::all);
-  return part;
-}
 
 /// Smallest size, as a strength, at which `judged` reaches `wanted`: between the sizes of a signature in log scale;
 /// nothing beyond them.
@@ -143,7 +109,7 @@ std::optional<double> smallest(const std::vector<double>& judged, double wanted)
 }
 
 std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
-  const Fit base = restricted(sheet.base, rows);
+  const Fit base = sheet.base.restricted(rows);
   const Whitener whitener(sheet.covariance(rows, rows));
   constexpr auto kCount = static_cast<Eigen::Index>(std::size(kSizes));
   std::vector<Eigen::MatrixXd> projected;
@@ -196,9 +162,11 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
     planned.absorption = absorption[k];
     planned.signal_to_noise = signal[kTypicalSize];
     planned.signals = signal;
-    const auto seen = smallest(signal, kVisibleSignal), apart = smallest(distance, kToldApart);
-    planned.smallest_seen = value(seen);
-    planned.smallest_told_apart = seen && apart ? value(std::max(*seen, *apart)) : std::nullopt;
+    // As a diagnosis decides: what the base imitates is invisible, and a name needs traces that no look-alike leaves.
+    const bool imitated = planned.absorption > kInvisibleAbsorption;
+    const auto nameable = smallest(signal, kNameableSignal), apart = smallest(distance, kToldApart);
+    planned.smallest_seen = imitated ? std::nullopt : value(smallest(signal, kVisibleSignal));
+    planned.smallest_told_apart = !imitated && nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
     planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
     effects.push_back(planned);
   }
@@ -242,10 +210,10 @@ double signal_at(const PlannedEffect& effect, double strength) {
 }
 
 Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings,
-                    const PlannedScatter& scatter, bool additions) {
+                    const AssumedScatter& scatter, bool additions) {
   fill_in(specimens, settings);
   const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics);
-  const auto added = additions ? bundles(alone, settings.fidelity) : std::map<std::string, std::vector<PossibleTest>>{};
+  const auto added = additions ? bundles(alone) : std::map<std::string, std::vector<PossibleTest>>{};
   std::vector<SpecimenRecord> all = specimens, more;
   for (const auto& [words, tests] : added)
     for (const PossibleTest& test : tests)
@@ -256,7 +224,7 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   given.search_budget = 0;
   Workbench workbench(all, given);
   Observations& observations = workbench.observations();
-  assume_scatter(observations, scatter);
+  for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
   const CoordinateMap map = workbench.model().base_map();
   Sheet sheet{observations, linearised(workbench.model(), map.coordinates(settings.start)), {}, {}};
   if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {

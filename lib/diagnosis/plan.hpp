@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/scatter.hpp"
 
 namespace nacre::diagnosis {
 
@@ -15,7 +16,8 @@ struct PlannedEffect {
   std::string name, family, unit;
   std::string status;                         ///< told_apart, visible (but like a rival), invisible, not_shown
   std::optional<double> smallest_seen;        ///< from here on it is told from nothing with 5 % error
-  std::optional<double> smallest_told_apart;  ///< and from every rival
+  std::optional<double> smallest_told_apart;  ///< from here on it is named: told from every rival, with traces that
+                                              ///< no cause outside the library leaves
   double absorption = 0.0;                    ///< share of its signature that the base imitates, at a typical size
   double signal_to_noise = 0.0;               ///< at a typical size (0.3 of its range)
   std::string nearest_rival;
@@ -45,16 +47,11 @@ struct Plan {
   int specimens = 0, groups = 0;
 };
 
-/// Relative scatter of single specimens that a plan counts with.
-struct PlannedScatter {
-  double modulus = 0.02, stress = 0.05, strain = 0.01, toe_strain = 2e-4;
-};
-
 /// `specimens`: with or without measured values; only what they are and how they are tested is used. Start parameters
 /// stand for the truth; fracture tests are simulated around them as in a diagnosis (and kept in the store). Without
 /// `additions` only what the specimens themselves can tell. Throws InputError as diagnose() does.
 Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings,
-                    const PlannedScatter& scatter = {}, bool additions = true);
+                    const AssumedScatter& scatter = {}, bool additions = true);
 
 /// The JSON document of `nacre diagnose --plan --json`.
 std::string to_json(const Plan& plan);

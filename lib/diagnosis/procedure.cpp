@@ -1,6 +1,7 @@
 #include "diagnosis/procedure.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/hash.hpp"
 #include "diagnosis/candidates.hpp"
@@ -8,11 +9,19 @@
 #include "diagnosis/outsider.hpp"
 
 namespace nacre::diagnosis {
+namespace {
 
 std::string procedure_text(const DiagnosisSettings& settings) {
-  std::string text = fmt::format("kernel {}\nlevels {} {} {}\nsignal {} {} distance {} absorption {}\n",
-                                 tester::kKernelVersion, settings.name_level, settings.unexplained_level,
-                                 kOutsiderLevel, kVisibleSignal, kNameableSignal, kToldApart, kInvisibleAbsorption);
+  std::string text = fmt::format("kernel {} fidelity {}\nlevels {} {} {} {} bootstraps {}\n", tester::kKernelVersion,
+                                 tester::to_string(settings.fidelity), settings.name_level, settings.unexplained_level,
+                                 kExclusionLevel, kOutsiderLevel, settings.bootstraps);
+  text += fmt::format("signal {} {} distance {} absorption {} sizes {}\n", kVisibleSignal, kNameableSignal, kToldApart,
+                      kInvisibleAbsorption, fmt::join(kSizes, " "));
+  text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,
+                      settings.floor.mesh_remainder_sd);
+  const FractureNumerics& fracture = settings.fracture_numerics;
+  for (const Eigen::MatrixXd* matrix : {&fracture.shared, &fracture.rigid, &fracture.layout})
+    text += fmt::format("fracture {:a}\n", fmt::join(matrix->reshaped(), " "));
   for (const material::Effect& effect : material::effect_library()) {
     text += fmt::format("effect {} {}", effect.name, effect.family);
     for (const material::EffectParameter& p : effect.parameters)
@@ -23,6 +32,8 @@ std::string procedure_text(const DiagnosisSettings& settings) {
   for (const Descriptor& descriptor : descriptors()) text += fmt::format("contrast {}\n", descriptor.name);
   return text;
 }
+
+}  // namespace
 
 std::string procedure_hash(const DiagnosisSettings& settings) {
   return content_hash(procedure_text(settings)).substr(0, 16);

@@ -6,11 +6,8 @@
 
 namespace nacre::diagnosis {
 
-/// Everything that a verdict rests on beside the data, as text: the library of effects with its ranges, features,
-/// contrasts, levels.
-std::string procedure_text(const DiagnosisSettings& settings);
-
-/// Content hash of that text, 16 hex digits.
+/// Content hash of everything that a verdict rests on beside the data and the start of the fit, 16 hex digits: the
+/// library of effects with its ranges, features, contrasts, levels, what numerics leave.
 std::string procedure_hash(const DiagnosisSettings& settings);
 
 }  // namespace nacre::diagnosis

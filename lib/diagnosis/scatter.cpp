@@ -20,7 +20,93 @@ double least_sd(std::size_t f) {
   return feature == Feature::toe_strain ? kLeastStrainSd : feature == Feature::log_modulus ? kLeastSd : kLeastCurveSd;
 }
 
+constexpr AssumedScatter kAssumed{
+    .modulus = kAssumedSd, .stress = kAssumedSd, .strain = kAssumedSd, .toe_strain = 0.02 * kAssumedSd};
+
+double assumed_sd(Feature f, const AssumedScatter& scatter) {
+  switch (f) {
+    case Feature::log_modulus:
+      return scatter.modulus;
+    case Feature::toe_strain:
+      return scatter.toe_strain;
+    case Feature::log_peak_strain:
+    case Feature::knee:
+    case Feature::set_share:
+    case Feature::toe_share:
+      return scatter.strain;
+    default:
+      return scatter.stress;
+  }
+}
+
+bool is_stress(Feature f) {
+  return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 ||
+         f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
+}
+
+/// What the specimens of a batch have in common comes off.
+void take_off_batches(std::vector<Deviation>& deviations) {
+  std::map<double, std::pair<FeatureValues, std::array<int, kFeatureCount>>> sums;
+  for (const Deviation& d : deviations) {
+    auto& [sum, count] = sums[d.measured->batch_step];
+    for (std::size_t f = 0; f < kFeatureCount; ++f)
+      if (d.from_mean[f]) sum[f] = sum[f].value_or(0.0) + *d.from_mean[f], ++count[f];
+  }
+  for (Deviation& d : deviations) {
+    const auto& [sum, count] = sums[d.measured->batch_step];
+    for (std::size_t f = 0; f < kFeatureCount; ++f)
+      if (d.from_mean[f]) *d.from_mean[f] -= *sum[f] / count[f];
+  }
+}
+
+/// Sums of squares and products of the deviations. What some groups do not show (an unloading slope, the peak of a
+/// specimen without a curve) must not look as if it scattered less: there the loading slope stands for the unloading
+/// slope, and for every degree of freedom filled in so the assumed variance is added, or the feature's own where that
+/// is larger.
+Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int dof) {
+  const auto count = static_cast<double>(deviations.size());
+  std::vector<FeatureValues> filled;
+  std::array<int, kFeatureCount> lacking{};
+  for (const Deviation& d : deviations) {
+    filled.push_back(d.from_mean);
+    auto& unloading = value_of(filled.back(), Feature::log_unloading);
+    if (!unloading) unloading = value_of(d.from_mean, Feature::log_tangent_30);
+    for (std::size_t f = 0; f < kFeatureCount; ++f) lacking[f] += !d.from_mean[f];
+  }
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    for (std::size_t g = 0; g <= f; ++g) {
+      double sum = 0.0;
+      for (const FeatureValues& each : filled)
+        if (each[f] && each[g]) sum += *each[f] * *each[g];
+      const auto i = static_cast<Eigen::Index>(f), j = static_cast<Eigen::Index>(g);
+      products(i, j) = products(j, i) = sum;
+    }
+    if (lacking[f] == 0) continue;
+    double own = 0.0;
+    for (const Deviation& d : deviations) own += std::pow(d.from_mean[f].value_or(0.0), 2);
+    const double filled_dof = dof * lacking[f] / count, own_dof = dof - filled_dof;
+    products.diagonal()[static_cast<Eigen::Index>(f)] +=
+        filled_dof *
+        std::max(std::pow(assumed_sd(static_cast<Feature>(f), kAssumed), 2), own_dof > 0.0 ? own / own_dof : 0.0);
+  }
+  return products;
+}
+
 }  // namespace
+
+Eigen::MatrixXd covariance_of(const AssumedScatter& scatter) {
+  constexpr double kTogether = 0.9;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
+  for (int i = 0; i < kFeatureCount; ++i) {
+    for (int j = 0; j < kFeatureCount; ++j) {
+      const auto a = static_cast<Feature>(i), b = static_cast<Feature>(j);
+      const double correlation = i == j ? 1.0 : is_stress(a) && is_stress(b) ? kTogether : 0.0;
+      covariance(i, j) = correlation * assumed_sd(a, scatter) * assumed_sd(b, scatter);
+    }
+  }
+  return covariance;
+}
 
 std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& groups, tester::TestKind test) {
   std::vector<Deviation> deviations;
@@ -48,24 +134,12 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
                                 const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
-  std::map<int, int> group_sizes;
-  for (const Deviation& d : deviations) ++group_sizes[d.group];
-  const int within = static_cast<int>(deviations.size()) - static_cast<int>(group_sizes.size());
+  std::set<int> group_numbers;
+  for (const Deviation& d : deviations) group_numbers.insert(d.group);
+  const int within = static_cast<int>(deviations.size() - group_numbers.size());
   // Means of batches come off where enough is left to tell scatter by.
   const bool by_batch = batches > 1 && within >= 4 * (batches - 1);
-  if (by_batch) {
-    std::map<double, std::pair<FeatureValues, std::array<int, kFeatureCount>>> sums;
-    for (const Deviation& d : deviations) {
-      auto& [sum, count] = sums[d.measured->batch_step];
-      for (std::size_t f = 0; f < kFeatureCount; ++f)
-        if (d.from_mean[f]) sum[f] = sum[f].value_or(0.0) + *d.from_mean[f], ++count[f];
-    }
-    for (Deviation& d : deviations) {
-      const auto& [sum, count] = sums[d.measured->batch_step];
-      for (std::size_t f = 0; f < kFeatureCount; ++f)
-        if (d.from_mean[f]) *d.from_mean[f] -= *sum[f] / count[f];
-    }
-  }
+  if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
   scatter.dof = within - (by_batch ? batches - 1 : 0);
   if (!design.empty()) {
@@ -75,28 +149,18 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
     // The means of batches are everybody's: each bears its share of what they cost.
     scatter.dof = within > 0 ? static_cast<int>(deviations.size() - own_groups.size()) * scatter.dof / within : 0;
   }
-  scatter.covariance = Eigen::MatrixXd::Zero(kFeatureCount, kFeatureCount);
-  if (scatter.dof <= 0) scatter.dof = 0;
+  if (scatter.dof <= 0) return {covariance_of(kAssumed), 0};
   int features = 0;
-  for (std::size_t f = 0; f < kFeatureCount; ++f) {
-    int known = 0;
-    for (std::size_t g = 0; g <= f; ++g) {
-      double sum = 0.0;
-      for (const Deviation& d : deviations)
-        if (d.from_mean[f] && d.from_mean[g]) sum += *d.from_mean[f] * *d.from_mean[g], ++known;
-      const double value = scatter.dof > 0 ? sum / scatter.dof : 0.0;
-      scatter.covariance(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(g)) =
-          scatter.covariance(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(f)) = value;
-    }
-    features += known > 0;
-  }
-  const double keep = scatter.dof > 0 ? static_cast<double>(scatter.dof) / (scatter.dof + features) : 0.0;
+  for (std::size_t f = 0; f < kFeatureCount; ++f)
+    features += std::any_of(deviations.begin(), deviations.end(),
+                            [f](const Deviation& d) { return d.from_mean[f].has_value(); });
+  scatter.covariance = sums_of_products(deviations, scatter.dof) / scatter.dof;
+  const double keep = static_cast<double>(scatter.dof) / (scatter.dof + features);
   for (Eigen::Index f = 0; f < kFeatureCount; ++f) {
     for (Eigen::Index g = 0; g < kFeatureCount; ++g)
       if (f != g) scatter.covariance(f, g) *= keep;
-    const double assumed = static_cast<Feature>(f) == Feature::toe_strain ? 0.02 * kAssumedSd : kAssumedSd;
-    const double sd = scatter.dof > 0 ? std::sqrt(scatter.covariance(f, f)) : assumed;
-    scatter.covariance(f, f) = std::pow(std::max(sd, least_sd(static_cast<std::size_t>(f))), 2);
+    const double least = least_sd(static_cast<std::size_t>(f));
+    scatter.covariance(f, f) = std::max(scatter.covariance(f, f), least * least);
   }
   return scatter;
 }

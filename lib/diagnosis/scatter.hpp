@@ -22,9 +22,19 @@ struct Deviation {
 };
 std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& groups, tester::TestKind test);
 
+/// Relative scatter of single specimens where no replicates tell it.
+struct AssumedScatter {
+  double modulus = 0.02, stress = 0.05, strain = 0.01, toe_strain = 2e-4;
+};
+
+/// Covariance between the features of one specimen. Its stresses go together: a thicker print is stiffer from the first
+/// strain to the last.
+Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
+
 /// Scatter of the replicates of one test, pooled over its groups: what batches have in common counts as history, not as
-/// scatter. Correlations are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of every
-/// logarithm is assumed. With a name of a design, only its groups are pooled.
+/// scatter. Correlations are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of everything
+/// is assumed, and so it is for features that only some of the groups show, as far as the others lack them.
+/// With a name of a design, only its groups are pooled.
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
                                 const std::string& design = "");
 

@@ -1,7 +1,6 @@
 #include "diagnosis/verdict.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
@@ -10,8 +9,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// A rival leaves the set only when data from it would so seldom look like ours.
-constexpr double kExclusionLevel = 0.005;
 /// So far behind the best fit that no draw would let a rival catch up.
 constexpr double kOutOfReach = 60.0;
 
@@ -86,10 +83,8 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
   for (std::size_t k = 0; k < others.size(); ++k) {
     const std::vector<std::string> names = {single.effects.front(), others[k]};
     const CoordinateMap map = evidence.model.map(names);
-    Eigen::VectorXd start = Eigen::VectorXd::Zero(map.size());
-    start.head(single.u.size()) = single.u;
+    Eigen::VectorXd start = widened_start(single, map);
     start[single.u.size()] = 0.1;
-    for (int i = static_cast<int>(single.u.size()) + 1; i < map.size(); ++i) start[i] = map.usual(i);
     Fit pair = fit_model(evidence.model, evidence.observations, map.effects(), start);
     if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
   }
@@ -124,8 +119,7 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
 /// the bounds of their ranges: what an effect only repairs of a range is no trace of its own.
 double signal_of(const Evidence& evidence, const Fit& fit) {
   Fit base = evidence.base.fit;
-  base.free.resize(static_cast<std::size_t>(base.u.size()));
-  std::iota(base.free.begin(), base.free.end(), 0);
+  base.free_all();
   return signature_size(base, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance()))
       .projected;
 }

@@ -111,10 +111,10 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
                                      [](const Observation& g) { return g.design.layout() != nullptr; });
   const auto coupons = static_cast<std::ptrdiff_t>(observations_.groups.size()) - layouts;
   if (layouts < kLeastGroups && coupons < kLeastCoupons) {
-    throw InputError::format(
+    throw TooFewSpecimens(fmt::format(
         "a diagnosis needs at least {} designs with a valid modulus or toughness, or {} coupons with a curve; there "
         "are {} and {}",
-        kLeastGroups, kLeastCoupons, layouts, coupons);
+        kLeastGroups, kLeastCoupons, layouts, coupons));
   }
   material::ParameterSet centre = settings.start;
   centre.extensions.clear();

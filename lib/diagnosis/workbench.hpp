@@ -13,7 +13,7 @@ namespace nacre::diagnosis {
 class Workbench {
  public:
   /// Groups the specimens; where there are fracture tests finds the eta to look around and simulates around it. Throws
-  /// InputError when there are too few groups.
+  /// TooFewSpecimens.
   Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
   Observations& observations() { return observations_; }
   const FeatureModel& model() const { return *model_; }
@@ -46,5 +46,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
 /// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is
 /// needed.
 inline constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
+/// The place of a typical size among them.
+inline constexpr int kTypicalSize = 2;
 
 }  // namespace nacre::diagnosis

@@ -84,17 +84,6 @@ std::vector<NumberedResult> BatchTester::turn() {
   return over;
 }
 
-std::vector<int> BatchTester::take_back() {
-  std::vector<int> numbers;
-  for (auto& place : places_) {
-    if (place) numbers.push_back(place->number);
-    place.reset();
-  }
-  for (const NumberedTest& test : waiting_) numbers.push_back(test.number);
-  waiting_.clear();
-  return numbers;
-}
-
 int places_for(const Device& device, const SpecimenImage& typical, int most) {
   constexpr double kShare = 0.8;  // a specimen with history takes more than one without
   const std::size_t bytes = typical.device_numbers() * sizeof(float) + typical.elements * sizeof(std::int32_t);

@@ -56,11 +56,9 @@ class BatchTester {
   void add(NumberedTest test) { waiting_.push_back(std::move(test)); }
   /// Tests in line and in places.
   int pending() const;
-  /// Fills free places, makes one chunk of steps, and returns the tests that are over. Throws DeviceLost; take_back()
-  /// then has what was not finished.
+  /// Fills free places, makes one chunk of steps, and returns the tests that are over. Throws DeviceLost; what was not
+  /// finished is the caller's to begin again elsewhere.
   std::vector<NumberedResult> turn();
-  /// Numbers of all tests that are not over; they are forgotten.
-  std::vector<int> take_back();
 
  private:
   void fill_places();

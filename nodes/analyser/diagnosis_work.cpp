@@ -38,7 +38,7 @@ std::vector<measurement::SpecimenRecord> specimens_of(const DiagnosisTask& task)
     measurement::SpecimenRecord record = expected(wire::read<wire::Measurement>(payload)).record;
     record.valid = true;
     // Fracture tests take minutes to diagnose: a round does not wait for them.
-    if (record.test == tester::TestKind::modulus) specimens.push_back(std::move(record));
+    if (record.test != tester::TestKind::toughness) specimens.push_back(std::move(record));
   }
   return specimens;
 }
@@ -72,15 +72,6 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
   return message;
 }
 
-/// Too few specimens to diagnose: nothing is claimed.
-diagnosis_t undecided(int round, const std::string& why) {
-  diagnosis_t message{};
-  message.round = round;
-  message.verdict = "ambiguous";
-  message.summary = "These data cannot tell yet: " + why + ".";
-  return message;
-}
-
 }  // namespace
 
 std::string diagnosis_spec(const DiagnosisTask& task) {
@@ -107,10 +98,11 @@ std::string diagnose_work(const std::string& spec) {
   try {
     return wire::encode(message_of(diagnosis::diagnose(specimens, settings), task.request.round));
   } catch (const InputError& error) {
-    return wire::encode(undecided(task.request.round, error.what()));
+    return wire::encode(message_of(diagnosis::undecided(error.what()), task.request.round));
   } catch (const std::runtime_error& error) {
     // Measurements come from people: a fit that breaks on them must not end the game, which waits for this answer.
-    return wire::encode(undecided(task.request.round, fmt::format("the diagnosis broke off: {}", error.what())));
+    const std::string why = fmt::format("the diagnosis broke off: {}", error.what());
+    return wire::encode(message_of(diagnosis::undecided(why), task.request.round));
   }
 }
 

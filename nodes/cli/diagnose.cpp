@@ -1,5 +1,6 @@
 // nacre diagnose: what the simulation gets wrong, and why.
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -76,13 +77,32 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
   return settings;
 }
 
-/// Fracture tests take part when asked for: their thresholds are not yet proven against the virtual laboratory.
-std::vector<measurement::SpecimenRecord> taking_part(std::vector<measurement::SpecimenRecord> specimens,
-                                                     const Options& options) {
+/// What takes part, and what is to be said of the rest.
+struct TakingPart {
+  std::vector<measurement::SpecimenRecord> specimens;
+  std::string left_out;  ///< a sentence with a space in front; empty: nothing is
+};
+
+/// Fracture tests take part when asked for, or when there is nothing else: their thresholds are not yet proven against
+/// the virtual laboratory.
+TakingPart taking_part(const std::vector<measurement::SpecimenRecord>& specimens, const Options& options) {
+  TakingPart part{specimens, ""};
   const auto notched = [](const measurement::SpecimenRecord& s) { return s.test == tester::TestKind::toughness; };
-  if (!options.fracture && std::erase_if(specimens, notched) > 0)
-    remark("toughness specimens are left out; --fracture takes them in");
-  return specimens;
+  if (options.fracture || std::ranges::all_of(specimens, notched)) return part;
+  if (const auto count = std::erase_if(part.specimens, notched); count > 0)
+    part.left_out = fmt::format(
+        " {} toughness specimens were left out: what acts on fracture alone is not looked for (--fracture takes them "
+        "in).",
+        count);
+  return part;
+}
+
+diagnosis::Diagnosis diagnosis_of(const TakingPart& part, const diagnosis::DiagnosisSettings& settings) {
+  try {
+    return diagnosis::diagnose(part.specimens, settings);
+  } catch (const diagnosis::TooFewSpecimens& problem) {
+    return diagnosis::undecided(problem.what());
+  }
 }
 
 std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
@@ -95,23 +115,24 @@ int plan(const Options& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("plan");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::Plan plan = diagnosis::plan_diagnosis(taking_part(set.specimens, options), settings);
+  const TakingPart part = taking_part(set.specimens, options);
+  const diagnosis::Plan plan = diagnosis::plan_diagnosis(part.specimens, settings);
   progress.end();
+  if (!part.left_out.empty()) remark(part.left_out.substr(1));
   if (options.json) {
     print_json(nlohmann::ordered_json::parse(to_json(plan)));
     return 0;
   }
-  fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and told from every other\n", plan.specimens,
-             plan.groups);
+  fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and named\n", plan.specimens, plan.groups);
   for (const diagnosis::PlannedEffect& e : plan.effects) {
-    fmt::print("  {:<22} {:<10} seen from {:>9}  told apart from {:>9}  {:<24} most like {} ({:.2f})\n", e.name,
-               e.status, size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
+    fmt::print("  {:<22} {:<10} seen from {:>9}  named from {:>9}  {:<24} most like {} ({:.2f})\n", e.name, e.status,
+               size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
                e.nearest_rival.empty() ? "none" : e.nearest_rival, e.rival_cosine);
   }
   for (const diagnosis::PlannedAddition& a : plan.additions) {
     fmt::print("add {} ({} x {} specimens):\n", a.words, a.specimens.size(), a.replicates);
     for (const auto& c : a.changes)
-      fmt::print("    {}: {} -> {}, told apart from {}\n", c.effect, c.from, c.to, size_or_dash(c.told_apart_from));
+      fmt::print("    {}: {} -> {}, named from {}\n", c.effect, c.from, c.to, size_or_dash(c.told_apart_from));
   }
   return 0;
 }
@@ -126,8 +147,10 @@ int diagnose(const Options& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::Diagnosis d = diagnosis::diagnose(taking_part(set.specimens, options), settings);
+  const TakingPart part = taking_part(set.specimens, options);
+  diagnosis::Diagnosis d = diagnosis_of(part, settings);
   progress.end();
+  d.summary += part.left_out;
   if (!options.report.empty())
     write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {

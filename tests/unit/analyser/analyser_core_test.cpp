@@ -17,7 +17,9 @@ namespace {
 using runtime::Message;
 using runtime::Outputs;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 using testing::StartsWith;
 
@@ -63,6 +65,20 @@ std::string measurement_of(const std::string& specimen, std::uint64_t bits, int 
   m.record.design = pattern::Pattern(bits);
   m.record.test = tester::TestKind::modulus;
   m.record.modulus_pa = 1e9;
+  return wire::write(m);
+}
+
+/// A coupon of linear material, pulled to 0.1 % strain.
+std::string coupon_of(const std::string& specimen, const char* material, double modulus_pa) {
+  wire::Measurement m;
+  m.round = 1;
+  m.record.specimen = specimen;
+  m.record.design = *pattern::design_from_name(material);
+  m.record.test = tester::TestKind::tensile;
+  for (int i = 0; i <= 10; ++i) {
+    m.record.curve.strain.push_back(1e-4 * i);
+    m.record.curve.stress_pa.push_back(1e-4 * i * modulus_pa);
+  }
   return wire::write(m);
 }
 
@@ -224,6 +240,27 @@ TEST(Analyser, DiagnosisIsPublishedAndKept) {
   EXPECT_EQ(diagnosis.verdict, "ambiguous");
   EXPECT_EQ(diagnosis.round, 1);
   EXPECT_EQ(analyser.computes.back().spec, store_spec("DIAGNOSIS", result));
+}
+
+// A diagnosis orders coupons where they would tell; what they answer must be heard.
+TEST(Analyser, CouponsTakePartInADiagnosis) {
+  Watched analyser;
+  std::vector<std::string> names;
+  for (const auto& [material, modulus_pa] : {std::pair{"rigid", 2.6e9}, {"interface", 5.6e8}, {"soft", 1e6}})
+    for (const char* replicate : {"/1", "/2"}) {
+      names.push_back(std::string(material) + replicate);
+      analyser.hear("MEASUREMENT", coupon_of(names.back(), material, modulus_pa));
+    }
+  names.push_back("mix/1");
+  analyser.hear("MEASUREMENT", coupon_of(names.back(), "mix:0.75", 1.2e9));
+  std::sort(names.begin(), names.end());
+  analyser.hear("DIAGNOSE", question(names));
+  const auto compute = std::find_if(analyser.computes.begin(), analyser.computes.end(),
+                                    [](const auto& c) { return c.kind == "diagnose"; });
+  ASSERT_NE(compute, analyser.computes.end());
+  const auto diagnosis = wire::decode_safe<diagnosis_t>(diagnose_work(compute->spec)).value();
+  EXPECT_THAT(diagnosis.summary, Not(HasSubstr("cannot tell yet"))) << "four materials with a curve are enough";
+  EXPECT_GT(diagnosis.n_candidates, 0);
 }
 
 TEST(Analyser, QuestionAskedTwiceIsAnsweredOnce) {

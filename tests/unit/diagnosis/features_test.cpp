@@ -62,6 +62,21 @@ TEST(Features, UnloadingShowsItsSlopeAndThePermanentSet) {
   EXPECT_NEAR(at(values, Feature::toe_share), 0.0, 1e-9);
 }
 
+// A model without a permanent set goes back less far in stress than the specimen did.
+TEST(Features, AnUnloadingThatStopsEarlyHasASlopeToo) {
+  const auto back_to = [](double share) {
+    tester::Curve curve{{0.0, 0.005, 0.01, 0.015, 0.02}, {0.0, 5e6, 1e7, 1.5e7, 2e7}};
+    for (int i = 1; i <= 4; ++i) {
+      const double left = 1.0 - (1.0 - share) * i / 4.0;
+      curve.strain.push_back(0.02 * left), curve.stress_pa.push_back(2e7 * left);
+    }
+    return tensile_features(curve);
+  };
+  EXPECT_NEAR(at(back_to(0.7), Feature::log_unloading), std::log(1e9), 1e-6);
+  EXPECT_NEAR(at(back_to(0.7), Feature::set_share), 0.0, 1e-9);
+  EXPECT_FALSE(value_of(back_to(0.85), Feature::log_unloading));
+}
+
 /// Rises straight to 10 MPa at 1 % strain, flows until 3 %, falls to nothing at 3.1 %.
 tester::Curve plateau() {
   return {{0.0, 0.0025, 0.005, 0.0075, 0.01, 0.02, 0.03, 0.0305, 0.031},

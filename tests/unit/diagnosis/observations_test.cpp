@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ TEST(Observations, ReplicatesThatAgreeExactlyLeaveAFiniteWeight) {
   // Rotated twins share what the numerics leave: nothing but scatter keeps their covariance from being singular.
   const Observations observations = observed(
       {pulled("a/1", 0, 2e8), pulled("a/2", 0, 2e8), pulled("b/1", 90, 2.2e8), pulled("b/2", 90, 2.2e8)}, 0.02);
-  ASSERT_EQ(observations.replicate_dof(), 2);
+  ASSERT_EQ(observations.replicate_dof(tester::TestKind::modulus), 2);
   const Whitener whitener(observations.covariance());
   const double chi2 = whitener.chi2(Eigen::Vector2d(0.0, 0.01));
   EXPECT_TRUE(std::isfinite(chi2));
@@ -61,9 +62,46 @@ TEST(Observations, CouponsThatWereUnloadedAreAGroupOfTheirOwn) {
   }
 }
 
+/// Four coupons that were only pulled and `unloaded` that were pulled and unloaded, each stiffer or softer than their
+/// mean by 2 %, and nothing else.
+Observations pulled_and_unloaded(int unloaded) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (int i = 0; i < 4 + unloaded; ++i) {
+    specimens.push_back(
+        coupon("c/" + std::to_string(i), i < 4 ? std::vector{0.0, 0.004, 0.008, 0.012, 0.016, 0.02}
+                                               : std::vector{0.0, 0.005, 0.01, 0.015, 0.02, 0.015, 0.01, 0.005, 0.01}));
+    for (double& stress : specimens.back().curve.stress_pa) stress *= i % 2 == 0 ? 1.02 : 0.98;
+  }
+  return observed(specimens);
+}
+
+// Few coupons are unloaded, often one of a kind: what only they show is no better known for that.
+TEST(Observations, WhatOnlySomeCouponsShowScattersAsMuchAsWhatAllShow) {
+  for (const int unloaded : {0, 1, 2, 4}) {
+    const Observations observations = pulled_and_unloaded(unloaded);
+    const auto sd = [&](Feature f) { return observations.replicate_sd(f, tester::TestKind::tensile); };
+    EXPECT_NEAR(sd(Feature::log_tangent_30), 0.0235, 0.0015) << unloaded;
+    EXPECT_GE(sd(Feature::log_unloading), 0.99 * sd(Feature::log_tangent_30)) << unloaded;
+    EXPECT_LT(sd(Feature::log_unloading), 2.0 * sd(Feature::log_tangent_30)) << unloaded;
+  }
+}
+
+TEST(Observations, WithoutReplicatesStressesOfOneCouponGoTogether) {
+  const Observations observations = observed({coupon("a/1", {0.0, 0.005, 0.01, 0.015, 0.02})});
+  ASSERT_EQ(observations.replicate_dof(tester::TestKind::tensile), 0);
+  const Eigen::MatrixXd& covariance =
+      observations.scatter[static_cast<std::size_t>(tester::TestKind::tensile)].covariance;
+  const auto at = [&](Feature a, Feature b) {
+    return covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  };
+  EXPECT_NEAR(at(Feature::log_peak, Feature::log_peak), 0.02 * 0.02, 1e-12);
+  EXPECT_NEAR(at(Feature::log_peak, Feature::log_tangent_30), 0.9 * 0.02 * 0.02, 1e-12);
+  EXPECT_EQ(at(Feature::log_peak, Feature::toe_share), 0.0);
+}
+
 TEST(Observations, ACouponThatWasOnlyPulledMayStillBeUnloaded) {
   const auto offers_it = [](const Observations& measured) {
-    const auto tests = possible_tests(measured, tester::Fidelity::tiny);
+    const auto tests = possible_tests(measured);
     return std::any_of(tests.begin(), tests.end(), [](const PossibleTest& test) {
       return test.test == tester::TestKind::tensile && test.design == pattern::Design(pattern::Mixture{1.0}) &&
              test.conditions == tester::TestConditions{};
@@ -71,6 +109,38 @@ TEST(Observations, ACouponThatWasOnlyPulledMayStillBeUnloaded) {
   };
   EXPECT_TRUE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02})})));
   EXPECT_FALSE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02, 0.005, 0.022})})));
+}
+
+measurement::SpecimenRecord notched(const std::string& specimen, const std::string& key) {
+  measurement::SpecimenRecord record;
+  record.specimen = specimen;
+  record.design = *pattern::design_from_name(key);
+  record.test = tester::TestKind::toughness;
+  record.toughness_pa = 2e5;
+  return record;
+}
+
+// Faster and thinner twins are offered of the most measured designs of every test, and not of what is a twin already.
+TEST(Observations, TwinsUnderOtherConditionsAreOfferedOfBothTests) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const char* key : {"577fffe9fffdef", "3ffc9b4ad4d2d9", "7fffffffffffff", "00000000000001"}) {
+    specimens.push_back(pulled(std::string("e/") + key, 0, 2e8));
+    specimens.back().design = *pattern::design_from_name(key);
+    specimens.push_back(notched(std::string("t/") + key, key));
+  }
+  specimens.push_back(notched("t/again", "7fffffffffffff"));
+  specimens.push_back(notched("t/fast", "3ffc9b4ad4d2d9"));
+  specimens.back().conditions.strain_rate_per_s *= 10.0;
+  const auto tests = possible_tests(observed(specimens));
+  std::map<tester::TestKind, std::vector<std::string>> faster;
+  for (const PossibleTest& test : tests) {
+    if (test.words.find("ten times as fast") == std::string::npos || !test.design.layout()) continue;
+    EXPECT_NEAR(test.conditions.strain_rate_per_s, 10.0 * tester::TestConditions{}.strain_rate_per_s, 1e-9);
+    faster[test.test].push_back(test.design.name());
+  }
+  EXPECT_EQ(faster[tester::TestKind::modulus].size(), 3u);
+  ASSERT_EQ(faster[tester::TestKind::toughness].size(), 2u) << "of three, one is measured already";
+  EXPECT_EQ(faster[tester::TestKind::toughness].front(), "7fffffffffffff") << "the most measured one";
 }
 
 Observations three_groups() {

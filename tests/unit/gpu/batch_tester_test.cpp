@@ -100,15 +100,6 @@ TEST(BatchTester, WhatASpecimenDoesHingesOnNoOther) {
   }
 }
 
-TEST(BatchTester, WhatIsNotOverCanBeTakenBack) {
-  BatchTester batch(emulated_device(1), 1);
-  for (int number : {7, 8, 9}) batch.add({number, *PreparedTest::of(fracture_of(kPattern, {}, 0.01))});
-  EXPECT_TRUE(batch.turn().empty());
-  EXPECT_EQ(batch.pending(), 3);
-  EXPECT_EQ(batch.take_back(), (std::vector<int>{7, 8, 9}));
-  EXPECT_EQ(batch.pending(), 0);
-}
-
 TEST(BatchTester, AnInstableSolutionIsAnErrorAndNoNumber) {
   tester::FractureTest test = fracture_of(kPattern);
   test.settings.largest_courant_number = 100.0;
