@@ -147,14 +147,4 @@ Eigen::VectorXd CoordinateMap::coordinates(const material::ParameterSet& paramet
   return u;
 }
 
-Eigen::VectorXd CoordinateMap::log_eta(const Eigen::VectorXd& u) const {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(kSearchedEta.size()));
-  Eigen::Index k = 0;
-  for (int i = 0; i < base_count(); ++i) {
-    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
-    if (c.block == Block::toughness) result[k++] = (u[i] - 0.5) * (c.high - c.low);
-  }
-  return result.head(k);
-}
-
 }  // namespace nacre::diagnosis

@@ -38,8 +38,7 @@ class CoordinateMap {
   const std::vector<std::string>& effects() const { return effects_; }
   double lower(int i) const;
   double upper(int i) const;
-  /// Middle and standard deviation of the prior of a base coordinate.
-  double prior_centre(int /*i*/) const { return 0.5; }
+  /// Standard deviation of the prior of a base coordinate about its middle, 0.5.
   double prior_sd(int i) const { return base_[static_cast<std::size_t>(i)].prior_sd; }
   /// Physical value of coordinate i at u.
   double value(int i, double u) const;
@@ -53,8 +52,6 @@ class CoordinateMap {
   material::ParameterSet coupon_parameters(const Eigen::VectorXd& u) const;
   /// Base coordinates of `parameters`, moved into the ranges; extension coordinates 0.
   Eigen::VectorXd coordinates(const material::ParameterSet& parameters) const;
-  /// log of eta's free constants over those of the centre.
-  Eigen::VectorXd log_eta(const Eigen::VectorXd& u) const;
 
  private:
   enum class Block { modulus, toughness, coupon };

@@ -180,6 +180,37 @@ double needed_drop(const Evidence& evidence) {
   return drops[static_cast<std::size_t>((1.0 - evidence.settings.name_level) * static_cast<double>(drops.size() - 1))];
 }
 
+/// What the data are like, and what was tried on them.
+void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& decision) {
+  const Observations& observations = evidence.observations;
+  diagnosis.verdict = decision.verdict;
+  diagnosis.p_misfit = decision.p_misfit;
+  diagnosis.p_outside = decision.p_outside;
+  diagnosis.contrasts = decision.contrasts;
+  diagnosis.replicate_sd = shown_replicate_sd(observations);
+  diagnosis.numerics_sd = observations.numerics_sd;
+  diagnosis.numerics_shared_sd = observations.numerics_shared.norm() / std::sqrt(observations.size());
+  diagnosis.noise_known = tests_without_replicates(observations).size() < tests_in(observations).size();
+  diagnosis.base_fit = evidence.base.fit.parameters;
+  diagnosis.candidates = candidates_of(evidence, decision);
+  for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
+  diagnosis.common_ground = common_ground(diagnosis.possible);
+  for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
+}
+
+/// The summary, and what a reader must know beside it.
+std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
+                                  const Observations& observations) {
+  std::string text = summary_of(diagnosis, decision);
+  for (const SanityCheck& check : diagnosis.sanity) {
+    // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
+    if (!check.numerical || check.changed == "half the element size") continue;
+    text += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.", check.changed,
+                        in_words(check.feature), 100.0 * check.largest);
+  }
+  return text + assumption_in_words(tests_without_replicates(observations), diagnosis.noise_known);
+}
+
 }  // namespace
 
 std::string_view to_string(Verdict verdict) {
@@ -208,38 +239,28 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     throw InputError::format("{} bootstraps cannot reach the level {} of a name, expected at least {:.0f}",
                              settings.bootstraps, settings.name_level, std::ceil(2.0 / settings.name_level));
   }
+  const auto report = [&](double share, std::string_view phase) {
+    if (settings.progress) settings.progress(share, phase);
+  };
   Workbench workbench(specimens, settings);
   Evidence evidence = gather_evidence(workbench, settings);
   const Observations& observations = evidence.observations;
   const Decision decision = decide(evidence);
 
   Diagnosis diagnosis;
-  diagnosis.verdict = decision.verdict;
-  diagnosis.p_misfit = decision.p_misfit;
-  diagnosis.p_outside = decision.p_outside;
-  diagnosis.contrasts = decision.contrasts;
-  diagnosis.replicate_sd = shown_replicate_sd(observations);
-  diagnosis.numerics_sd = observations.numerics_sd;
-  diagnosis.numerics_shared_sd = observations.numerics_shared.norm() / std::sqrt(observations.size());
-  const std::vector<tester::TestKind> unreplicated = tests_without_replicates(observations);
-  diagnosis.noise_known = unreplicated.size() < tests_in(observations).size();
-  diagnosis.base_fit = evidence.base.fit.parameters;
-  diagnosis.candidates = candidates_of(evidence, decision);
-  for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
-  diagnosis.common_ground = common_ground(diagnosis.possible);
+  describe(diagnosis, evidence, decision);
   const Fit& decided = !decision.possible.empty() ? decision.possible.front()
                        : decision.partial         ? *decision.partial
                                                   : evidence.base.fit;
   Fit extended = decided;
   if (decision.verdict == Verdict::named) {
-    if (settings.progress) settings.progress(0.92, "the size of what is named");
+    report(0.92, "the size of what is named");
     NamedModel named = measure_size(evidence, decided);
     extended = std::move(named.fit);
     diagnosis.effects = std::move(named.effects);
   }
   diagnosis.extended_fit = extended.parameters;
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
-  for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
   diagnosis.curves = curves_of(workbench, observations, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {
     std::vector<Fit> models = evidence.singles;
@@ -249,23 +270,16 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     // What the nearest effect gains where none is named is a partial gain, and said to be one.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }
-  if (settings.progress) settings.progress(0.95, "choosing the next experiments");
+  report(0.95, "choosing the next experiments");
   diagnosis.next_experiments = next_experiments(models_to_separate(evidence, decision), evidence.model, observations,
                                                 settings.fidelity, kNextExperiments);
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
-  if (settings.progress) settings.progress(0.98, "other numerics on three specimens");
+  report(0.98, "other numerics on three specimens");
   if (settings.check_numerics)
     diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
-  diagnosis.summary = summary_of(diagnosis, decision);
-  for (const SanityCheck& check : diagnosis.sanity) {
-    // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
-    if (!check.numerical || check.changed == "half the element size") continue;
-    diagnosis.summary += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.",
-                                     check.changed, in_words(check.feature), 100.0 * check.largest);
-  }
-  diagnosis.summary += assumption_in_words(unreplicated, diagnosis.noise_known);
-  if (settings.progress) settings.progress(1.0, "done");
+  diagnosis.summary = summary_with_cautions(diagnosis, decision, observations);
+  report(1.0, "done");
   return diagnosis;
 }
 

@@ -66,9 +66,32 @@ tester::TestConditions usual_conditions(const std::vector<const Observation*>& g
   return {.orientation_deg = 0.0, .strain_rate_per_s = most->first.first, .thickness_mm = most->first.second};
 }
 
-}  // namespace
-
+/// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with.
 tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
+
+/// What a model predicts of a test, one value per feature that says something.
+FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
+                                 tester::Fidelity fidelity) {
+  const material::ParameterSet set = test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
+  const tester::Simulation simulation{test.design, set, test.conditions, fidelity};
+  FeatureValues values;
+  if (test.test == TestKind::modulus) {
+    if (const auto result = tester::test_modulus(simulation))
+      value_of(values, Feature::log_modulus) =
+          std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
+  } else if (test.test == TestKind::tensile) {
+    if (const auto curve = tester::test_tensile(simulation, unload_history()))
+      values = tensile_features(measurement::observe_curve(*curve, set.extensions));
+  } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
+    sysid::Prediction prediction;
+    prediction.toughness_pa = result->toughness_pa;
+    prediction.curve = tester::resampled(measurement::forward_part(result->curve), 128);
+    values = shown_features(prediction, set.extensions);
+  }
+  return values;
+}
+
+}  // namespace
 
 std::vector<double> unload_history() {
   constexpr double kStep = kCouponStrain / 40.0;
@@ -138,27 +161,6 @@ std::vector<PossibleTest> possible_tests(const Observations& observations) {
     }
   }
   return possible;
-}
-
-FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
-                                 tester::Fidelity fidelity) {
-  const material::ParameterSet set = test.design.layout() ? map.parameters(u) : map.coupon_parameters(u);
-  const tester::Simulation simulation{test.design, set, test.conditions, fidelity};
-  FeatureValues values;
-  if (test.test == TestKind::modulus) {
-    if (const auto result = tester::test_modulus(simulation))
-      value_of(values, Feature::log_modulus) =
-          std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
-  } else if (test.test == TestKind::tensile) {
-    if (const auto curve = tester::test_tensile(simulation, unload_history()))
-      values = tensile_features(measurement::observe_curve(*curve, set.extensions));
-  } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
-    sysid::Prediction prediction;
-    prediction.toughness_pa = result->toughness_pa;
-    prediction.curve = tester::resampled(measurement::forward_part(result->curve), 128);
-    values = shown_features(prediction, set.extensions);
-  }
-  return values;
 }
 
 std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, const FeatureModel& model,

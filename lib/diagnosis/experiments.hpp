@@ -23,13 +23,7 @@ bool answers(const PossibleTest& test, const Observation& group);
 /// homogeneous coupons pulled and unloaded at two rates. What is measured already is left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations);
 
-/// What a model predicts of a test, one value per feature that says something.
-FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& map, const Eigen::VectorXd& u,
-                                 tester::Fidelity fidelity);
-
-/// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with; and the strains on
-/// its way.
-tester::Loading coupon_loading();
+/// Strains on the way of a coupon that is pulled to 2 %, back to 0.5 % and on to 2.2 %.
 std::vector<double> unload_history();
 
 /// At most `count` tests that together would best tell the given models apart (choose_tests), by the differences of

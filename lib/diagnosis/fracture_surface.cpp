@@ -123,35 +123,25 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
     learnt.kernel.effect[effect] = std::max(std::sqrt(sums.first / sums.second), 0.3 * learnt.kernel.noise);
 }
 
-FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values) {
-  Learnt learnt{rows, {}, values.colwise().mean(), {}};
-  Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
-  const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
-  centred /= spread;
-  std::vector<int> base;
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
-  const Eigen::MatrixXd targets = centred(base, Eigen::all);
+FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>& at,
+                                                          const Eigen::MatrixXd& targets) const {
   struct Question {
     const FractureSurface& surface;
-    const std::vector<int>& base;
+    const std::vector<int>& at;
     const Eigen::MatrixXd& targets;
-  } question{*this, base, targets};
-  const auto kernel_at = [](const std::vector<double>& at) {
-    return Kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}};
-  };
-  const auto cost = [](const std::vector<double>& at, std::vector<double>&, void* data) {
+  } question{*this, at, targets};
+  const auto cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
     const Question& asked = *static_cast<Question*>(data);
-    const Kernel kernel{std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), {}};
-    const Eigen::LLT<Eigen::MatrixXd> factor(asked.surface.covariance_matrix(kernel, asked.base));
+    const Kernel kernel{std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), {}};
+    const Eigen::LLT<Eigen::MatrixXd> factor(asked.surface.covariance_matrix(kernel, asked.at));
     const Eigen::MatrixXd lower = factor.matrixL();
     // A weak prior about the start keeps what the runs do not determine.
-    const double prior = 0.5 * (square(at[0] / 1.5) + square((at[1] + 1.0) / 1.5) + square((at[2] + 1.5) / 1.5));
+    const double prior = 0.5 * (square(x[0] / 1.5) + square((x[1] + 1.0) / 1.5) + square((x[2] + 1.5) / 1.5));
     return prior + 0.5 * factor.matrixL().solve(asked.targets).squaredNorm() +
            static_cast<double>(asked.targets.cols()) * lower.diagonal().array().log().sum();
   };
-  std::vector<double> at = {0.0, -1.0, -1.5};
-  if (base.size() >= 5) {
+  std::vector<double> x = {0.0, -1.0, -1.5};
+  if (at.size() >= 5) {
     nlopt::opt search(nlopt::LN_SBPLX, 3);
     search.set_lower_bounds({-4.0, -5.0, -5.0});
     search.set_upper_bounds({3.0, 2.0, 1.0});
@@ -160,11 +150,33 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
     search.set_min_objective(cost, &question);
     try {
       double smallest = 0.0;
-      search.optimize(at, smallest);
+      search.optimize(x, smallest);
     } catch (const nlopt::roundoff_limited&) {  // the point reached is the best that doubles can tell
     }
   }
-  learnt.kernel = kernel_at(at);
+  return {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), {}};
+}
+
+std::vector<int> FractureSurface::half_nearest_to_the_centre() const {
+  std::vector<int> order(points_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return points_[static_cast<std::size_t>(a)].log_eta.squaredNorm() <
+           points_[static_cast<std::size_t>(b)].log_eta.squaredNorm();
+  });
+  order.resize((order.size() + 1) / 2);
+  return order;
+}
+
+FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values) {
+  Learnt learnt{rows, {}, values.colwise().mean(), {}};
+  Eigen::MatrixXd centred = values.rowwise() - learnt.mean;
+  const double spread = std::max(std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size())), 1e-9);
+  centred /= spread;
+  std::vector<int> base;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (points_[k].effects.empty()) base.push_back(static_cast<int>(k));
+  learnt.kernel = likeliest_kernel(base, centred(base, Eigen::all));
   learn_effects(learnt, centred);
   std::vector<int> all(points_.size());
   std::iota(all.begin(), all.end(), 0);
@@ -172,16 +184,11 @@ FractureSurface::Learnt FractureSurface::learn_feature(const std::vector<int>& r
   const Eigen::MatrixXd inverse = factor.solve(
       Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size())));
   const Eigen::MatrixXd weights = inverse * centred;
-  std::vector<int> order = all;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return points_[static_cast<std::size_t>(a)].log_eta.squaredNorm() <
-           points_[static_cast<std::size_t>(b)].log_eta.squaredNorm();
-  });
-  order.resize((order.size() + 1) / 2);
+  const std::vector<int> near = half_nearest_to_the_centre();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     double sum = 0.0;
-    for (const int k : order) sum += square(weights(k, static_cast<Eigen::Index>(r)) / inverse(k, k));
-    variance_[rows[r]] = square(spread) * sum / static_cast<double>(order.size());
+    for (const int k : near) sum += square(weights(k, static_cast<Eigen::Index>(r)) / inverse(k, k));
+    variance_[rows[r]] = square(spread) * sum / static_cast<double>(near.size());
   }
   learnt.weights = spread * weights;
   return learnt;

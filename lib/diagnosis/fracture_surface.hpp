@@ -58,6 +58,9 @@ class FractureSurface {
   Point point_of(const material::ParameterSet& set) const;
   static double covariance(const Kernel& kernel, const Point& a, const Point& b);
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
+  /// The most probable amplitudes for what the runs of the base model say; targets are of unit spread.
+  Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
+  std::vector<int> half_nearest_to_the_centre() const;
   Learnt learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values);
   void learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const;
   Eigen::VectorXd machine_change(const material::ParameterSet& set, const Point& at) const;

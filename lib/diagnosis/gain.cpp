@@ -86,11 +86,8 @@ HeldOut hold_out(const Observations& observations, const Fit& base, const std::v
   return result;
 }
 
-}  // namespace
-
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
-                   double drop_needed, std::uint64_t seed) {
-  // Folds of whole designs, dealt by a seeded shuffle.
+/// The designs' rows, dealt by a seeded shuffle.
+std::vector<std::vector<Eigen::Index>> shuffled_designs(const Observations& observations, std::uint64_t seed) {
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
   for (int i = 0; i < observations.size(); ++i)
     if (observations.rows[static_cast<std::size_t>(i)].group >= 0)
@@ -100,8 +97,54 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
   RandomStream random(seed, "gain/folds");
   for (std::size_t i = designs.size(); i > 1; --i)
     std::swap(designs[i - 1], designs[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
-  const HeldOut held = hold_out(observations, base, models, drop_needed, designs);
+  return designs;
+}
 
+/// Reduction of the error, with its interval from designs drawn anew.
+void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uint64_t seed) {
+  std::vector<std::size_t> all(errors.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  gain.relative_reduction = reduction(errors, all);
+  RandomStream draws(seed, "gain/interval");
+  std::vector<double> reductions;
+  for (int i = 0; i < kIntervalDraws; ++i) {
+    std::vector<std::size_t> picks(errors.size());
+    for (std::size_t& pick : picks) pick = static_cast<std::size_t>(draws.index(static_cast<int>(errors.size())));
+    reductions.push_back(reduction(errors, picks));
+  }
+  std::sort(reductions.begin(), reductions.end());
+  gain.interval_low = reductions[kIntervalDraws / 20];
+  gain.interval_high = reductions[kIntervalDraws - 1 - kIntervalDraws / 20];
+}
+
+std::vector<FeatureGain> gain_by_feature(const Observations& observations, const HeldOut& held) {
+  // A normal error of deviation s is 0.8 s large on average.
+  const Eigen::VectorXd deviation = observations.covariance().diagonal().cwiseSqrt();
+  std::map<Feature, std::pair<FeatureGain, int>> by_feature;
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.group < 0) continue;
+    auto& [sums, count] = by_feature[row.feature];
+    sums.feature = row.feature;
+    sums.before += std::abs(held.before[i]);
+    sums.after += std::abs(held.after[i]);
+    sums.noise += 0.7979 * deviation[i];
+    ++count;
+  }
+  std::vector<FeatureGain> gains;
+  for (auto& [feature, entry] : by_feature) {
+    auto& [sums, count] = entry;
+    gains.push_back({feature, sums.before / count, sums.after / count, sums.noise / count});
+  }
+  return gains;
+}
+
+}  // namespace
+
+Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
+                   double drop_needed, std::uint64_t seed) {
+  const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
+  const HeldOut held = hold_out(observations, base, models, drop_needed, designs);
   Gain gain;
   int rows = 0;
   std::vector<DesignErrors> errors(designs.size());
@@ -117,37 +160,8 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
   }
   gain.held_out_error_before /= std::max(rows, 1);
   gain.held_out_error_after /= std::max(rows, 1);
-  std::vector<std::size_t> all(errors.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  gain.relative_reduction = reduction(errors, all);
-  RandomStream draws(seed, "gain/interval");
-  std::vector<double> reductions;
-  for (int i = 0; i < kIntervalDraws; ++i) {
-    std::vector<std::size_t> picks(errors.size());
-    for (std::size_t& pick : picks) pick = static_cast<std::size_t>(draws.index(static_cast<int>(errors.size())));
-    reductions.push_back(reduction(errors, picks));
-  }
-  std::sort(reductions.begin(), reductions.end());
-  gain.interval_low = reductions[kIntervalDraws / 20];
-  gain.interval_high = reductions[kIntervalDraws - 1 - kIntervalDraws / 20];
-
-  // A normal error of deviation s is 0.8 s large on average.
-  const Eigen::VectorXd deviation = observations.covariance().diagonal().cwiseSqrt();
-  std::map<Feature, std::pair<FeatureGain, int>> by_feature;
-  for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
-    if (row.group < 0) continue;
-    auto& [sums, count] = by_feature[row.feature];
-    sums.feature = row.feature;
-    sums.before += std::abs(held.before[i]);
-    sums.after += std::abs(held.after[i]);
-    sums.noise += 0.7979 * deviation[i];
-    ++count;
-  }
-  for (auto& [feature, entry] : by_feature) {
-    auto& [sums, count] = entry;
-    gain.features.push_back({feature, sums.before / count, sums.after / count, sums.noise / count});
-  }
+  put_reduction(gain, errors, seed);
+  gain.features = gain_by_feature(observations, held);
   return gain;
 }
 

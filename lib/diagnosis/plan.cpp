@@ -108,67 +108,71 @@ std::optional<double> smallest(const std::vector<double>& judged, double wanted)
   return std::nullopt;
 }
 
-std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
+/// Signatures of all effects in some rows, whitened and projected off what the base imitates there.
+struct Traces {
+  std::vector<Eigen::MatrixXd> projected;  ///< rows x kSizes, per signature
+  std::vector<double> absorption;          ///< at a typical size
+};
+
+Traces traces_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
   const Fit base = sheet.base.restricted(rows);
   const Whitener whitener(sheet.covariance(rows, rows));
-  constexpr auto kCount = static_cast<Eigen::Index>(std::size(kSizes));
-  std::vector<Eigen::MatrixXd> projected;
-  std::vector<double> absorption;
+  Traces traces;
   for (const Signature& signature : sheet.signatures) {
-    const Eigen::MatrixXd changes = signature.changes(rows, Eigen::seqN(0, kCount));
-    projected.push_back(projected_signatures(base, changes, whitener));
-    absorption.push_back(signature_size(base, changes.col(kTypicalSize), whitener).absorption());
+    const Eigen::MatrixXd changes =
+        signature.changes(rows, Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kSizes))));
+    traces.projected.push_back(projected_signatures(base, changes, whitener));
+    traces.absorption.push_back(signature_size(base, changes.col(kTypicalSize), whitener).absorption());
   }
+  return traces;
+}
+
+/// What a diagnosis would make of effect k at every size: signal, distance to the nearest rival of typical size.
+PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const Traces& traces, std::size_t k) {
+  std::vector<double> distance;
+  for (std::size_t i = 0; i < std::size(kSizes); ++i) {
+    const auto own = traces.projected[k].col(static_cast<Eigen::Index>(i));
+    double nearest = 0.0;
+    std::string rival;
+    for (std::size_t j = 0; j < traces.projected.size(); ++j) {
+      const auto other = traces.projected[j].col(kTypicalSize);
+      const double lengths = own.norm() * other.norm();
+      if (j == k || lengths < 1e-6) continue;
+      const double cosine = std::min(1.0, std::abs(own.dot(other)) / lengths);
+      if (cosine > nearest) nearest = cosine, rival = sheet.signatures[j].effect;
+    }
+    planned.signals.push_back(own.norm());
+    distance.push_back(own.norm() * std::sqrt((1.0 - nearest) / 2.0));
+    if (i == kTypicalSize) planned.nearest_rival = rival, planned.rival_cosine = nearest;
+  }
+  planned.absorption = traces.absorption[k];
+  planned.signal_to_noise = planned.signals[kTypicalSize];
+  const material::EffectParameter& parameter = material::find_effect(planned.name)->parameters.front();
+  const auto value = [&](const std::optional<double>& strength) {
+    return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
+  };
+  // As a diagnosis decides: what the base imitates is invisible, and a name needs traces that no look-alike leaves.
+  const bool imitated = planned.absorption > kInvisibleAbsorption;
+  const auto nameable = smallest(planned.signals, kNameableSignal), apart = smallest(distance, kToldApart);
+  planned.smallest_seen = imitated ? std::nullopt : value(smallest(planned.signals, kVisibleSignal));
+  planned.smallest_told_apart = !imitated && nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
+  planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
+  return planned;
+}
+
+std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
+  const Traces traces = traces_of(sheet, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
-    PlannedEffect planned{std::string(effect.name),
-                          std::string(effect.family),
-                          std::string(effect.parameters.front().unit),
-                          "not_shown",
-                          {},
-                          {},
-                          0.0,
-                          0.0,
-                          "",
-                          0.0,
-                          {}};
-    const auto found = std::find_if(sheet.signatures.begin(), sheet.signatures.end(),
-                                    [&](const Signature& s) { return s.effect == effect.name; });
+    PlannedEffect planned;
+    planned.name = effect.name;
+    planned.family = effect.family;
+    planned.unit = effect.parameters.front().unit;
+    planned.status = "not_shown";
+    const auto found = std::ranges::find(sheet.signatures, effect.name, &Signature::effect);
     const auto k = static_cast<std::size_t>(found - sheet.signatures.begin());
-    if (found == sheet.signatures.end() || projected[k].col(kTypicalSize).norm() < 1e-6) {
-      effects.push_back(planned);
-      continue;
-    }
-    std::vector<double> signal, distance;
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const auto own = projected[k].col(static_cast<Eigen::Index>(i));
-      double nearest = 0.0;
-      std::string rival;
-      for (std::size_t j = 0; j < projected.size(); ++j) {
-        const auto other = projected[j].col(kTypicalSize);
-        const double lengths = own.norm() * other.norm();
-        if (j == k || lengths < 1e-6) continue;
-        const double cosine = std::min(1.0, std::abs(own.dot(other)) / lengths);
-        if (cosine > nearest) nearest = cosine, rival = sheet.signatures[j].effect;
-      }
-      signal.push_back(own.norm());
-      distance.push_back(own.norm() * std::sqrt((1.0 - nearest) / 2.0));
-      if (i == kTypicalSize) planned.nearest_rival = rival, planned.rival_cosine = nearest;
-    }
-    const material::EffectParameter& parameter = effect.parameters.front();
-    const auto value = [&](const std::optional<double>& strength) {
-      return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
-    };
-    planned.absorption = absorption[k];
-    planned.signal_to_noise = signal[kTypicalSize];
-    planned.signals = signal;
-    // As a diagnosis decides: what the base imitates is invisible, and a name needs traces that no look-alike leaves.
-    const bool imitated = planned.absorption > kInvisibleAbsorption;
-    const auto nameable = smallest(signal, kNameableSignal), apart = smallest(distance, kToldApart);
-    planned.smallest_seen = imitated ? std::nullopt : value(smallest(signal, kVisibleSignal));
-    planned.smallest_told_apart = !imitated && nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
-    planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
-    effects.push_back(planned);
+    const bool shown = found != sheet.signatures.end() && traces.projected[k].col(kTypicalSize).norm() >= 1e-6;
+    effects.push_back(shown ? judged(std::move(planned), sheet, traces, k) : std::move(planned));
   }
   return effects;
 }

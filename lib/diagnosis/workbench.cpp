@@ -70,8 +70,7 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
   return sets;
 }
 
-}  // namespace
-
+/// Effects whose signature is not zero in these rows, in the order of the library.
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
@@ -103,6 +102,8 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
   }
   return acting;
 }
+
+}  // namespace
 
 Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings)
     : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics)),

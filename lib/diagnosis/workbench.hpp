@@ -40,9 +40,6 @@ class Workbench {
   tester::Fidelity fidelity_;
 };
 
-/// Effects whose signature is not zero in these rows, in the order of the library.
-std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations);
-
 /// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is
 /// needed.
 inline constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
