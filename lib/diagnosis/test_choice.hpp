@@ -20,7 +20,7 @@ struct TestValue {
   std::vector<Separation> pairs;  ///< in the same order in every test
 };
 
-/// A test that is worth its cost, and the pair of models that it helps most.
+/// A test that is chosen, and the pair of models that it helps most.
 struct TestChoice {
   std::size_t test = 0, pair = 0;
 };
