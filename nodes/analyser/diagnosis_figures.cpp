@@ -21,15 +21,8 @@ bool is_logarithm(Feature f) {
          f != Feature::toe_share;
 }
 
-/// Per cent for logarithms and strains, else as it is.
-double shown(Feature feature, double residual) {
-  return is_logarithm(feature) ? 100.0 * std::expm1(residual) : 100.0 * residual;
-}
-
 std::string unit_of(Feature feature) {
-  return is_logarithm(feature) ? "measured over predicted, %"
-         : is_strain(feature)  ? "measured less predicted, % strain"
-                               : "measured less predicted, x 100";
+  return fmt::format("measured {} predicted, {}", is_logarithm(feature) ? "over" : "less", shown_unit(feature));
 }
 
 /// How strongly residuals of one feature line up with one descriptor: |correlation| times their size in standard
@@ -120,6 +113,14 @@ std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
 }
 
 }  // namespace
+
+double shown(Feature feature, double difference) {
+  return 100.0 * (is_logarithm(feature) ? std::expm1(difference) : difference);
+}
+
+std::string_view shown_unit(Feature feature) {
+  return is_logarithm(feature) ? "%" : is_strain(feature) ? "% strain" : "x 100";
+}
 
 std::vector<std::string> residual_figures(const Diagnosis& d, std::size_t most) {
   std::vector<View> views;
