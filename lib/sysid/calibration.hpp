@@ -75,6 +75,8 @@ struct NumericsFloor {
   double log_toughness_trend_sd = 0.05, log_peak_trend_sd = 0.07;  ///< per 0.1 of rigid fraction
   /// Of eta's parameters: another mesh needs others to break alike, beyond what the above say.
   material::ToughnessVector log_eta_sd = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1.7};
+  /// No floor at all: residuals are scatter or physics.
+  static NumericsFloor none();
 };
 /// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
 /// InputError.
