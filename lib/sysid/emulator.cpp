@@ -267,11 +267,16 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
                                          const std::vector<double>& spans, bool poisson_searched,
                                          const NumericsFloor& floor) {
   constexpr double kSmallestNoise = 0.03;
-  std::vector<double> unknown(kEtaCount, kUnknownDeviation);
-  if (trials.size() < 2) return unknown;
+  std::vector<double> deviations(kEtaCount, kUnknownDeviation);
+  if (trials.size() < 2) return deviations;
   FeatureEmulator emulator(spans, data.measured.size());
   emulator.learn(trials, best);
-  const Eigen::MatrixXd jacobian = feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched);
+  std::vector<std::size_t> searched(kSearchedEta.begin(), kSearchedEta.end());
+  if (poisson_searched) {
+    searched.resize(kEtaCount);
+    std::iota(searched.begin(), searched.end(), 0);
+  }
+  const Eigen::MatrixXd slopes = feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched);
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
   Eigen::VectorXd residuals = Eigen::VectorXd::Zero(2 * designs), weights = residuals;
   for (Eigen::Index i = 0; i < designs; ++i) {
@@ -285,9 +290,10 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
     residuals[designs + i] = simulated->log_peak - std::log(*peak);
     weights[designs + i] = weights[i];
   }
-  if (weights.sum() <= 0.0) return unknown;
-  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise,
-                              shared_fracture_errors(data.measured, floor));
+  const std::vector<double> told = parameter_deviations(slopes(Eigen::all, searched), residuals, weights,
+                                                        kSmallestNoise, shared_fracture_errors(data.measured, floor));
+  for (std::size_t k = 0; k < searched.size(); ++k) deviations[searched[k]] = told[k];
+  return deviations;
 }
 
 void FeatureEmulator::add_pending(const Point& point) {

@@ -11,13 +11,11 @@
 #include <span>
 #include <vector>
 
+#include "sysid/eta.hpp"
 #include "sysid/features.hpp"
 #include "sysid/fit.hpp"
 
 namespace nacre::sysid {
-
-/// Index of the parameters of eta in its vector.
-enum EtaIndex { kE0 = 0, kNu0 = 3, kW0 = 6, kGamma = 9, kEtaCount = 10 };
 
 /// Natural logarithm of the ratio maximum / minimum of each range, 1 where it is searched linearly: unit coordinate
 /// times span is the coordinate in which the emulator works.
