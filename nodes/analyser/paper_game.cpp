@@ -407,14 +407,16 @@ Exhibit error_exhibit(const PaperSource& source) {
     std::vector<Point> before, after, held_out, thesis;
     for (const auto& [number, round] : source.run.rounds) {
       if (!round.summary || number == 0) continue;
-      const auto point = [&, n = static_cast<double>(number)](const sysid::PredictionErrors& e) {
-        return Point{n, 100.0 * (toughness ? e.toughness_mean : e.modulus_mean)};
+      const auto add = [&, n = static_cast<double>(number)](std::vector<Point>& line,
+                                                            const sysid::PredictionErrors& e) {
+        if ((toughness ? e.toughness_count : e.modulus_count) == 0) return;  // an error of nothing is no error of 0
+        line.push_back({n, 100.0 * (toughness ? e.toughness_mean : e.modulus_mean)});
       };
-      before.push_back(point(round.summary->before));
-      after.push_back(point(round.summary->after));
-      if (round.summary->held_out.modulus_count > 0) held_out.push_back(point(round.summary->held_out));
+      add(before, round.summary->before);
+      add(after, round.summary->after);
+      add(held_out, round.summary->held_out);
     }
-    if (before.empty()) continue;
+    if (before.empty() && after.empty() && held_out.empty()) continue;
     for (int round = 1; round <= 4 && !source.thesis.samples.empty(); ++round) {
       const auto errors = thesis_errors(source, round, static_cast<std::size_t>(round));
       thesis.push_back({static_cast<double>(round), 100.0 * (toughness ? errors.toughness_mean : errors.modulus_mean)});
