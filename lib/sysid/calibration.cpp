@@ -158,7 +158,7 @@ struct Calibration::State {
       case ToughnessSearch::emulator:
         return make_emulator_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others));
       case ToughnessSearch::gauss_newton:
-        return make_gauss_newton_fit(std::move(data), fit_settings, toughness_ranges());
+        return make_gauss_newton_fit(std::move(data), fit_settings);
       default:
         break;
     }

@@ -238,8 +238,7 @@ std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings)
   return std::make_unique<LeastSquaresFit>(std::move(data), settings, std::move(problem));
 }
 
-std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings,
-                                           std::span<const material::ParameterRange> /*ranges*/) {
+std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
   Problem problem;
   problem.weights.resize(2 * designs);
