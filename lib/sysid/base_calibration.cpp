@@ -172,8 +172,7 @@ struct BaseCalibration::State {
 
   /// Called when the fits at one damping have ended; false when there is nothing left to try.
   bool next_damping() {
-    constexpr double kGoodEnough = 0.01;
-    if (worst_error(damping) <= kGoodEnough) return false;
+    if (worst_error(damping) <= kToughnessAim) return false;
     if (damping + 1 < dampings_per_s.size() && !spent()) {
       ++damping;
       begin_toughness();

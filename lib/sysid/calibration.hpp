@@ -185,7 +185,7 @@ class Calibration {
 /// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on,
 /// at a damping that suits all three; when there is none, the one at which the worst of them misses least. (The thesis
 /// keeps the median of three separate estimates; thresholds fitted at another damping then miss.) Same protocol as
-/// Calibration; toughness_budget is per material and damping.
+/// Calibration; toughness_budget is per material, over all dampings.
 class BaseCalibration {
  public:
   BaseCalibration(std::vector<measurement::Replicates> base_materials, const CalibrationSettings& settings);

@@ -37,7 +37,8 @@ class FeatureEmulator {
  public:
   FeatureEmulator(std::vector<double> spans, std::size_t design_count);
   /// Learns from the trials, each with a prediction per design, seen from trials[centre]: only the nearest 60 are used.
-  /// A failed prediction says nothing of its design.
+  /// A failed prediction counts as one that met the prior's expectation exactly: all designs share one factorisation,
+  /// so that none can be without an observation.
   void learn(const std::vector<Trial>& trials, std::size_t centre);
   /// The same with the prior that the trials themselves make most probable: how jumpy and how curved this set of
   /// designs is.
