@@ -6,6 +6,7 @@
 #include <nlopt.hpp>
 #include <numeric>
 
+#include "base/matern.hpp"
 #include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
@@ -29,11 +30,6 @@ double group_covariance(const EmulatorPrior& prior, const double* a, const doubl
   const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const double sums = (a[0] + a[1] + a[2]) * (b[0] + b[1] + b[2]);
   return square(prior.split_deviation) * (dot - sums / 3.0) + square(prior.sum_deviation) * sums / 9.0;
-}
-
-double matern52(double distance) {
-  const double r = std::sqrt(5.0) * distance;
-  return (1.0 + r + r * r / 3.0) * std::exp(-r);
 }
 
 /// Distance over which what is not linear changes. The common scales of moduli and of failure energies hardly count:
@@ -96,7 +92,7 @@ double FeatureEmulator::covariance(const Eigen::VectorXd& a, const Eigen::Vector
                         square(kPoissonDeviation) * from_a.segment<3>(kNu0).dot(from_b.segment<3>(kNu0)) +
                         square(kGammaDeviation) * from_a[kGamma] * from_b[kGamma];
   const double distance = curved_distance(a - b) / prior_.curved_length;
-  return square(kOffsetDeviation) + linear + square(prior_.curved_deviation) * matern52(distance);
+  return square(kOffsetDeviation) + linear + square(prior_.curved_deviation) * matern52(std::sqrt(5.0) * distance);
 }
 
 Eigen::VectorXd FeatureEmulator::covariances(const Eigen::VectorXd& at) const {

@@ -124,7 +124,8 @@ class PosteriorFit final : public RecordedFit {
     for (std::size_t k = 0; k < kSplits.size(); ++k) point[kSplits[k]] = split[k];
     const auto cost = [&](const Move& move) { return smooth_cost(moved(point, move, spans_)); };
     constexpr double kReach = 2.5;  // natural logarithms
-    return moved(point, best_scales(cost, kReach), spans_);
+    constexpr int kSteps = 9;
+    return moved(point, best_scales(cost, kReach, kSteps), spans_);
   }
 
   /// Around the trial that is most probable so far; twice, since which trial that is depends on the centre a little.

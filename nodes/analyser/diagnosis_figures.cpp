@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analyser/report_figures.hpp"
 #include "analyser/svg.hpp"
 
 namespace nacre::analyser {
@@ -87,17 +88,10 @@ std::string residual_figure(const Diagnosis& d, const View& view) {
   return plot.svg();
 }
 
-/// The curve in per cent and MPa.
-std::vector<Point> points_of(const tester::Curve& curve) {
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < curve.size(); ++i) points.push_back({100.0 * curve.strain[i], 1e-6 * curve.stress_pa[i]});
-  return points;
-}
-
 std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
   std::vector<double> xs = {0.0}, ys = {0.0};
   for (const tester::Curve* curve : {&curves.measured, &curves.base, &curves.extended}) {
-    for (const Point& p : points_of(*curve)) xs.push_back(p.x), ys.push_back(p.y);
+    for (const Point& p : curve_points(*curve)) xs.push_back(p.x), ys.push_back(p.y);
   }
   const std::string name = curves.design.size() > 16 ? curves.design.substr(0, 12) + "…" : curves.design;
   Plot plot({.title = fmt::format("{}, {:.2g} /s{}", name, curves.conditions.strain_rate_per_s,
@@ -106,9 +100,9 @@ std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
              .y_label = "stress, MPa",
              .x = padded(xs),
              .y = padded(ys)});
-  plot.line(points_of(curves.measured), Ink::measured, Stroke::solid, "measured");
-  plot.line(points_of(curves.base), Ink::homogeneous, Stroke::dashed, "base model");
-  if (extended) plot.line(points_of(curves.extended), Ink::simulated, Stroke::solid, "extended model");
+  plot.line(curve_points(curves.measured), Ink::measured, Stroke::solid, "measured");
+  plot.line(curve_points(curves.base), Ink::homogeneous, Stroke::dashed, "base model");
+  if (extended) plot.line(curve_points(curves.extended), Ink::simulated, Stroke::solid, "extended model");
   return plot.svg();
 }
 
