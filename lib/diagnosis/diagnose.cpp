@@ -33,28 +33,6 @@ std::string size_in_words(const NamedEffect& e) {
                      material::unit_behind_number(e.unit), e.interval_low, e.interval_high);
 }
 
-/// What the named effect does for designs that the fit has not seen. A cause may be sure and its gain not: the base
-/// imitates most of it there.
-std::string gain_in_words(const Gain& gain) {
-  // Errors are of logarithms.
-  const double before = 100.0 * std::expm1(gain.held_out_error_before),
-               after = 100.0 * std::expm1(gain.held_out_error_after);
-  const std::string interval =
-      fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
-  if (gain.interval_low > 0.0)
-    return fmt::format("On held-out designs the mean error falls from {:.1f} to {:.1f} %, by {:.0f} % of itself ({}).",
-                       before, after, 100.0 * gain.relative_reduction, interval);
-  if (gain.interval_high < 0.0)
-    return fmt::format(
-        "Yet on held-out designs the mean error grows from {:.1f} to {:.1f} %: the cause is established, its use for "
-        "predictions is not.",
-        before, after);
-  return fmt::format(
-      "What it gains on held-out designs is not established: their mean error is {:.1f} % without it and {:.1f} % with "
-      "it (reduction {:.0f} %, {}).",
-      before, after, 100.0 * gain.relative_reduction, interval);
-}
-
 std::string summary_of(const Diagnosis& d, const Decision& decision) {
   switch (d.verdict) {
     case Verdict::base_sufficient:
@@ -232,6 +210,26 @@ Diagnosis undecided(const std::string& why) {
   diagnosis.verdict = Verdict::ambiguous;
   diagnosis.summary = "These data cannot tell yet: " + why + ".";
   return diagnosis;
+}
+
+std::string gain_in_words(const Gain& gain) {
+  // Errors are of logarithms.
+  const double before = 100.0 * std::expm1(gain.held_out_error_before),
+               after = 100.0 * std::expm1(gain.held_out_error_after);
+  const std::string interval =
+      fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
+  if (gain.interval_low > 0.0)
+    return fmt::format("On held-out designs the mean error falls from {:.1f} to {:.1f} %, by {:.0f} % of itself ({}).",
+                       before, after, 100.0 * gain.relative_reduction, interval);
+  if (gain.interval_high < 0.0)
+    return fmt::format(
+        "Yet on held-out designs the mean error grows from {:.1f} to {:.1f} %: the cause is established, its use for "
+        "predictions is not.",
+        before, after);
+  return fmt::format(
+      "What it gains on held-out designs is not established: their mean error is {:.1f} % without it and {:.1f} % with "
+      "it (reduction {:.0f} %, {}).",
+      before, after, 100.0 * gain.relative_reduction, interval);
 }
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {

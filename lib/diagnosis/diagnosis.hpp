@@ -75,6 +75,10 @@ struct Gain {
   double interval_low = 0.0, interval_high = 0.0;  ///< 90 %, bootstrap over patterns
   std::vector<FeatureGain> features;
 };
+/// What a named effect does for designs that the fit has not seen, in a sentence: errors as per cent of E and T, and a
+/// gain (or a loss) only where the 90 % interval leaves no doubt of its sign. A cause may be sure and its gain not: the
+/// base imitates most of it there.
+std::string gain_in_words(const Gain& gain);
 
 struct NextExperiment {
   pattern::Design design;

@@ -32,9 +32,10 @@ struct LearnedSettings {
   bool warm_start = true;              ///< networks go on from those of fewer samples; else from nothing every time
   double weight_decay = 1e-2;          ///< of the networks for toughness
   double dropout = 0.2;                ///< of the networks for toughness
-  int most_samples = 5000;             ///< samples learnt from; of more, half the best by rank, half of the others
-  double floor_deviations = 0.5;       ///< toughness lower than so many robust deviations below its trend over the
-                                       ///< rigid fraction counts as just that; 0: as it is
+  int most_samples = 5000;        ///< that `patches` learns from; of more, half the best by rank, half of the others
+                                  ///< (networks learn from all)
+  double floor_deviations = 0.5;  ///< toughness lower than so many robust deviations below its trend over the
+                                  ///< rigid fraction counts as just that; 0: as it is
   bool operator==(const LearnedSettings&) const = default;
 };
 

@@ -113,17 +113,16 @@ std::vector<measurement::Replicates> patterns_with_both(const std::vector<measur
   return set;
 }
 
-sysid::PredictionErrors held_out_errors(const std::vector<measurement::Replicates>& measured,
-                                        const std::map<std::string, sysid::Prediction>& predictions) {
-  std::vector<measurement::Replicates> found;
-  std::vector<sysid::Prediction> predicted;
+Foretold foretold_among(const std::vector<measurement::Replicates>& measured,
+                        const std::map<std::string, sysid::Prediction>& predictions) {
+  Foretold foretold;
   for (const measurement::Replicates& each : measured) {
     const auto prediction = predictions.find(each.design.name());
     if (prediction == predictions.end()) continue;
-    found.push_back(each);
-    predicted.push_back(prediction->second);
+    foretold.measured.push_back(each);
+    foretold.predicted.push_back(prediction->second);
   }
-  return sysid::prediction_errors(found, predicted);
+  return foretold;
 }
 
 }  // namespace nacre::game

@@ -47,9 +47,13 @@ std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design)
 /// Those of the calibration set that are patterns and measured in both tests: what families are made of.
 std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Errors of predictions made before the designs were measured; designs without a valid measurement are left out.
-/// Predictions by canonical design name, as the testing machine would show them.
-sysid::PredictionErrors held_out_errors(const std::vector<measurement::Replicates>& measured,
-                                        const std::map<std::string, sysid::Prediction>& predictions);
+/// Designs with the predictions that were made before they were measured, one each.
+struct Foretold {
+  std::vector<measurement::Replicates> measured;
+  std::vector<sysid::Prediction> predicted;
+};
+/// Those of `measured` that `predictions` foretold, in their order. Predictions by canonical design name.
+Foretold foretold_among(const std::vector<measurement::Replicates>& measured,
+                        const std::map<std::string, sysid::Prediction>& predictions);
 
 }  // namespace nacre::game

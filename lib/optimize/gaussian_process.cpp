@@ -5,6 +5,7 @@
 #include <nlopt.hpp>
 #include <numbers>
 
+#include "base/matern.hpp"
 #include "base/random.hpp"
 
 namespace nacre::optimize {
@@ -14,9 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Correlation at scaled distance a = sqrt(5) r.
-double matern52(double a) { return (1.0 + a + a * a / 3.0) * std::exp(-a); }
-/// -(dM/da) / a: what the derivatives with respect to lengths and to coordinates share.
+/// -(dM/da) / a of matern52(): what the derivatives with respect to lengths and to coordinates share.
 double matern52_slope(double a) { return (1.0 + a) / 3.0 * std::exp(-a); }
 
 /// Squared distances between the rows of both, times 5.

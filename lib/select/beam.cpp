@@ -6,12 +6,11 @@
 namespace nacre::select {
 namespace {
 
-/// A selection from the first bins: what was chosen, each one's smallest difference so far, and their sum.
+/// A selection from the first bins: what was chosen, and each one's smallest difference so far.
 struct Partial {
   std::vector<std::size_t> choices;
   std::vector<pattern::Pattern> patterns;
   std::vector<int> differences;
-  int score = 0;
 };
 
 /// A partial selection with one more member, not built yet: most are thrown away.
@@ -25,30 +24,32 @@ struct Extension {
   }
 };
 
-int score_with(const Partial& partial, const pattern::Pattern& newcomer, int difference_to_measured) {
-  int own = difference_to_measured, score = 0;
+/// Gives `take` the smallest difference of every member once `newcomer` has joined, the newcomer's own last.
+template <class Take>
+void each_difference(const Partial& partial, const pattern::Pattern& newcomer, int difference_to_measured, Take take) {
+  int own = difference_to_measured;
   for (std::size_t i = 0; i < partial.patterns.size(); ++i) {
     const int between = pattern::pixel_difference(partial.patterns[i], newcomer);
     own = std::min(own, between);
-    score += std::min(partial.differences[i], between);
+    take(std::min(partial.differences[i], between));
   }
-  return score + own;
+  take(own);
+}
+
+/// Objective of Eq. 2.14 for the longer selection, without its factor 1/M.
+int score_with(const Partial& partial, const pattern::Pattern& newcomer, int difference_to_measured) {
+  int score = 0;
+  each_difference(partial, newcomer, difference_to_measured, [&](int difference) { score += difference; });
+  return score;
 }
 
 Partial extended(const Partial& partial, const pattern::Pattern& newcomer, std::size_t choice,
                  int difference_to_measured) {
-  Partial longer = partial;
-  int own = difference_to_measured;
-  for (std::size_t i = 0; i < longer.patterns.size(); ++i) {
-    const int between = pattern::pixel_difference(longer.patterns[i], newcomer);
-    own = std::min(own, between);
-    longer.differences[i] = std::min(longer.differences[i], between);
-  }
+  Partial longer{partial.choices, partial.patterns, {}};
   longer.choices.push_back(choice);
   longer.patterns.push_back(newcomer);
-  longer.differences.push_back(own);
-  longer.score = 0;
-  for (const int difference : longer.differences) longer.score += difference;
+  each_difference(partial, newcomer, difference_to_measured,
+                  [&](int difference) { longer.differences.push_back(difference); });
   return longer;
 }
 
@@ -80,16 +81,6 @@ int smallest_difference(const pattern::Pattern& pattern, std::span<const pattern
   int smallest = pattern::kPixels;
   for (const pattern::Pattern& other : others) smallest = std::min(smallest, pattern::pixel_difference(pattern, other));
   return smallest;
-}
-
-int dissimilarity(std::span<const pattern::Pattern> chosen, std::span<const pattern::Pattern> measured) {
-  int sum = 0;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const int to_others = std::min(smallest_difference(chosen[i], chosen.first(i)),
-                                   smallest_difference(chosen[i], chosen.subspan(i + 1)));
-    sum += std::min(to_others, smallest_difference(chosen[i], measured));
-  }
-  return sum;
 }
 
 std::vector<std::size_t> beam_search(std::span<const std::vector<pattern::Pattern>> bins,

@@ -99,6 +99,14 @@ std::string difference_clause(const pattern::Pattern& pattern, std::span<const p
   return clause;
 }
 
+/// Why the homogeneous line was given up for a sample: below it, or above it and not near the edge of the gamut.
+std::string_view reserve_clause(const optimize::Performance& predicted,
+                                std::span<const optimize::Performance> benchmark) {
+  return above_polyline(predicted, benchmark)
+             ? "above the homogeneous line, farther inside the gamut, where too few samples lie at its edge: "
+             : "below the homogeneous line, where too few samples lie above it: ";
+}
+
 void erase_patterns(std::vector<explore::Evaluated>& samples, const std::vector<pattern::Pattern>& patterns) {
   const std::set<pattern::Pattern> gone(patterns.begin(), patterns.end());
   std::erase_if(samples, [&](const explore::Evaluated& sample) { return gone.contains(sample.pattern); });
@@ -144,7 +152,7 @@ std::vector<Selected> select_with_reserve(std::vector<explore::Evaluated> gamut,
   for (const Selected& each : chosen) measured.push_back(each.pattern);
   erase_patterns(gamut, measured);
   for (Selected& each : select_designs(gamut, measured, {}, {.count = missing})) {
-    each.reason = "below the homogeneous line, where too few samples lie above it: " + each.reason;
+    each.reason.insert(0, reserve_clause(each.predicted, benchmark));
     chosen.push_back(std::move(each));
   }
   return chosen;

@@ -7,6 +7,7 @@
 
 #include "sysid/base_fit.hpp"
 #include "sysid/calibration.hpp"
+#include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::sysid {
@@ -18,8 +19,6 @@ using material::ParameterSet;
 constexpr double kModulusTolerance = 1e-6;
 constexpr int kMaterials = 3;  // 0 soft, 1 rigid, 2 interface, as in the vectors of parameters
 constexpr std::array<double, kMaterials> kRigidFractions = {0.0, 1.0, 0.5};
-// Places in the vectors theta and eta.
-constexpr int kE = 0, kNu = 3, kW = 6, kEtaGamma = 9;
 
 template <class Value>
 std::size_t at(Value place, int material) {
@@ -88,7 +87,7 @@ struct BaseCalibration::State {
     material.item = item;
     const measurement::Replicates& base = measured[item];
     if (base.modulus_count > 0) {
-      const ParameterRange& range = theta_ranges()[at(kE, m)];
+      const ParameterRange& range = theta_ranges()[at(kE0, m)];
       material.modulus.emplace(RatioSearch::Settings{
           .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
     }
@@ -97,8 +96,8 @@ struct BaseCalibration::State {
   /// Start, the ends of the range above and below it, and what lies between: a specimen that rings is judged broken too
   /// early, and which damping calms it depends on the material.
   void list_dampings() {
-    const ParameterRange& range = eta_ranges()[at(kEtaGamma, 0)];
-    const double start = to_vector(centred_start().toughness)[at(kEtaGamma, 0)];
+    const ParameterRange& range = eta_ranges()[at(kGamma, 0)];
+    const double start = to_vector(centred_start().toughness)[at(kGamma, 0)];
     for (const double gamma : {start, range.maximum, std::sqrt(start * range.maximum), range.minimum}) {
       if (std::find(dampings_per_s.begin(), dampings_per_s.end(), gamma) == dampings_per_s.end())
         dampings_per_s.push_back(gamma);
@@ -111,9 +110,9 @@ struct BaseCalibration::State {
       Material& material = materials[at(0, m)];
       if (!material.item || measured[*material.item].toughness_count == 0) continue;
       const measurement::Replicates& base = measured[*material.item];
-      const MaterialRanges ranges = {eta_ranges()[at(kE, m)], eta_ranges()[at(kW, m)], eta_ranges()[at(kEtaGamma, 0)]};
-      const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE, m)];
-      const double w = material.toughness.empty() ? eta[at(kW, m)] : material.toughness.back().best().w_j_per_m3;
+      const MaterialRanges ranges = {eta_ranges()[at(kE0, m)], eta_ranges()[at(kW0, m)], eta_ranges()[at(kGamma, 0)]};
+      const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE0, m)];
+      const double w = material.toughness.empty() ? eta[at(kW0, m)] : material.toughness.back().best().w_j_per_m3;
       material.toughness.emplace_back(base, ranges, MaterialTrial{e_pa, w, dampings_per_s[damping]},
                                       std::max(1, settings.toughness_budget - used_by(material)));
     }
@@ -126,8 +125,8 @@ struct BaseCalibration::State {
     for (std::size_t j = 0; j < theta.size(); ++j) theta[j] = clamped(theta[j], theta_ranges()[j]);
     for (std::size_t j = 0; j < eta.size(); ++j) eta[j] = clamped(eta[j], eta_ranges()[j]);
     for (int m = 0; m < kMaterials; ++m) {
-      theta[at(kNu, m)] = middle_of(theta_ranges()[at(kNu, m)]);
-      eta[at(kNu, m)] = middle_of(eta_ranges()[at(kNu, m)]);
+      theta[at(kNu0, m)] = middle_of(theta_ranges()[at(kNu0, m)]);
+      eta[at(kNu0, m)] = middle_of(eta_ranges()[at(kNu0, m)]);
     }
     return {material::modulus_from_vector(theta), material::toughness_from_vector(eta), settings.start.extensions};
   }
@@ -173,8 +172,7 @@ struct BaseCalibration::State {
 
   /// Called when the fits at one damping have ended; false when there is nothing left to try.
   bool next_damping() {
-    constexpr double kGoodEnough = 0.01;
-    if (worst_error(damping) <= kGoodEnough) return false;
+    if (worst_error(damping) <= kToughnessAim) return false;
     if (damping + 1 < dampings_per_s.size() && !spent()) {
       ++damping;
       begin_toughness();
@@ -243,13 +241,13 @@ struct BaseCalibration::State {
     candidates[k].push_back(candidate);
     if (modulus) {
       material::ModulusVector theta = to_vector(wanted[k].parameters.modulus);
-      theta[at(kE, candidate.material)] = candidate.modulus_pa;
+      theta[at(kE0, candidate.material)] = candidate.modulus_pa;
       wanted[k].parameters.modulus = material::modulus_from_vector(theta);
     } else {
       material::ToughnessVector eta = to_vector(wanted[k].parameters.toughness);
-      eta[at(kE, candidate.material)] = candidate.trial.e_pa;
-      eta[at(kW, candidate.material)] = candidate.trial.w_j_per_m3;
-      eta[at(kEtaGamma, 0)] = candidate.trial.gamma_per_s;
+      eta[at(kE0, candidate.material)] = candidate.trial.e_pa;
+      eta[at(kW0, candidate.material)] = candidate.trial.w_j_per_m3;
+      eta[at(kGamma, 0)] = candidate.trial.gamma_per_s;
       wanted[k].parameters.toughness = material::toughness_from_vector(eta);
     }
   }
@@ -303,14 +301,14 @@ struct BaseCalibration::State {
     for (int m = 0; m < kMaterials; ++m) {
       const Material& material = materials[at(0, m)];
       if (material.modulus && material.modulus->best()) {
-        theta[at(kE, m)] = *material.modulus->best();
+        theta[at(kE0, m)] = *material.modulus->best();
         after[*material.item].modulus_pa = material.modulus_prediction_pa;
       }
       if (material.toughness.empty()) continue;
       const MaterialFit& fit = material.toughness[damping];
-      eta[at(kE, m)] = fit.best().e_pa;
-      eta[at(kW, m)] = fit.best().w_j_per_m3;
-      eta[at(kEtaGamma, 0)] = dampings_per_s[damping];
+      eta[at(kE0, m)] = fit.best().e_pa;
+      eta[at(kW0, m)] = fit.best().w_j_per_m3;
+      eta[at(kGamma, 0)] = dampings_per_s[damping];
       after[*material.item].toughness_pa = fit.best_prediction().toughness_pa;
       after[*material.item].curve = fit.best_prediction().curve;
     }

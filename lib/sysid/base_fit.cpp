@@ -9,10 +9,10 @@
 namespace nacre::sysid {
 namespace {
 
-constexpr double kTolerance = 0.002;  // of toughness; the aim is 1 %
-constexpr double kGoodEnough = 0.01;
+constexpr double kTolerance = 0.002;  // of toughness; the aim is kToughnessAim
 constexpr int kMostPeakMatches = 3;
-constexpr double kPeakTolerance = 0.03;  /// Factors on E, tried in turn.
+constexpr double kPeakTolerance = 0.03;
+/// Factors on E, tried in turn.
 constexpr std::array kModulusFactors = {1.0, 0.5, 2.0, 0.25};
 /// Across a bracket of W narrower than this T is taken to jump; scaling E and W meets what is left.
 constexpr double kNarrowest = 0.02;
@@ -101,7 +101,7 @@ bool MaterialFit::next_search() {
 
 double MaterialFit::error() const { return relative_error(best_prediction_.toughness_pa, measured_.toughness_pa); }
 
-bool MaterialFit::met() const { return any_ && error() <= kGoodEnough; }
+bool MaterialFit::met() const { return any_ && error() <= kToughnessAim; }
 
 void MaterialFit::tell(const MaterialTrial& trial, const Prediction& prediction) {
   ++evaluations_;

@@ -9,6 +9,9 @@
 
 namespace nacre::sysid {
 
+/// Relative error of a base material's toughness at which its fit has done what round 0 asks.
+inline constexpr double kToughnessAim = 0.01;
+
 /// The parameters of one material in the toughness tester.
 struct MaterialTrial {
   double e_pa = 0.0, w_j_per_m3 = 0.0, gamma_per_s = 0.0;
@@ -31,7 +34,7 @@ class MaterialFit {
   std::vector<MaterialTrial> ask(int count);
   void tell(const MaterialTrial& trial, const Prediction& prediction);
   bool finished() const { return finished_; }
-  /// Within 1 % of the measured toughness.
+  /// Within kToughnessAim of the measured toughness.
   bool met() const;
   int evaluations() const { return evaluations_; }
   double error() const;

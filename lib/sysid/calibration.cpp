@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "base/random.hpp"
+#include "sysid/eta.hpp"
 #include "sysid/fit.hpp"
 #include "sysid/likelihood.hpp"
 #include "sysid/objective.hpp"
@@ -157,7 +158,7 @@ struct Calibration::State {
       case ToughnessSearch::emulator:
         return make_emulator_fit(std::move(data), fit_settings, toughness_ranges(), std::move(others));
       case ToughnessSearch::gauss_newton:
-        return make_gauss_newton_fit(std::move(data), fit_settings, toughness_ranges());
+        return make_gauss_newton_fit(std::move(data), fit_settings);
       default:
         break;
     }
@@ -177,8 +178,8 @@ struct Calibration::State {
   std::vector<Point> other_starts(const Point& start) const {
     constexpr double kApart = 1e-3;  // mean square distance below which two starts are one
     Point middle = start, interface = start;
-    for (const std::size_t j : {0, 1, 2, 6, 7, 8, 9}) middle[j] = 0.5;
-    for (const std::size_t j : {2, 8}) interface[j] += interface[j] > 0.5 ? -0.2 : 0.2;
+    for (const std::size_t j : kSearchedEta) middle[j] = 0.5;
+    for (const std::size_t j : {kE0 + 2, kW0 + 2}) interface[j] += interface[j] > 0.5 ? -0.2 : 0.2;
     std::vector<Point> others;
     if (pull_to_start(middle, start, 1.0) > kApart) others.push_back(middle);
     others.push_back(interface);

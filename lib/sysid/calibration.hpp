@@ -75,6 +75,8 @@ struct NumericsFloor {
   double log_toughness_trend_sd = 0.05, log_peak_trend_sd = 0.07;  ///< per 0.1 of rigid fraction
   /// Of eta's parameters: another mesh needs others to break alike, beyond what the above say.
   material::ToughnessVector log_eta_sd = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1.7};
+  /// No floor at all: residuals are scatter or physics.
+  static NumericsFloor none();
 };
 /// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
 /// InputError.
@@ -183,7 +185,7 @@ class Calibration {
 /// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on,
 /// at a damping that suits all three; when there is none, the one at which the worst of them misses least. (The thesis
 /// keeps the median of three separate estimates; thresholds fitted at another damping then miss.) Same protocol as
-/// Calibration; toughness_budget is per material and damping.
+/// Calibration; toughness_budget is per material, over all dampings.
 class BaseCalibration {
  public:
   BaseCalibration(std::vector<measurement::Replicates> base_materials, const CalibrationSettings& settings);

@@ -6,6 +6,7 @@
 #include <nlopt.hpp>
 #include <numeric>
 
+#include "base/matern.hpp"
 #include "sysid/shared_errors.hpp"
 #include "sysid/spread.hpp"
 
@@ -29,11 +30,6 @@ double group_covariance(const EmulatorPrior& prior, const double* a, const doubl
   const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const double sums = (a[0] + a[1] + a[2]) * (b[0] + b[1] + b[2]);
   return square(prior.split_deviation) * (dot - sums / 3.0) + square(prior.sum_deviation) * sums / 9.0;
-}
-
-double matern52(double distance) {
-  const double r = std::sqrt(5.0) * distance;
-  return (1.0 + r + r * r / 3.0) * std::exp(-r);
 }
 
 /// Distance over which what is not linear changes. The common scales of moduli and of failure energies hardly count:
@@ -96,7 +92,7 @@ double FeatureEmulator::covariance(const Eigen::VectorXd& a, const Eigen::Vector
                         square(kPoissonDeviation) * from_a.segment<3>(kNu0).dot(from_b.segment<3>(kNu0)) +
                         square(kGammaDeviation) * from_a[kGamma] * from_b[kGamma];
   const double distance = curved_distance(a - b) / prior_.curved_length;
-  return square(kOffsetDeviation) + linear + square(prior_.curved_deviation) * matern52(distance);
+  return square(kOffsetDeviation) + linear + square(prior_.curved_deviation) * matern52(std::sqrt(5.0) * distance);
 }
 
 Eigen::VectorXd FeatureEmulator::covariances(const Eigen::VectorXd& at) const {
@@ -267,11 +263,16 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
                                          const std::vector<double>& spans, bool poisson_searched,
                                          const NumericsFloor& floor) {
   constexpr double kSmallestNoise = 0.03;
-  std::vector<double> unknown(kEtaCount, kUnknownDeviation);
-  if (trials.size() < 2) return unknown;
+  std::vector<double> deviations(kEtaCount, kUnknownDeviation);
+  if (trials.size() < 2) return deviations;
   FeatureEmulator emulator(spans, data.measured.size());
   emulator.learn(trials, best);
-  const Eigen::MatrixXd jacobian = feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched);
+  std::vector<std::size_t> searched(kSearchedEta.begin(), kSearchedEta.end());
+  if (poisson_searched) {
+    searched.resize(kEtaCount);
+    std::iota(searched.begin(), searched.end(), 0);
+  }
+  const Eigen::MatrixXd slopes = feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched);
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
   Eigen::VectorXd residuals = Eigen::VectorXd::Zero(2 * designs), weights = residuals;
   for (Eigen::Index i = 0; i < designs; ++i) {
@@ -285,9 +286,10 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
     residuals[designs + i] = simulated->log_peak - std::log(*peak);
     weights[designs + i] = weights[i];
   }
-  if (weights.sum() <= 0.0) return unknown;
-  return parameter_deviations(jacobian, residuals, weights, kSmallestNoise,
-                              shared_fracture_errors(data.measured, floor));
+  const std::vector<double> told = parameter_deviations(slopes(Eigen::all, searched), residuals, weights,
+                                                        kSmallestNoise, shared_fracture_errors(data.measured, floor));
+  for (std::size_t k = 0; k < searched.size(); ++k) deviations[searched[k]] = told[k];
+  return deviations;
 }
 
 void FeatureEmulator::add_pending(const Point& point) {

@@ -11,13 +11,11 @@
 #include <span>
 #include <vector>
 
+#include "sysid/eta.hpp"
 #include "sysid/features.hpp"
 #include "sysid/fit.hpp"
 
 namespace nacre::sysid {
-
-/// Index of the parameters of eta in its vector.
-enum EtaIndex { kE0 = 0, kNu0 = 3, kW0 = 6, kGamma = 9, kEtaCount = 10 };
 
 /// Natural logarithm of the ratio maximum / minimum of each range, 1 where it is searched linearly: unit coordinate
 /// times span is the coordinate in which the emulator works.
@@ -39,7 +37,8 @@ class FeatureEmulator {
  public:
   FeatureEmulator(std::vector<double> spans, std::size_t design_count);
   /// Learns from the trials, each with a prediction per design, seen from trials[centre]: only the nearest 60 are used.
-  /// A failed prediction says nothing of its design.
+  /// A failed prediction counts as one that met the prior's expectation exactly: all designs share one factorisation,
+  /// so that none can be without an observation.
   void learn(const std::vector<Trial>& trials, std::size_t centre);
   /// The same with the prior that the trials themselves make most probable: how jumpy and how curved this set of
   /// designs is.

@@ -9,7 +9,7 @@ namespace nacre::sysid {
 namespace {
 
 constexpr double kScaleReach = 3.0;  // radii that the common scales may move
-constexpr int kScaleSteps = 9;       // of the grid over the two scales, per axis
+constexpr int kScaleSteps = 9;       // of the grid over them
 constexpr int kSearchEvaluations = 600;
 
 double asked_by_nlopt(const std::vector<double>& at, std::vector<double>&, void* cost) {
@@ -35,13 +35,13 @@ Point moved(const Point& from, const Move& move, std::span<const double> spans) 
   return point;
 }
 
-Move best_scales(const std::function<double(const Move&)>& cost, double reach) {
+Move best_scales(const std::function<double(const Move&)>& cost, double reach, int steps) {
   Move best{};
   double smallest = cost(best);
-  for (int i = 0; i < kScaleSteps * kScaleSteps; ++i) {
+  for (int i = 0; i < steps * steps; ++i) {
     Move move{};
-    move[0] = reach * (2.0 * (i / kScaleSteps) / (kScaleSteps - 1) - 1.0);
-    move[1] = reach * (2.0 * (i % kScaleSteps) / (kScaleSteps - 1) - 1.0);
+    move[0] = reach * (2.0 * (i / steps) / (steps - 1) - 1.0);
+    move[1] = reach * (2.0 * (i % steps) / (steps - 1) - 1.0);
     const double here = cost(move);
     if (here < smallest) smallest = here, best = move;
   }
@@ -49,7 +49,7 @@ Move best_scales(const std::function<double(const Move&)>& cost, double reach) {
 }
 
 Move best_move(const std::function<double(const Move&)>& cost, double radius) {
-  const Move start = best_scales(cost, kScaleReach * radius);
+  const Move start = best_scales(cost, kScaleReach * radius, kScaleSteps);
   nlopt::opt search(nlopt::LN_SBPLX, kMoveCount);
   std::vector<double> bound(kMoveCount, radius), step(kMoveCount, 0.3 * radius);
   bound[0] = bound[1] = kScaleReach * radius;

@@ -84,8 +84,7 @@ std::unique_ptr<Fit> make_posterior_fit(FitData data, const FitSettings& setting
 
 /// Gauss-Newton steps with Levenberg-Marquardt damping on log T and log peak stress, slopes by differences that are
 /// wide enough to step over the jumps; one batch of seven evaluations each.
-std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings,
-                                           std::span<const material::ParameterRange> ranges);
+std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings);
 
 /// Search for eta by an algorithm that sees objective (2.8) only, in all ten dimensions, begun at the start and
 /// `others`; the trust region also at the best of them rescaled by the emulator's prior.

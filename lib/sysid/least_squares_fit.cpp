@@ -56,8 +56,9 @@ class LeastSquaresFit final : public RecordedFit {
   std::vector<double> deviations() const override {
     std::vector<double> result(settings_.start.size(), kUnknownDeviation);
     if (jacobian_.size() == 0) return result;
-    const std::vector<double> searched = parameter_deviations(jacobian_, residuals(trials_[best_]), problem_.weights,
-                                                              problem_.smallest_noise, problem_.shared);
+    const Trial& at = trials_[best_];
+    const std::vector<double> searched =
+        parameter_deviations(jacobian_, residuals(at), weights(at), problem_.smallest_noise, problem_.shared);
     for (std::size_t j = 0; j < searched.size(); ++j) result[problem_.searched[j]] = searched[j];
     return result;
   }
@@ -97,6 +98,12 @@ class LeastSquaresFit final : public RecordedFit {
     return problem_.residuals(trial.predictions).unaryExpr([](double value) {
       return std::isnan(value) ? 0.0 : value;
     });
+  }
+
+  /// 0 where there is no residual: what is missing agrees with nothing.
+  Eigen::VectorXd weights(const Trial& trial) const {
+    const Eigen::VectorXd residuals = problem_.residuals(trial.predictions);
+    return residuals.array().isNaN().select(0.0, problem_.weights);
   }
 
   void take_jacobian(std::size_t first_new) {
@@ -231,8 +238,7 @@ std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings)
   return std::make_unique<LeastSquaresFit>(std::move(data), settings, std::move(problem));
 }
 
-std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings,
-                                           std::span<const material::ParameterRange> /*ranges*/) {
+std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
   Problem problem;
   problem.weights.resize(2 * designs);
@@ -253,7 +259,7 @@ std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& sett
     return result;
   };
   problem.shared = shared_fracture_errors(data.measured, settings.floor);
-  problem.searched = {kE0, kE0 + 1, kE0 + 2, kW0, kW0 + 1, kW0 + 2, kGamma};  // Poisson's ratios hardly act
+  problem.searched.assign(kSearchedEta.begin(), kSearchedEta.end());
   problem.difference = 0.08;  // wide enough to step over the jumps of single fractures
   problem.pull = 0.01;
   problem.small_residual = 0.05;

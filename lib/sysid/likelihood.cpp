@@ -41,7 +41,7 @@ Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& mea
                                  const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                  int determined) {
   const ReplicateScatter scatter = pooled_scatter(measured);
-  const NumericsFloor none{.log_modulus_sd = 0.0};
+  const NumericsFloor none = NumericsFloor::none();
   Residuals residuals;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const std::optional<double>& simulated = predictions[i].modulus_pa;
@@ -56,7 +56,7 @@ Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& m
                                    const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                    int determined) {
   const ReplicateScatter scatter = pooled_scatter(measured);
-  const NumericsFloor none{.log_toughness_sd = 0.0};
+  const NumericsFloor none = NumericsFloor::none();
   Residuals residuals;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const std::optional<double>& simulated = predictions[i].toughness_pa;

@@ -8,7 +8,7 @@
 namespace nacre::sysid {
 namespace {
 
-/// One simulation and the places its answer goes to.
+/// One simulation, and the key that its answer is kept under.
 struct Task {
   tester::TestKind kind = tester::TestKind::modulus;
   tester::Simulation simulation;

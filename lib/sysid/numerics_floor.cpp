@@ -6,6 +6,19 @@
 
 namespace nacre::sysid {
 
+NumericsFloor NumericsFloor::none() {
+  return {.log_modulus_sd = 0.0,
+          .log_toughness_sd = 0.0,
+          .log_peak_sd = 0.0,
+          .log_modulus_common_sd = 0.0,
+          .log_toughness_common_sd = 0.0,
+          .log_peak_common_sd = 0.0,
+          .log_modulus_trend_sd = 0.0,
+          .log_toughness_trend_sd = 0.0,
+          .log_peak_trend_sd = 0.0,
+          .log_eta_sd = {}};
+}
+
 NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity) {
   const toml::table document = read_toml_file(file);
   const toml::table* table = document[tester::to_string(fidelity)].as_table();

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sysid/emulator.hpp"
+#include "sysid/eta_moves.hpp"
 #include "sysid/recorded_fit.hpp"
 #include "sysid/warped_objective.hpp"
 
@@ -79,24 +80,14 @@ class ObjectiveFit final : public RecordedFit {
     WarpedObjective predicted(data_);
     predicted.set_base(trials_[best_]);
     std::vector<FeatureChange> changes;
-    Point best_point = trials_[best_].point;
-    double smallest = cost(trials_[best_]);
-    for (int i = 0; i < kScaleSteps * kScaleSteps; ++i) {
-      const double moduli = kScaleReach * (2.0 * (i % kScaleSteps) / (kScaleSteps - 1) - 1.0);
-      const double energies = kScaleReach * (2.0 * (i / kScaleSteps) / (kScaleSteps - 1) - 1.0);
-      Point point = trials_[best_].point;
-      for (std::size_t m = 0; m < 3; ++m) {
-        point[kE0 + m] = std::clamp(point[kE0 + m] + moduli / spans_[kE0 + m], 0.0, 1.0);
-        point[kW0 + m] = std::clamp(point[kW0 + m] + energies / spans_[kW0 + m], 0.0, 1.0);
-      }
+    const Trial& from = trials_[best_];
+    const auto expected = [&](const Move& move) {
+      const Point point = moved(from.point, move, spans_);
       emulator.predict(point, changes);
-      const double here = predicted(changes) + pull_on(point);
-      if (here < smallest) {
-        smallest = here;
-        best_point = std::move(point);
-      }
-    }
-    return best_point;
+      return predicted(changes) + pull_on(point);
+    };
+    const Move scales = best_scales(expected, kScaleReach, kScaleSteps);
+    return expected(scales) < cost(from) ? moved(from.point, scales, spans_) : from.point;
   }
 
   std::vector<double> spans_;

@@ -28,9 +28,6 @@ constexpr int kIdleBatches = 4;  // in a row within the smallest radius without 
 constexpr std::array<std::size_t, 5> kSplits = {kE0, kE0 + 2, kW0, kW0 + 2, kGamma};
 constexpr int kMostSpread = 9;  // points spread over the splits before the search narrows
 
-/// Coordinates that are searched: Poisson's ratios are not.
-constexpr std::array<std::size_t, 7> kSearched = {kE0, kE0 + 1, kE0 + 2, kW0, kW0 + 1, kW0 + 2, kGamma};
-
 class PosteriorFit final : public RecordedFit {
  public:
   PosteriorFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others)
@@ -66,13 +63,13 @@ class PosteriorFit final : public RecordedFit {
     if (trials_.size() < 2) return result;
     const std::vector<Eigen::VectorXd> draws = possible(posterior_.shared_error_count());
     std::vector<double> values(draws.size());
-    for (std::size_t k = 0; k < kSearched.size(); ++k) {
+    for (std::size_t k = 0; k < kSearchedEta.size(); ++k) {
       std::transform(draws.begin(), draws.end(), values.begin(),
                      [&](const Eigen::VectorXd& draw) { return draw[static_cast<Eigen::Index>(k)]; });
       // The estimate is the best evaluation and not the middle of what is possible: it may stand at the edge.
-      const double at = trials_[best_].point[kSearched[k]];
-      result[kSearched[k]] = {std::min(at, quantile(values, 0.05)), std::max(at, quantile(values, 0.95)),
-                              standard_deviation(values)};
+      const double at = trials_[best_].point[kSearchedEta[k]];
+      result[kSearchedEta[k]] = {std::min(at, quantile(values, 0.05)), std::max(at, quantile(values, 0.95)),
+                                 standard_deviation(values)};
     }
     return result;
   }
@@ -127,7 +124,8 @@ class PosteriorFit final : public RecordedFit {
     for (std::size_t k = 0; k < kSplits.size(); ++k) point[kSplits[k]] = split[k];
     const auto cost = [&](const Move& move) { return smooth_cost(moved(point, move, spans_)); };
     constexpr double kReach = 2.5;  // natural logarithms
-    return moved(point, best_scales(cost, kReach), spans_);
+    constexpr int kSteps = 9;
+    return moved(point, best_scales(cost, kReach, kSteps), spans_);
   }
 
   /// Around the trial that is most probable so far; twice, since which trial that is depends on the centre a little.
@@ -179,7 +177,7 @@ class PosteriorFit final : public RecordedFit {
   /// The best trial with the searched coordinates of a draw.
   Point point_at(const Eigen::VectorXd& draw) const {
     Point point = trials_[best_].point;
-    for (std::size_t k = 0; k < kSearched.size(); ++k) point[kSearched[k]] = draw[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < kSearchedEta.size(); ++k) point[kSearchedEta[k]] = draw[static_cast<Eigen::Index>(k)];
     return point;
   }
 
@@ -187,7 +185,7 @@ class PosteriorFit final : public RecordedFit {
   /// sizes of the errors that all designs share, when they take part.
   std::vector<Eigen::VectorXd> possible(Eigen::Index shared_errors) const {
     constexpr int kBurnIn = 100, kSteps = 60;  // from walkers that are nearly right
-    const auto searched = static_cast<Eigen::Index>(kSearched.size());
+    const auto searched = static_cast<Eigen::Index>(kSearchedEta.size());
     std::vector<FeatureChange> changes;
     const auto cost = [&](const Eigen::VectorXd& at) {
       const auto inside = at.head(searched);
@@ -203,7 +201,7 @@ class PosteriorFit final : public RecordedFit {
   /// From the normal distribution that slopes at the best trial suggest, shared errors taken over by the parameters.
   std::vector<Eigen::VectorXd> first_walkers(Eigen::Index shared_errors) const {
     constexpr int kWalkers = 32;
-    const auto searched = static_cast<Eigen::Index>(kSearched.size());
+    const auto searched = static_cast<Eigen::Index>(kSearchedEta.size());
     const Eigen::MatrixXd moves = posterior_.moves_by_shared_errors(slopes());
     RandomStream random(settings_.seed, "sysid/walkers");
     std::vector<Eigen::VectorXd> walkers;
@@ -212,7 +210,7 @@ class PosteriorFit final : public RecordedFit {
       auto errors = walker.tail(shared_errors);
       for (double& value : errors) value = random.normal();
       for (Eigen::Index k = 0; k < searched; ++k) {
-        const std::size_t coordinate = kSearched[static_cast<std::size_t>(k)];
+        const std::size_t coordinate = kSearchedEta[static_cast<std::size_t>(k)];
         const double move = moves.row(static_cast<Eigen::Index>(coordinate)).head(shared_errors).dot(errors);
         walker[k] = std::clamp(point[coordinate] + move, 0.0, 1.0);
       }
@@ -237,7 +235,7 @@ class PosteriorFit final : public RecordedFit {
       Eigen::VectorXd shift = factor.matrixL() * normal;
       if (k % 2 == 1) shift = -shift;
       Point point = centre;
-      for (const std::size_t j : kSearched) {
+      for (const std::size_t j : kSearchedEta) {
         const double reach = kLargestRadius / spans_[j];
         point[j] = std::clamp(point[j] + std::clamp(shift[static_cast<Eigen::Index>(j)], -reach, reach), 0.0, 1.0);
       }

@@ -5,10 +5,9 @@
 
 namespace nacre::sysid {
 
-/// Finds x in [lower, upper] where a positive function meets a target, by ask and tell: the search sees ratio = f(x) /
-/// target and wants
-/// 1. It works on logarithms, expects f to grow about in proportion to x at first, and then trusts the bracket; f may
-/// jump.
+/// Finds x in [lower, upper] where a positive function f meets a target, by ask and tell: the search is told the ratio
+/// f(x) / target, and looks for the x at which it is one. It works on logarithms, expects f to grow about in proportion
+/// to x at first, and then trusts the bracket; f may jump.
 class RatioSearch {
  public:
   struct Settings {

@@ -4,12 +4,14 @@
 #include <cmath>
 
 namespace nacre::sysid {
-
 std::vector<double> parameter_deviations(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
                                          const Eigen::VectorXd& weights, double smallest_residual,
                                          const Eigen::MatrixXd& systematic) {
-  const double count = static_cast<double>(residuals.size()), freedom = std::max(1.0, count - jacobian.cols());
-  const double variance = residuals.cwiseProduct(weights).dot(residuals) / weights.sum() * count / freedom;
+  const Eigen::Index rows = (weights.array() > 0.0).count();
+  if (rows == 0) return std::vector<double>(static_cast<std::size_t>(jacobian.cols()), kUnknownDeviation);
+  const double freedom = std::max(1.0, static_cast<double>(rows - jacobian.cols()));
+  const double variance =
+      residuals.cwiseProduct(weights).dot(residuals) / weights.sum() * static_cast<double>(rows) / freedom;
   const double noise = std::max(variance, smallest_residual * smallest_residual);
   Eigen::MatrixXd information = jacobian.transpose() * weights.asDiagonal() * jacobian / noise;
   information.diagonal().array() += 1.0 / (kUnknownDeviation * kUnknownDeviation);

@@ -255,8 +255,11 @@ runtime::Status AnalyserCore::status() const {
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
-  return std::make_unique<AnalyserCore>(scenario,
-                                        diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity));
+  const diagnosis::ModulusFloor floor =
+      scenario.numerics_floor_file.empty()
+          ? diagnosis::ModulusFloor{}
+          : diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity);
+  return std::make_unique<AnalyserCore>(scenario, floor);
 }
 
 }  // namespace nacre::analyser

@@ -85,7 +85,7 @@ class AnalyserCore : public runtime::NodeCore {
   std::string phase_ = "following the game";
 };
 
-/// Reads data/numerics_floor.toml. Throws InputError when it cannot be used.
+/// With the floor of scenario.numerics_floor_file; none when that is empty. Throws InputError when it cannot be used.
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
 
 }  // namespace nacre::analyser

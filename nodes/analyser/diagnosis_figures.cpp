@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analyser/report_figures.hpp"
 #include "analyser/svg.hpp"
 
 namespace nacre::analyser {
@@ -21,15 +22,8 @@ bool is_logarithm(Feature f) {
          f != Feature::toe_share;
 }
 
-/// Per cent for logarithms and strains, else as it is.
-double shown(Feature feature, double residual) {
-  return is_logarithm(feature) ? 100.0 * std::expm1(residual) : 100.0 * residual;
-}
-
 std::string unit_of(Feature feature) {
-  return is_logarithm(feature) ? "measured over predicted, %"
-         : is_strain(feature)  ? "measured less predicted, % strain"
-                               : "measured less predicted, x 100";
+  return fmt::format("measured {} predicted, {}", is_logarithm(feature) ? "over" : "less", shown_unit(feature));
 }
 
 /// How strongly residuals of one feature line up with one descriptor: |correlation| times their size in standard
@@ -94,17 +88,10 @@ std::string residual_figure(const Diagnosis& d, const View& view) {
   return plot.svg();
 }
 
-/// The curve in per cent and MPa.
-std::vector<Point> points_of(const tester::Curve& curve) {
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < curve.size(); ++i) points.push_back({100.0 * curve.strain[i], 1e-6 * curve.stress_pa[i]});
-  return points;
-}
-
 std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
   std::vector<double> xs = {0.0}, ys = {0.0};
   for (const tester::Curve* curve : {&curves.measured, &curves.base, &curves.extended}) {
-    for (const Point& p : points_of(*curve)) xs.push_back(p.x), ys.push_back(p.y);
+    for (const Point& p : curve_points(*curve)) xs.push_back(p.x), ys.push_back(p.y);
   }
   const std::string name = curves.design.size() > 16 ? curves.design.substr(0, 12) + "…" : curves.design;
   Plot plot({.title = fmt::format("{}, {:.2g} /s{}", name, curves.conditions.strain_rate_per_s,
@@ -113,13 +100,21 @@ std::string curve_figure(const diagnosis::GroupCurves& curves, bool extended) {
              .y_label = "stress, MPa",
              .x = padded(xs),
              .y = padded(ys)});
-  plot.line(points_of(curves.measured), Ink::measured, Stroke::solid, "measured");
-  plot.line(points_of(curves.base), Ink::homogeneous, Stroke::dashed, "base model");
-  if (extended) plot.line(points_of(curves.extended), Ink::simulated, Stroke::solid, "extended model");
+  plot.line(curve_points(curves.measured), Ink::measured, Stroke::solid, "measured");
+  plot.line(curve_points(curves.base), Ink::homogeneous, Stroke::dashed, "base model");
+  if (extended) plot.line(curve_points(curves.extended), Ink::simulated, Stroke::solid, "extended model");
   return plot.svg();
 }
 
 }  // namespace
+
+double shown(Feature feature, double difference) {
+  return 100.0 * (is_logarithm(feature) ? std::expm1(difference) : difference);
+}
+
+std::string_view shown_unit(Feature feature) {
+  return is_logarithm(feature) ? "%" : is_strain(feature) ? "% strain" : "x 100";
+}
 
 std::vector<std::string> residual_figures(const Diagnosis& d, std::size_t most) {
   std::vector<View> views;

@@ -2,11 +2,17 @@
 // Figures of a diagnosis as inline SVG.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
 
 namespace nacre::analyser {
+
+/// A difference or an error of a feature as pages show it: a logarithm's as per cent, another's a hundredfold.
+double shown(diagnosis::Feature feature, double difference);
+/// What that number counts: "%", "% strain", "x 100".
+std::string_view shown_unit(diagnosis::Feature feature);
 
 /// Measured over predicted of one feature against one descriptor of the specimens, base and extended: what varies and
 /// matters most first.

@@ -1,6 +1,7 @@
 #include "analyser/diagnosis_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -110,8 +111,8 @@ std::string cause_section(const Diagnosis& d) {
         "nearest: it may predict better for the wrong reason.");
     if (d.partial_gain)
       content += paragraph(fmt::format("(The nearest would take held-out errors from {} to {}.)",
-                                       percent(d.partial_gain->held_out_error_before),
-                                       percent(d.partial_gain->held_out_error_after)));
+                                       percent(std::expm1(d.partial_gain->held_out_error_before)),
+                                       percent(std::expm1(d.partial_gain->held_out_error_after))));
   }
   if (content.empty()) content = paragraph("No cause is needed.");
   return section("cause", "The cause", content);
@@ -121,7 +122,8 @@ std::string status_words(const Candidate& c, Verdict verdict) {
   if (c.status == "in_set") return "<strong>explains it</strong>";
   const char* helps =
       verdict == Verdict::unexplained ? "helps, but cannot be named" : "helps, but others explain it better";
-  if (c.status == "excluded") return c.p_family_wise <= 0.003 ? helps : "no sign of it";
+  if (c.status == "excluded")
+    return c.p_family_wise <= diagnosis::DiagnosisSettings{}.name_level ? helps : "no sign of it";
   if (c.status == "invisible") return "invisible on these data (not: absent)";
   return "these tests cannot say";
 }
@@ -153,15 +155,13 @@ std::string gain_section(const Diagnosis& d) {
   if (!d.gain) return "";
   std::string rows;
   for (const auto& g : d.gain->features)
-    rows += table_row(
-        {std::string(in_words(g.feature)), figure(100 * g.before), figure(100 * g.after), figure(100 * g.noise)});
-  return section("gain", "What the extended model gains",
-                 paragraph(fmt::format("On designs that were left out of the fit, the mean error falls from {} to "
-                                       "<strong>{}</strong>: {} less (90 % interval: {} to {}).",
-                                       percent(d.gain->held_out_error_before), percent(d.gain->held_out_error_after),
-                                       percent(d.gain->relative_reduction), percent(d.gain->interval_low),
-                                       percent(d.gain->interval_high))) +
-                     table(header_row({"mean error on held-out designs, %", "base", "extended", "noise alone"}), rows));
+    rows += table_row({std::string(in_words(g.feature)), std::string(shown_unit(g.feature)),
+                       figure(shown(g.feature, g.before)), figure(shown(g.feature, g.after)),
+                       figure(shown(g.feature, g.noise))});
+  return section(
+      "gain", "What the extended model gains",
+      paragraph(escaped(gain_in_words(*d.gain))) +
+          table(header_row({"mean error on held-out designs", "unit", "base", "extended", "noise alone"}), rows));
 }
 
 std::string next_section(const Diagnosis& d) {

@@ -2,6 +2,8 @@
 
 #include "analyser/paper.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "analyser/report_figures.hpp"
@@ -91,6 +93,10 @@ Cell gpa_cell(const std::optional<double>& pa) { return {pa ? gpa(*pa) : "–", 
 Cell mpa_cell(const std::optional<double>& pa) { return {pa ? mpa(*pa) : "–", kept_number(pa)}; }
 Cell share_cell(const std::optional<double>& share) { return {percent_or_dash(share), kept_number(share)}; }
 Cell number_cell(const std::optional<double>& value) { return {value ? figure(*value) : "–", kept_number(value)}; }
+
+std::optional<double> error_of(const std::optional<double>& simulated, const std::optional<double>& measured) {
+  return simulated && measured ? std::optional(std::abs(*simulated - *measured) / *measured) : std::nullopt;
+}
 
 void PaperTable::add(std::vector<Cell> row, bool thesis) {
   is_thesis.resize(rows.size());

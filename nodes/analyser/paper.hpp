@@ -61,6 +61,9 @@ Cell mpa_cell(const std::optional<double>& pa);
 Cell share_cell(const std::optional<double>& share);
 Cell number_cell(const std::optional<double>& value);
 
+/// Relative error of a prediction, where both are known.
+std::optional<double> error_of(const std::optional<double>& simulated, const std::optional<double>& measured);
+
 struct Column {
   std::string name;     ///< in the CSV
   std::string heading;  ///< on the page

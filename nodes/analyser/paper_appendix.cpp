@@ -45,7 +45,7 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
       const std::optional<double> simulated = found == answers.end() ? std::nullopt : found->second.*property;
       missing += !simulated;
       row.push_back(value(simulated));
-      row.push_back(share_cell(simulated ? std::optional(std::abs(*simulated - truth) / truth) : std::nullopt));
+      row.push_back(share_cell(error_of(simulated, truth)));
     }
     table.add(std::move(row));
   }

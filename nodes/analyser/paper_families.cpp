@@ -14,8 +14,6 @@
 namespace nacre::analyser {
 namespace {
 
-constexpr std::size_t kMostGamutPoints = 1500;
-
 const std::string kNoStage =
     "This run played no family stage: <code>[families] enabled = true</code> in its scenario asks for one "
     "(launch/README.md).";
@@ -83,10 +81,6 @@ PaperTable errors_table(const PaperSource& source, const std::string& name, bool
               family.is_thesis);
   }
   return table;
-}
-
-std::optional<double> error_of(const std::optional<double>& simulated, const std::optional<double>& measured) {
-  return simulated && measured ? std::optional(std::abs(*simulated - *measured) / *measured) : std::nullopt;
 }
 
 /// Table A.5 (E) or A.6 (T).

@@ -40,14 +40,6 @@ std::string candidate_table(const std::vector<store::RecordedCandidate>& candida
   return table(header_row({"candidate", "status", "drop of χ²", "p (family-wise)", "absorbed by the base"}), rows);
 }
 
-std::string gain_in_words(const store::RecordedDiagnosis& d) {
-  if (!d.held_out_error_before || !d.held_out_error_after) return "";
-  return paragraph(fmt::format(
-      "On patterns that were held out, the extended model brings the mean absolute error of ln E from {} to "
-      "<strong>{}</strong>.",
-      percent(*d.held_out_error_before), percent(*d.held_out_error_after)));
-}
-
 }  // namespace
 
 std::string verdict_in_words(const std::string& verdict) {
@@ -64,9 +56,9 @@ std::string diagnosis_section(const store::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
     const store::RecordedDiagnosis& d = *round->second.diagnosis;
+    // The summary says what a named effect gains on held-out designs (diagnosis::gain_in_words): no second figure here.
     content += fmt::format("<h3>Round {}: {}</h3>\n", round->first, verdict_in_words(d.verdict)) +
-               paragraph(escaped(d.summary)) + effect_table(d.effects) + gain_in_words(d) +
-               candidate_table(d.candidates);
+               paragraph(escaped(d.summary)) + effect_table(d.effects) + candidate_table(d.candidates);
   }
   if (content.empty())
     return section(

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
 #include "optimize/pareto.hpp"
 
 namespace nacre::analyser {
 namespace {
 
-constexpr std::size_t kMostGamutPoints = 1500;
 constexpr double kPaPerGpa = 1e9, kPaPerMpa = 1e6;
 
 }  // namespace
@@ -234,8 +234,6 @@ std::vector<Point> points_of(const DesignCurves& curves) {
   }
   return points;
 }
-
-std::string shortened(const std::string& name) { return name.size() <= 20 ? name : name.substr(0, 9) + "…"; }
 
 std::string curve_figure(const DesignCurves& curves, const Range& x, const Range& y) {
   Plot plot({.title = fmt::format("{}, round {}", shortened(curves.design), curves.measured_in),

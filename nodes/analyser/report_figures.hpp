@@ -24,6 +24,7 @@ std::vector<std::string> round_figures(const store::RunRecord& run);
 std::vector<std::string> curve_figures(const store::RunRecord& run);
 
 // Pieces that the exhibits share (paper.hpp).
+inline constexpr std::size_t kMostGamutPoints = 1500;      ///< of one gamut in a figure: more only weigh on the page
 Point to_point(const optimize::Performance& performance);  ///< GPa, MPa
 std::vector<Point> to_points(std::span<const optimize::Performance> performances);
 Range range_of(std::span<const Point> points, double Point::*coordinate);

@@ -8,29 +8,13 @@
 #include "analyser/report_figures.hpp"
 #include "analyser/report_sections.hpp"
 #include "analyser/report_text.hpp"
+#include "analyser/thesis_figures.hpp"
 #include "optimize/pareto.hpp"
 
 namespace nacre::analyser {
 namespace {
 
 constexpr std::string_view kDash = "–";
-
-/// A round of the thesis: Table 3.5, and its errors on designs not yet calibrated on, derived from Tables A.3 and A.4.
-/// Percent.
-struct ThesisRound {
-  int round, count;
-  double held_out_modulus, held_out_toughness;  // 0: none
-  double before_modulus, before_modulus_max, after_modulus, after_modulus_max;
-  double before_toughness, before_toughness_max, after_toughness, after_toughness_max;
-};
-constexpr ThesisRound kThesisRounds[] = {
-    {1, 18, 0.0, 0.0, 31.09, 93.15, 6.53, 22.95, 135.59, 767.44, 22.85, 62.23},
-    {2, 26, 12.2, 97.0, 25.19, 93.15, 6.29, 20.40, 108.26, 767.44, 23.92, 100.53},
-    {3, 34, 9.1, 84.0, 21.11, 93.15, 6.32, 22.75, 93.09, 767.44, 24.68, 84.30},
-    {4, 42, 6.9, 76.0, 18.95, 93.15, 6.50, 25.40, 82.38, 767.44, 27.10, 88.87},
-};
-constexpr double kThesisLinearModulus = 7.1, kThesisConstantToughness = 31.0;  // on all 42 [derived]
-constexpr double kThesisModulusGain = 1.61, kThesisToughnessGain = 2.76;       // Table 3.3
 
 std::string mean_and_max(double mean, double maximum) {
   return fmt::format("{} <small>({})</small>", percent(mean), percent(maximum));

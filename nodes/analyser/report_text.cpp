@@ -67,9 +67,14 @@ std::string quantity(double value) {
   return with_minus(fmt::format("{:.2f} × 10{}", value / std::pow(10.0, exponent), superscript(exponent)));
 }
 
+std::string shortened(std::string_view name) {
+  return name.size() <= kLongName ? std::string(name) : fmt::format("{}…", name.substr(0, kShownOfLongName));
+}
+
 std::string design_name(std::string_view name) {
-  if (name.size() <= kLongName) return fmt::format("<code>{}</code>", escaped(name));
-  return fmt::format("<code title=\"{}\">{}…</code>", escaped(name), escaped(name.substr(0, kShownOfLongName)));
+  const std::string shown = shortened(name);
+  if (shown == name) return fmt::format("<code>{}</code>", escaped(name));
+  return fmt::format("<code title=\"{}\">{}</code>", escaped(name), escaped(shown));
 }
 
 }  // namespace nacre::analyser

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and names of the report as text. Everything returned here is safe to put into the page.
+// Numbers and names of the report as text. All but shortened() return what is safe to put into the page.
 
 #include <optional>
 #include <string>
@@ -20,6 +20,8 @@ std::string with_error(double value, double error);
 std::string chance(double p);
 /// A number of any size in a parameter's own unit: plain between 0.001 and 10,000, else "1.2 × 10⁻⁹".
 std::string quantity(double value);
+/// A name of more than 20 characters by its first nine and an ellipsis; not escaped.
+std::string shortened(std::string_view name);
 /// A design's name, long keys of free layouts shortened with the whole in the hint.
 std::string design_name(std::string_view name);
 

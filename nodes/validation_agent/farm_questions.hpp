@@ -13,7 +13,7 @@ namespace nacre::validation_agent {
 
 /// What the farm is asked at once.
 struct FarmBatch {
-  std::string label;  ///< used once
+  std::string label;  ///< of request ids, before the evaluation's own: batches that share it hold other evaluations
   std::vector<sysid::WantedEvaluation> wanted;
   std::vector<measurement::Replicates> measured;  ///< the designs that `wanted` means, with their test conditions
   tester::Fidelity fidelity = tester::Fidelity::full;

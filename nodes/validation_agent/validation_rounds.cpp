@@ -90,16 +90,12 @@ void ValidationCore::measure_on() {
 void ValidationCore::predict_held_out() {
   std::map<std::string, sysid::Prediction> proposed;
   for (const wire::ProposedDesign& each : proposals_.at(round_ - 1).designs) {
-    proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
+    if (!calibrated_designs_.contains(each.design.name()))
+      proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
   }
-  held_out_set_.clear();
-  proposed_.clear();
-  for (const measurement::Replicates& measured : calibration_set_) {
-    const auto prediction = proposed.find(measured.design.name());
-    if (prediction == proposed.end() || calibrated_designs_.contains(prediction->first)) continue;
-    held_out_set_.push_back(measured);
-    proposed_.push_back(prediction->second);
-  }
+  game::Foretold foretold = game::foretold_among(calibration_set_, proposed);
+  held_out_set_ = std::move(foretold.measured);
+  proposed_ = std::move(foretold.predicted);
   if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(proposed_);
   // What the testing machine makes of a prediction needs its curve, which a proposal does not carry: asked for again,
   // and answered from the farm's cache.

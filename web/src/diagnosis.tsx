@@ -45,7 +45,10 @@ function Interval({ effect }: { effect: Effect }) {
 }
 
 function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
-  const largest = Math.max(gain.held_out_error_before, gain.held_out_error_after);
+  // Errors are of logarithms.
+  const before = Math.expm1(gain.held_out_error_before);
+  const after = Math.expm1(gain.held_out_error_after);
+  const largest = Math.max(before, after);
   const row = (name: string, value: number, cls: string) => (
     <div class="gain">
       <span>{name}</span>
@@ -58,8 +61,8 @@ function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
   return (
     <>
       <h3>Gain on designs that were left out</h3>
-      {row("base model", gain.held_out_error_before, "before")}
-      {row("extended", gain.held_out_error_after, "after")}
+      {row("base model", before, "before")}
+      {row("extended", after, "after")}
       {gain.relative_reduction !== undefined && (
         <p class="quiet">
           {percent(Math.abs(gain.relative_reduction))} {gain.relative_reduction < 0 ? "more" : "less"} error

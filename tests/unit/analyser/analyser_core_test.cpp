@@ -406,6 +406,14 @@ TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   EXPECT_TRUE(analyser.core.status().finished);
 }
 
+TEST(Analyser, AScenarioMayNameNoNumericsFloor) {
+  game::Scenario scenario;
+  scenario.numerics_floor_file = "";
+  EXPECT_NO_THROW(make_core(scenario));
+  scenario.numerics_floor_file = "no/such/file.toml";
+  EXPECT_THROW(make_core(scenario), InputError);
+}
+
 TEST(Analyser, LateMessagesAfterTheLastRoundReachTheReport) {
   Watched analyser;
   analyser.hear("PARAMETERS", model_of(0));

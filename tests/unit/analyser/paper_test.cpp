@@ -105,6 +105,23 @@ TEST(Paper, TheThesisErrorsComeOutOfItsAppendixAsItsTableSays) {
   EXPECT_TRUE(table.is_thesis.back());
 }
 
+TEST(Paper, ErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
+  const auto figure = [](const PaperSource& run, const std::string& property) {
+    const auto all = exhibits_of(run);
+    for (const PaperFigure& each : exhibit(all, "figure-3-7").figures)
+      if (each.name == "figure-3-7-" + property) return each.svg;
+    return std::string();
+  };
+  PaperSource run = source();
+  for (auto& [number, round] : run.run.rounds) round.summary->held_out.modulus_count = 0;
+  EXPECT_THAT(figure(run, "modulus"), Not(HasSubstr("held out")));
+  EXPECT_THAT(figure(run, "toughness"), HasSubstr("held out"));
+  for (auto& [number, round] : run.run.rounds)
+    round.summary->before.toughness_count = round.summary->after.toughness_count =
+        round.summary->held_out.toughness_count = 0;
+  EXPECT_EQ(figure(run, "toughness"), "");
+}
+
 TEST(Paper, TheThesisHypervolumesComeOutOfItsAppendix) {
   const auto all = exhibits_of(source());
   const PaperTable& table = exhibit(all, "figure-3-3").tables.front();

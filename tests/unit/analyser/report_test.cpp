@@ -128,6 +128,12 @@ TEST(Report, ErrorsStandBesideTheThesisFigures) {
   }
 }
 
+// Errors of logarithms, printed raw, are other numbers than the summary's.
+TEST(Report, HeldOutErrorsOfADiagnosisAreSaidByItsSummaryAlone) {
+  const std::string diagnosis = section_of(render_report(sample::run(), "r"), "diagnosis");
+  EXPECT_THAT(diagnosis, AllOf(Not(HasSubstr("8.3 %")), Not(HasSubstr("3.4 %"))));
+}
+
 TEST(Report, InvalidSpecimensAreShownButCountNowhere) {
   store::RunRecord run = sample::run(1);
   measurement::SpecimenRecord& record = run.specimens.front().record;

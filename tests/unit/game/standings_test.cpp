@@ -97,16 +97,17 @@ TEST(Standings, CalliperReadingsDoNotTearReplicatesApart) {
   EXPECT_EQ(set.front().modulus_count, 2);
 }
 
-TEST(Standings, HeldOutErrorsCompareWhatWasPredictedWithWhatWasMeasured) {
+TEST(Standings, ForetoldDesignsAreMeasuredOnesWithTheirPredictions) {
   const pattern::Design predicted_design = pattern::Pattern(7);
   const auto set = calibration_set({modulus("a", predicted_design, 1e9), modulus("b", pattern::Pattern(9), 1e9)});
   std::map<std::string, sysid::Prediction> predictions;
   predictions[predicted_design.name()].modulus_pa = 1.2e9;
   predictions["never measured"].modulus_pa = 5e9;
-  const auto errors = held_out_errors(set, predictions);
-  EXPECT_EQ(errors.modulus_count, 1);
-  EXPECT_NEAR(errors.modulus_mean, 0.2, 1e-12);
-  EXPECT_EQ(errors.toughness_count, 0);
+  const Foretold foretold = foretold_among(set, predictions);
+  ASSERT_EQ(foretold.measured.size(), 1u);
+  ASSERT_EQ(foretold.predicted.size(), 1u);
+  EXPECT_EQ(foretold.measured.front().design, predicted_design);
+  EXPECT_EQ(foretold.predicted.front().modulus_pa, 1.2e9);
 }
 
 }  // namespace

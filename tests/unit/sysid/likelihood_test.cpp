@@ -99,6 +99,15 @@ TEST(NumericsFloor, IsReadFromTheTableOfItsFidelity) {
   EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
 }
 
+TEST(NumericsFloor, NoneLeavesNothingOfAnyQuantity) {
+  const NumericsFloor none = NumericsFloor::none();
+  for (const double sd : {none.log_modulus_sd, none.log_toughness_sd, none.log_peak_sd, none.log_modulus_common_sd,
+                          none.log_toughness_common_sd, none.log_peak_common_sd, none.log_modulus_trend_sd,
+                          none.log_toughness_trend_sd, none.log_peak_trend_sd})
+    EXPECT_EQ(sd, 0.0);
+  EXPECT_EQ(none.log_eta_sd, material::ToughnessVector{});
+}
+
 /// One parameter acts (the failure energy of the interface), equally on all designs; the others do nothing.
 struct OneSlope {
   FitData data;

@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "base/random.hpp"
+#include "sysid/emulator.hpp"
+#include "sysid/fit.hpp"
+
 namespace nacre::sysid {
 namespace {
 
@@ -42,6 +46,80 @@ TEST(ParameterDeviations, ASharedErrorFallsOnTheParameterThatLooksLikeIt) {
   const auto deviations = parameter_deviations(jacobian, residuals, weights, 1e-3, 0.05 * trend);
   EXPECT_NEAR(deviations[1], 0.05, 1e-3);
   EXPECT_LT(deviations[0], 1e-3);
+}
+
+TEST(ParameterDeviations, RowsWithoutWeightCountNowhere) {
+  Eigen::VectorXd residuals = Eigen::VectorXd::Zero(16), weights = residuals;
+  for (int i = 0; i < 8; ++i) residuals[i] = i % 2 == 0 ? 0.1 : -0.1;
+  weights.head(8).setOnes();
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Ones(16, 1);
+  const double expected = parameter_deviations(jacobian.topRows(8), residuals.head(8), weights.head(8), 0.01).front();
+  EXPECT_DOUBLE_EQ(parameter_deviations(jacobian, residuals, weights, 0.01).front(), expected);
+  EXPECT_EQ(parameter_deviations(jacobian, residuals, Eigen::VectorXd::Zero(16), 0.01).front(), kUnknownDeviation);
+}
+
+// Log E of each design is linear in all six coordinates, and off by a twentieth that none of them explains.
+std::vector<Prediction> linear_moduli(const Point& point, int designs, int failing) {
+  std::vector<Prediction> predictions(static_cast<std::size_t>(designs + failing));
+  for (int i = 0; i < designs; ++i) {
+    RandomStream random(static_cast<std::uint64_t>(i), "design");
+    double log_modulus = 0.05 * random.normal();
+    for (const double x : point) log_modulus += random.normal() * (x - 0.5);
+    predictions[static_cast<std::size_t>(i)].modulus_pa = 1e9 * std::exp(log_modulus);
+  }
+  return predictions;
+}
+
+std::vector<CoordinateInterval> modulus_intervals(int designs, int failing) {
+  measurement::Replicates design;
+  design.modulus_count = 1;
+  design.modulus_pa = 1e9;
+  const std::size_t count = static_cast<std::size_t>(designs + failing);
+  const auto fit = make_modulus_fit({.measured = std::vector(count, design), .weights = std::vector(count, 1.0)},
+                                    {.start = Point(6, 0.5), .budget = 60, .floor = NumericsFloor::none()});
+  for (std::vector<Point> points = fit->ask(); !points.empty(); points = fit->ask()) {
+    std::vector<std::vector<Prediction>> told;
+    for (const Point& point : points) told.push_back(linear_moduli(point, designs, failing));
+    fit->tell(std::move(told));
+  }
+  return fit->intervals();
+}
+
+TEST(LeastSquaresFit, DesignsWhoseSimulationFailsNarrowNoInterval) {
+  const auto alone = modulus_intervals(12, 0), with_failures = modulus_intervals(12, 20);
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_LT(alone[j].deviation, 0.5 * kUnknownDeviation) << j;
+    EXPECT_NEAR(with_failures[j].deviation, alone[j].deviation, 0.05 * alone[j].deviation) << j;
+  }
+}
+
+TEST(ToughnessDeviations, ASetWithoutCurvesHasARowForEachDesign) {
+  constexpr int kDesigns = 12;
+  FitData data{.measured = {}, .weights = std::vector<double>(kDesigns, 1.0)};
+  Trial trial{.point = Point(kEtaCount, 0.5), .predictions = {}};
+  Eigen::VectorXd residuals(kDesigns);
+  for (int i = 0; i < kDesigns; ++i) {
+    measurement::Replicates design;
+    design.toughness_count = 1;
+    design.toughness_pa = 2e5;
+    residuals[i] = i % 2 == 0 ? 0.2 : -0.2;
+    data.measured.push_back(design);
+    trial.predictions.push_back({.modulus_pa = {}, .toughness_pa = 2e5 * std::exp(residuals[i]), .curve = {}});
+  }
+  std::vector<Trial> trials = {trial, trial};
+  trials[1].point[kW0] = 0.6;
+  const std::vector<double> spans(kEtaCount, 2.0);
+  FeatureEmulator emulator(spans, kDesigns);
+  emulator.learn(trials, 0);
+  const Eigen::MatrixXd slopes = feature_slopes(emulator, trial.point, kDesigns, /*poisson_searched=*/false);
+  // Seven coordinates are searched, Poisson's ratios are not.
+  const double deviation = 0.2 * std::sqrt(kDesigns / (kDesigns - 7.0));
+  Eigen::MatrixXd information = slopes.topRows(kDesigns).transpose() * slopes.topRows(kDesigns) / deviation / deviation;
+  information.diagonal().array() += 12.0;
+  const Eigen::MatrixXd covariance = information.inverse();
+  const auto deviations = toughness_deviations(data, trials, 0, spans, false, NumericsFloor::none());
+  for (int j = 0; j < kEtaCount; ++j)
+    EXPECT_NEAR(deviations[static_cast<std::size_t>(j)], std::sqrt(covariance(j, j)), 1e-9) << j;
 }
 
 }  // namespace

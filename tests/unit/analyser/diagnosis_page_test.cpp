@@ -1,0 +1,59 @@
+#include "analyser/diagnosis_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace nacre::analyser {
+namespace {
+
+using diagnosis::Diagnosis;
+using diagnosis::Feature;
+using diagnosis::Gain;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+Diagnosis named_with(const Gain& gain) {
+  Diagnosis d;
+  d.verdict = diagnosis::Verdict::named;
+  d.effects = {{"machine_compliance", "measurement", 2e-10, 1e-10, 3e-10, "1/Pa"}};
+  d.gain = gain;
+  return d;
+}
+
+std::string gain_section(const Gain& gain) {
+  const std::string page = render_diagnosis_page(named_with(gain), "a-set", tester::Fidelity::full);
+  const auto begin = page.find("<section id=\"gain\">");
+  return begin == std::string::npos ? "" : page.substr(begin, page.find("</section>", begin) - begin);
+}
+
+TEST(DiagnosisPage, AnErrorThatGrowsIsNotCalledAGain) {
+  EXPECT_THAT(gain_section({0.03, 0.05, -0.67, -0.9, -0.4, {}}), AllOf(HasSubstr("grows"), Not(HasSubstr("falls"))));
+  EXPECT_THAT(gain_section({0.03, 0.028, 0.07, -0.2, 0.3, {}}),
+              AllOf(HasSubstr("not established"), Not(HasSubstr("falls"))));
+  EXPECT_THAT(gain_section({0.05, 0.03, 0.4, 0.2, 0.6, {}}), HasSubstr("falls"));
+}
+
+TEST(DiagnosisPage, GainIsTheSentenceOfTheSummary) {
+  const Gain gain{0.2, 0.1, 0.5, 0.3, 0.7, {}};
+  EXPECT_THAT(gain_section(gain), HasSubstr(gain_in_words(gain)));
+  // e^0.2 - 1 and e^0.1 - 1: errors are of logarithms.
+  EXPECT_THAT(gain_section(gain), HasSubstr("from 22.1 to 10.5 %"));
+}
+
+TEST(DiagnosisPage, EveryFeatureHasItsOwnUnit) {
+  const std::string gain = gain_section({0.2,
+                                         0.1,
+                                         0.5,
+                                         0.3,
+                                         0.7,
+                                         {{Feature::log_peak, 0.2, 0.1, 0.05},
+                                          {Feature::toe_strain, 0.004, 0.002, 0.001},
+                                          {Feature::knee, 0.2, 0.1, 0.05}}});
+  EXPECT_THAT(gain, HasSubstr("<td>%</td><td>22.1</td><td>10.5</td><td>5.13</td>"));
+  EXPECT_THAT(gain, HasSubstr("<td>% strain</td><td>0.400</td><td>0.200</td><td>0.100</td>"));
+  EXPECT_THAT(gain, HasSubstr("<td>x 100</td><td>20.0</td><td>10.0</td><td>5.00</td>"));
+}
+
+}  // namespace
+}  // namespace nacre::analyser
