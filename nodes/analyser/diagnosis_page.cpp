@@ -10,6 +10,7 @@
 #include "analyser/report_style.hpp"
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
+#include "diagnosis/candidates.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 
@@ -138,17 +139,19 @@ std::string rivals_section(const Diagnosis& d) {
          c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", spaced(c.nearest_rival), figure(c.rival_cosine)),
          acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
   }
-  return section(
-      "rivals", "What else could explain it",
-      table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "most like (cosine)",
-                        "drop of χ²", "chance"}),
-            rows, "words") +
-          paragraph(
-              "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found; below "
-              "3.8 it cannot be told from nothing. Hidden by the base: share of its traces that other constants of the "
-              "materials imitate. Cosine 1: two causes look alike on these specimens. Chance: how often the best of "
-              "all causes would look as good by accident.",
-              "quiet"));
+  return section("rivals", "What else could explain it",
+                 table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "most like (cosine)",
+                                   "drop of χ²", "chance"}),
+                       rows, "words") +
+                     paragraph(fmt::format("Signal / noise: of the cause at its fitted size, or at a typical size "
+                                           "where nothing was found; below "
+                                           "{:.1f} it cannot be told from nothing. ",
+                                           diagnosis::kVisibleSignal) +
+                                   "Hidden by the base: share of its traces that other constants of the "
+                                   "materials imitate. Cosine 1: two causes look alike on these specimens. Chance: how "
+                                   "often the best of "
+                                   "all causes would look as good by accident.",
+                               "quiet"));
 }
 
 std::string gain_section(const Diagnosis& d) {
