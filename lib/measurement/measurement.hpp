@@ -34,7 +34,7 @@ struct SpecimenRecord {
 /// A row that could not be used.
 struct RejectedRow {
   int line = 0;
-  std::string column;
+  std::string column;  ///< empty when it is the row as a whole
   std::string reason;  ///< a sentence with what was expected
 };
 

@@ -65,15 +65,11 @@ void print_delivery(const Delivery& delivery, bool json) {
                delivery.repeated, delivery.conflicting.size(), delivery.unanswered, delivery.rejected.size());
     return;
   }
-  nlohmann::ordered_json rejected = nlohmann::ordered_json::array();
-  for (const auto& row : delivery.rejected) {
-    rejected.push_back({{"line", row.line}, {"column", row.column}, {"reason", row.reason}});
-  }
   print_json({{"accepted", delivery.accepted},
               {"repeated", delivery.repeated},
               {"conflicting", delivery.conflicting},
               {"unanswered", delivery.unanswered},
-              {"rejected", rejected}});
+              {"rejected", rejected_json(delivery.rejected)}});
 }
 
 /// Sends what the validation agent does not contradict, and waits for its answers.

@@ -63,8 +63,7 @@ int judge_in_run(const Options& options, const Judgement& judgement) {
 
 measurement::MeasurementSet read_set(const std::string& folder) {
   measurement::MeasurementSet set = measurement::read_measurement_set(folder);
-  for (const auto& row : set.rejected)
-    warn(fmt::format("{}: line {}, {}: {}", folder, row.line, row.column, row.reason));
+  for (const auto& row : set.rejected) warn_about(row, folder);
   return set;
 }
 
