@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "measurement/limits.hpp"
 #include "pattern/design.hpp"
 #include "tester/curve.hpp"
 #include "tester/tester.hpp"
@@ -40,6 +41,7 @@ struct RejectedRow {
 
 struct MeasurementSet {
   std::vector<SpecimenRecord> specimens;  ///< in the order of the file
+  std::vector<int> lines;                 ///< of each specimen in the table
   std::vector<RejectedRow> rejected;
   std::vector<std::string> warnings;
 };
@@ -73,6 +75,10 @@ std::optional<double> modulus_of(const SpecimenRecord& specimen);
 
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
 std::optional<double> toughness_of(const SpecimenRecord& specimen);
+
+/// The modulus or toughness that the specimen's test measured, or that is given for it, where it lies outside
+/// kModulusPa or kToughnessPa: its column and why no game can use it. Line 0.
+std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen);
 
 /// Where a specimen stands among the others of its set, for the effects that go with it.
 struct PrintContext {

@@ -6,6 +6,8 @@
 #include <span>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "base/statistics.hpp"
 #include "measurement/measurement.hpp"
 
@@ -86,6 +88,20 @@ std::optional<double> toughness_of(const SpecimenRecord& specimen) {
   if (specimen.toughness_pa) return specimen.toughness_pa;
   if (specimen.curve.empty()) return std::nullopt;
   return tester::area_under(specimen.curve);
+}
+
+std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
+  const auto reason = [](double value, const Limits& usual) {
+    return fmt::format("{} Pa, expected {} to {}; is the unit Pa?", value, usual.least, usual.most);
+  };
+  const std::optional<double> modulus_pa = modulus_of(specimen);
+  if (modulus_pa && !kModulusPa.hold(*modulus_pa)) return RejectedRow{0, "modulus_pa", reason(*modulus_pa, kModulusPa)};
+  // The area under the curve of another test is no toughness.
+  const bool is_notched = specimen.test == tester::TestKind::toughness;
+  const std::optional<double> toughness_pa = is_notched ? toughness_of(specimen) : specimen.toughness_pa;
+  if (toughness_pa && !kToughnessPa.hold(*toughness_pa))
+    return RejectedRow{0, "toughness_pa", reason(*toughness_pa, kToughnessPa)};
+  return std::nullopt;
 }
 
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {

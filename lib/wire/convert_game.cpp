@@ -10,14 +10,17 @@
 namespace nacre::wire {
 namespace {
 
-constexpr double kLargestArea = 1e9;  // GPa MPa
+// Nothing that is measured within measurement::kModulusPa and kToughnessPa exceeds these: an agent whose own message is
+// refused cannot go on. GPa MPa; and the most that a tester may answer, over the least that a specimen may have.
+constexpr double kLargestArea = 1e13;
+constexpr double kLargestError = kLargestPressurePa / measurement::kToughnessPa.least;
 
 Result<void> expect_area(std::string_view member, double area) { return expect_range(member, area, 0.0, kLargestArea); }
 
 /// Rank correlation and errors of a comparison of `count` designs.
 Result<void> expect_errors(std::string_view member, int count, double mean, double maximum) {
-  return all_of(expect_range(member, count, 0, kLargestCount), expect_range(member, mean, 0.0, 1e9),
-                expect_range(member, maximum, 0.0, 1e9));
+  return all_of(expect_range(member, count, 0, kLargestCount), expect_range(member, mean, 0.0, kLargestError),
+                expect_range(member, maximum, 0.0, kLargestError));
 }
 
 Result<std::vector<explore::Evaluated>> samples_of(const gamut_t& message) {
@@ -247,6 +250,10 @@ Result<Measurement> from_wire(const measurement_t& message) {
   if (message.has_toughness) record.toughness_pa = message.toughness_pa;
   if (record.valid && !record.modulus_pa && !record.toughness_pa && record.curve.empty()) {
     return fail("{}: specimen {} is valid and carries no result", type, message.specimen);
+  }
+  const auto implausible = record.valid ? measurement::implausible_value(record) : std::nullopt;
+  if (implausible) {
+    return fail("{}: specimen {}: {} {}", type, message.specimen, implausible->column, implausible->reason);
   }
   return Measurement{message.round, message.order_id, *fidelity, std::move(record)};
 }

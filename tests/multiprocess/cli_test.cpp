@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program_test.hpp"
+#include "runtime/run_folder.hpp"
 
 namespace nacre {
 namespace {
@@ -279,6 +280,42 @@ TEST_F(CommandLine, MeasurementSetsThatCannotBeUsedAreRefusedWithTheirPlace) {
   file("nocurve/measurements.csv", head + "a,577fffe9fffdef,toughness,,,curves/nowhere.csv\n");
   expect_refused(calibrate("nocurve"), {"nowhere.csv"});
   expect_refused(calibrate("nofolder"), {"nofolder"});
+}
+
+TEST_F(CommandLine, RowsThatCannotBeUsedAreListedWithTheirLine) {
+  file("set/measurements.csv",
+       "specimen,pattern,test,modulus_pa\na,577fffe9fffdef,modulus,1.4e9\n"
+       "b,577fffe9fffdef,modulus,x\nc,577fffe9fffdef,modulus,1e9,surplus\n");
+  const Outcome outcome = run_nacre({"calibrate", path("set"), "--fidelity", "tiny", "--modulus-budget", "2",
+                                     "--budget", "0", "--out", path("p.toml"), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto rejected = nlohmann::json::parse(outcome.out).at("rejected");
+  ASSERT_EQ(rejected.size(), 2U);
+  EXPECT_EQ(rejected[0]["line"], 3);
+  EXPECT_EQ(rejected[0]["column"], "modulus_pa");
+  EXPECT_THAT(rejected[0]["reason"].get<std::string>(), HasSubstr("expected"));
+  EXPECT_THAT(outcome.err, HasSubstr(path("set/measurements.csv:3: column modulus_pa: ")));
+  EXPECT_THAT(outcome.err, HasSubstr(path("set/measurements.csv:4: has 5 cells")));
+}
+
+TEST_F(CommandLine, InjectKeepsBackAModulusInAnotherUnitAndSendsTheRest) {
+  auto run = runtime::RunFolder::create(folder_ / "logs", "unheard", game::Scenario{});
+  run.set_port(runtime::PortReservation(0).port());
+  const std::string head = "specimen,pattern,test,modulus_pa\n";
+  file("set/measurements.csv", head + "a,rigid,modulus,0.4\nb,rigid,modulus,2e9\n");
+  const std::vector<std::string> command = {"inject",      path("set"), "--run", run.path().string(),
+                                            "--timeout-s", "0.2",       "--json"};
+  const Outcome outcome = run_nacre(command);
+  EXPECT_EQ(outcome.status, 1) << "nobody is there to take the good one" << outcome.err;
+  const auto delivery = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(delivery["unanswered"], 1);
+  ASSERT_EQ(delivery["rejected"].size(), 1U);
+  EXPECT_EQ(delivery["rejected"][0]["line"], 2);
+  EXPECT_EQ(delivery["rejected"][0]["column"], "modulus_pa");
+  EXPECT_THAT(delivery["rejected"][0]["reason"].get<std::string>(), HasSubstr("is the unit Pa?"));
+  EXPECT_THAT(outcome.err, HasSubstr("measurements.csv:2: column modulus_pa: 0.4 Pa"));
+  file("set/measurements.csv", head + "a,rigid,modulus,0.4\n");
+  expect_refused(run_nacre(command), {"none of its 1 specimens can be sent"});
 }
 
 TEST_F(CommandLine, CommandsThatNeedARunSayWhatIsMissing) {
