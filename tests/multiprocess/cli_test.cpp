@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "program_test.hpp"
@@ -166,6 +167,36 @@ TEST_F(CommandLine, ExploreAndSelectWorkHandInHand) {
   EXPECT_EQ(document.size(), 3U);
   for (const char* field : {"key", "modulus_pa", "toughness_pa", "reason", "bin"})
     EXPECT_TRUE(document[0].contains(field));
+}
+
+/// A measurement set in which the homogeneous line has its middle at this name.
+std::string homogeneous_line(const std::string& middle) {
+  std::string table = "specimen,pattern,test,orientation_deg,modulus_pa,toughness_pa\n";
+  const auto add = [&](const std::string& design, int orientation_deg, double modulus_pa, double toughness_pa) {
+    const std::string name = fmt::format("{}-{}", design, orientation_deg);
+    table += fmt::format("{}-E,{},modulus,{},{},\n", name, design, orientation_deg, modulus_pa);
+    table += fmt::format("{}-T,{},toughness,{},,{}\n", name, design, orientation_deg, toughness_pa);
+  };
+  add("rigid", 0, 2e9, 1e5);
+  add(middle, 0, 1.2e9, 4e5);
+  add("soft", 0, 1e6, 6e5);
+  add("mix:0.7", 90, 9e9, 9e6);  // turned: no competitor of upright designs
+  return table;
+}
+
+TEST_F(CommandLine, SelectDrawsTheHomogeneousLineByRigidFraction) {
+  const std::string gamut = file("gamut.csv",
+                                 "index,pattern,rigid_fraction,modulus_pa,toughness_pa\n"
+                                 "0,577fffe9fffdef,0.8,1.1e9,5e5\n1,3ffc9b4ad4d2d9,0.6,1.5e9,3.5e5\n"
+                                 "2,39647e81c943cf,0.5,1.6e9,3e5\n3,13c4e17fb6f8fd,0.5,8e8,4.3e5\n");
+  const auto selected = [&](const std::string& middle) {
+    file(middle + "/measurements.csv", homogeneous_line(middle));
+    return run_nacre({"select", gamut, "--measured", path(middle), "--count", "4", "--json"});
+  };
+  const Outcome interface = selected("mix:0.5"), beside = selected("mix:0.5001");  // their names sort elsewhere
+  ASSERT_EQ(interface.status, 0) << interface.err;
+  EXPECT_EQ(interface.out, beside.out);
+  EXPECT_EQ(nlohmann::json::parse(interface.out).size(), 3U) << "the last one lies below middle and soft";
 }
 
 TEST_F(CommandLine, SelectRefusesBrokenGamuts) {
