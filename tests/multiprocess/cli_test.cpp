@@ -371,6 +371,16 @@ TEST_F(CommandLine, DoctorNamesEveryCheckWithAVerdict) {
   EXPECT_THAT(nowhere.out, HasSubstr("mkdir -p"));
 }
 
+TEST_F(CommandLine, DoctorAndDashboardTakeARunAsTheOthersDo) {
+  for (const char* command : {"doctor", "dashboard"})
+    expect_refused(run_nacre({command, "--run", path("norun")}), {"norun", "manifest.json"});
+  const auto run = runtime::RunFolder::create(folder_ / "logs", "played", game::Scenario{});
+  std::ofstream(run.path() / "run.db") << twenty("this is no database");
+  const Outcome outcome = run_nacre({"doctor", "--run", run.path().string(), "--json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("nacre rebuild --run " + fs::canonical(run.path()).string()));
+}
+
 TEST_F(CommandLine, DoctorFindsADatabaseThatIsNone) {
   file("simulations.db", twenty("this is no database"));
   const Outcome outcome = run_nacre({"doctor", "--logs", folder_.string(), "--json"});
