@@ -69,8 +69,8 @@ struct Replicates {
 /// by design name, then conditions, so that the order of arrival never matters. `tensile` coupons are not included.
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens);
 
-/// Modulus of a specimen of a modulus test: the given value, else the least-squares slope of its curve between 0.05 and
-/// 0.25 % strain (the interval of ISO 527); nothing when it has neither or fewer than three points lie there.
+/// Modulus of a modulus test's specimen: the given value, else the slope of its curve between 0.05 and 0.25 % strain,
+/// by least squares, or of the chord where fewer than three points lie there (docs/FORMATS.md); else nothing.
 std::optional<double> modulus_of(const SpecimenRecord& specimen);
 
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
