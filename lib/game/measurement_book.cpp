@@ -22,7 +22,9 @@ bool MeasurementBook::review(const std::string& specimen, const Review& review) 
 
 bool MeasurementBook::valid(const Reported& reported) const {
   const auto review = reviews_.find(reported.record.specimen);
-  return review == reviews_.end() ? reported.record.valid : review->second.valid;
+  if (review == reviews_.end()) return reported.record.valid;
+  // A person may bring a specimen back, but not a number of another unit.
+  return review->second.valid && !measurement::implausible_value(reported.record);
 }
 
 std::vector<measurement::SpecimenRecord> MeasurementBook::specimens() const {

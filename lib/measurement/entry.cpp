@@ -39,7 +39,11 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
   heading.position[kCurve] = row.cells.size();
   row.cells.push_back({curve_csv.empty() ? "" : kCurveName, 1, 1});
   heading.cell_count = row.cells.size();
-  return parse_row({}, heading, row, false, [&](const std::string& name) { return curve_from_csv(curve_csv, name); });
+  auto record =
+      parse_row({}, heading, row, false, [&](const std::string& name) { return curve_from_csv(curve_csv, name); });
+  if (!record || !record->valid) return record;
+  if (const auto implausible = implausible_value(*record)) return tl::unexpected(*implausible);
+  return record;
 }
 
 }  // namespace nacre::measurement

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "measurement/limits.hpp"
 #include "pattern/design.hpp"
 #include "tester/curve.hpp"
 #include "tester/tester.hpp"
@@ -34,12 +35,13 @@ struct SpecimenRecord {
 /// A row that could not be used.
 struct RejectedRow {
   int line = 0;
-  std::string column;
+  std::string column;  ///< empty when it is the row as a whole
   std::string reason;  ///< a sentence with what was expected
 };
 
 struct MeasurementSet {
   std::vector<SpecimenRecord> specimens;  ///< in the order of the file
+  std::vector<int> lines;                 ///< of each specimen in the table
   std::vector<RejectedRow> rejected;
   std::vector<std::string> warnings;
 };
@@ -67,12 +69,16 @@ struct Replicates {
 /// by design name, then conditions, so that the order of arrival never matters. `tensile` coupons are not included.
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens);
 
-/// Modulus of a specimen of a modulus test: the given value, else the least-squares slope of its curve between 0.05 and
-/// 0.25 % strain (the interval of ISO 527); nothing when it has neither or fewer than three points lie there.
+/// Modulus of a modulus test's specimen: the given value, else the slope of its curve between 0.05 and 0.25 % strain,
+/// by least squares, or of the chord where fewer than three points lie there (docs/FORMATS.md); else nothing.
 std::optional<double> modulus_of(const SpecimenRecord& specimen);
 
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
 std::optional<double> toughness_of(const SpecimenRecord& specimen);
+
+/// The modulus or toughness that the specimen's test measured, or that is given for it, where it lies outside
+/// kModulusPa or kToughnessPa: its column and why no game can use it. Line 0.
+std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen);
 
 /// Where a specimen stands among the others of its set, for the effects that go with it.
 struct PrintContext {

@@ -69,7 +69,7 @@ void require_columns(const Heading& heading, const std::string& table, int line,
 
 /// Doubts about a usable row, each as a sentence that begins with its place.
 void collect_warnings(const SpecimenRecord& record, const std::string& place, std::vector<std::string>& warnings) {
-  constexpr double kAreaTolerance = 0.02, kLeastPlausiblePa = 1e4, kMostPlausiblePa = 1e11;
+  constexpr double kAreaTolerance = 0.02, kMostUsualPa = 1e11;
   const bool notched = record.test == tester::TestKind::toughness;
   if (notched && record.toughness_pa && !record.curve.empty()) {
     const double area = tester::area_under(record.curve);
@@ -87,7 +87,9 @@ void collect_warnings(const SpecimenRecord& record, const std::string& place, st
   if (record.modulus_pa && record.test != tester::TestKind::modulus) warn_ignored("modulus_pa");
   if (record.toughness_pa && !notched) warn_ignored("toughness_pa");
   const std::optional<double> modulus = modulus_of(record);
-  if (modulus && (*modulus < kLeastPlausiblePa || *modulus > kMostPlausiblePa)) {
+  if (const auto doubt = implausible_value(record)) {
+    warnings.push_back(fmt::format("{}: column {}: {}", place, doubt->column, doubt->reason));
+  } else if (modulus && *modulus > kMostUsualPa) {
     warnings.push_back(
         fmt::format("{}: column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", place, *modulus));
   }
@@ -133,6 +135,7 @@ class SetBuilder {
     if (is_new) {
       point_count_ += record->curve.size();
       set_.specimens.push_back(*record);
+      set_.lines.push_back(row.line);
       collect_warnings(*record, place, set_.warnings);
     } else if (set_.specimens[index] == *record) {
       set_.warnings.push_back(

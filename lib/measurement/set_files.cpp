@@ -8,6 +8,7 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "measurement/limits.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -85,6 +86,11 @@ Result<tester::Curve> curve_from_csv(std::string_view text, const std::string& s
     }
     const Result<double> stress = number_at(row, columns->stress, "stress_pa", shown_name);
     if (!stress) return tl::unexpected(stress.error());
+    const bool is_usual = kStrain.hold(*strain) && kStressPa.hold(*stress);
+    if (!is_usual) {
+      return fail("{}:{}: {} Pa at strain {}, expected at most {} Pa and a strain of at most {}", shown_name, row.line,
+                  *stress, *strain, kStressPa.most, kStrain.most);
+    }
     curve.strain.push_back(*strain);
     curve.stress_pa.push_back(*stress);
   }

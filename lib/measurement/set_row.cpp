@@ -21,13 +21,16 @@ class RowParser {
     SpecimenRecord record;
     record.specimen = text(kSpecimen);
     if (record.specimen.empty()) reject(kSpecimen, "is empty, expected a unique name");
+    if (record.specimen.size() > kLongestName)
+      reject(kSpecimen,
+             fmt::format("has {} bytes, expected a name of at most {}", record.specimen.size(), kLongestName));
     record.test = test_kind();
     record.design = design();
     record.conditions = conditions();
     record.batch = text(kBatch);
     record.print_order = print_order();
-    record.modulus_pa = positive_number(kModulus, "a modulus in Pa");
-    record.toughness_pa = positive_number(kToughness, "a toughness in Pa (J/m3)");
+    record.modulus_pa = positive_number(kModulus, "a modulus in Pa", {0.0, kModulusPa.most});
+    record.toughness_pa = positive_number(kToughness, "a toughness in Pa (J/m3)", {0.0, kToughnessPa.most});
     record.valid = validity();
     record.note = text(kNote);
     record.curve = curve();
@@ -78,7 +81,7 @@ class RowParser {
     return position < row_.cells.size() ? std::string(trimmed(row_.cells[position].text)) : "";
   }
 
-  std::optional<double> positive_number(Column column, const char* expected) {
+  std::optional<double> positive_number(Column column, const char* expected, const Limits& limits) {
     const std::string cell = text(column);
     if (cell.empty()) return std::nullopt;
     const Result<double> value = number_from_text(cell);
@@ -86,6 +89,8 @@ class RowParser {
       reject(column, value.error().message);
     } else if (*value <= 0.0) {
       reject(column, fmt::format("{} is not positive, expected {}", *value, expected));
+    } else if (!limits.hold(*value)) {
+      reject(column, fmt::format("{}, expected {} from {} to {}", *value, expected, limits.least, limits.most));
     } else {
       return *value;
     }
@@ -107,8 +112,10 @@ class RowParser {
     } else {
       result.orientation_deg = *degrees;
     }
-    result.strain_rate_per_s = positive_number(kStrainRate, "a strain rate in 1/s").value_or(result.strain_rate_per_s);
-    result.thickness_mm = positive_number(kThickness, "a thickness in mm").value_or(result.thickness_mm);
+    const auto rate_per_s = positive_number(kStrainRate, "a strain rate in 1/s", kStrainRatePerS);
+    const auto thickness_mm = positive_number(kThickness, "a thickness in mm", kThicknessMm);
+    result.strain_rate_per_s = rate_per_s.value_or(result.strain_rate_per_s);
+    result.thickness_mm = thickness_mm.value_or(result.thickness_mm);
     return result;
   }
 
@@ -116,7 +123,11 @@ class RowParser {
     const std::string cell = text(kPrintOrder);
     if (cell.empty()) return 0;
     const Result<int> order = integer_from_text(cell);
-    if (!order) reject(kPrintOrder, order.error().message);
+    if (!order) {
+      reject(kPrintOrder, order.error().message);
+    } else if (*order < 1) {
+      reject(kPrintOrder, fmt::format("{}, expected an integer from 1, or nothing where it is unknown", *order));
+    }
     return order.value_or(0);
   }
 
@@ -182,7 +193,7 @@ class RowParser {
   void check_consistency(const SpecimenRecord& record) {
     if (fault_ || planned_) return;
     if (record.test == tester::TestKind::modulus && !modulus_of(record)) {
-      reject(kModulus, "no modulus, expected modulus_pa, or a curve that rises between 0.05 and 0.25 % strain");
+      reject(kModulus, "no modulus, expected modulus_pa, or a curve from below 0.05 % strain that rises to 0.25 %");
     }
     if (record.test == tester::TestKind::toughness && !record.toughness_pa) {
       if (record.curve.empty()) reject(kToughness, "no toughness, expected toughness_pa or a curve");

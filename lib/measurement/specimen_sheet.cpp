@@ -141,12 +141,17 @@ class SheetReader {
     row.file = text("file");
     row.record.specimen = text("specimen");
     if (row.record.specimen.empty()) reject("specimen", "is empty, expected a unique name");
+    if (row.record.specimen.size() > kLongestName)
+      reject("specimen", fmt::format("has {} bytes, expected at most {}", row.record.specimen.size(), kLongestName));
     if (row.file.empty()) reject("file", "is empty, expected the name of the testing machine's export");
     if (!names_.insert(row.record.specimen).second)
       reject("specimen", fmt::format("`{}` stands twice, expected a unique name", row.record.specimen));
     row.record.design = design();
     row.width_mm = length_mm("width_mm");
     row.record.conditions.thickness_mm = length_mm("thickness_mm");
+    if (!kThicknessMm.hold(row.record.conditions.thickness_mm))
+      reject("thickness_mm",
+             fmt::format("`{}`, expected {} to {} mm", text("thickness_mm"), kThicknessMm.least, kThicknessMm.most));
     row.gauge_mm = length_mm("gauge_mm");
     read_optional(row);
     if (fault_) {
@@ -168,12 +173,13 @@ class SheetReader {
     record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);
     if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
       reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
-    if (const auto rate = number("strain_rate_per_s", 1e-9, 1e4, "a strain rate in 1/s")) {
+    if (const auto rate = number("strain_rate_per_s", kStrainRatePerS.least, kStrainRatePerS.most,
+                                 "a strain rate in 1/s, 1e-9 to 1e5")) {
       record.conditions.strain_rate_per_s = *rate;
       row.rate_is_given = true;
     }
     record.batch = text("batch");
-    record.print_order = static_cast<int>(number("print_order", 0, 1e9, "a whole number").value_or(0.0));
+    record.print_order = static_cast<int>(number("print_order", 1, 1e9, "an integer from 1").value_or(0.0));
     const std::string valid = plain_words(text("valid"));
     record.valid = valid != "0" && valid != "false";
     if (!valid.empty() && valid != "1" && valid != "true" && record.valid)

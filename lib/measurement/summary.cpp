@@ -6,6 +6,8 @@
 #include <span>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "base/statistics.hpp"
 #include "measurement/measurement.hpp"
 
@@ -60,15 +62,31 @@ Replicates summarise_group(std::span<const SpecimenRecord* const> specimens) {
   return group;
 }
 
-}  // namespace
+// The interval of ISO 527, and how far the first points of a coarse curve may lie apart: beyond, a chord says more of
+// yielding than of the modulus.
+constexpr double kFirstStrain = 0.0005, kLastStrain = 0.0025, kLongestChord = 0.05;
 
-std::optional<double> modulus_of(const SpecimenRecord& specimen) {
-  if (specimen.modulus_pa) return specimen.modulus_pa;
-  if (specimen.test != tester::TestKind::modulus) return std::nullopt;
-  constexpr double kFirstStrain = 0.0005, kLastStrain = 0.0025;
+/// Slope between stresses interpolated at the two ends of the interval, for curves with few points in it.
+std::optional<double> slope_of_chord(const tester::Curve& curve) {
+  tester::Curve beginning;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (i > 0 && curve.strain[i] <= curve.strain[i - 1]) return std::nullopt;
+    beginning.strain.push_back(curve.strain[i]);
+    beginning.stress_pa.push_back(curve.stress_pa[i]);
+    if (curve.strain[i] >= kLastStrain) break;
+  }
+  const bool covers = !beginning.empty() && beginning.strain.front() <= kFirstStrain &&
+                      beginning.strain.back() >= kLastStrain && beginning.strain.back() <= kLongestChord;
+  if (!covers) return std::nullopt;
+  const double rise_pa = tester::stress_at(beginning, kLastStrain) - tester::stress_at(beginning, kFirstStrain);
+  return rise_pa / (kLastStrain - kFirstStrain);
+}
+
+/// Least-squares slope over the interval's points where there are three, else that of the chord.
+std::optional<double> initial_slope(const tester::Curve& curve) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < specimen.curve.size(); ++i) {
-    const double strain = specimen.curve.strain[i], stress = specimen.curve.stress_pa[i];
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double strain = curve.strain[i], stress = curve.stress_pa[i];
     if (strain < kFirstStrain || strain > kLastStrain) continue;
     n += 1.0;
     x += strain;
@@ -76,16 +94,38 @@ std::optional<double> modulus_of(const SpecimenRecord& specimen) {
     xx += strain * strain;
     xy += strain * stress;
   }
+  if (n < 3.0) return slope_of_chord(curve);
   const double spread = n * xx - x * x;
-  if (n < 3.0 || spread <= 0.0) return std::nullopt;
-  const double slope = (n * xy - x * y) / spread;
-  return slope > 0.0 ? std::optional(slope) : std::nullopt;
+  return spread > 0.0 ? std::optional((n * xy - x * y) / spread) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> modulus_of(const SpecimenRecord& specimen) {
+  if (specimen.modulus_pa) return specimen.modulus_pa;
+  if (specimen.test != tester::TestKind::modulus) return std::nullopt;
+  const std::optional<double> slope = initial_slope(specimen.curve);
+  return slope && *slope > 0.0 ? slope : std::nullopt;
 }
 
 std::optional<double> toughness_of(const SpecimenRecord& specimen) {
   if (specimen.toughness_pa) return specimen.toughness_pa;
   if (specimen.curve.empty()) return std::nullopt;
   return tester::area_under(specimen.curve);
+}
+
+std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
+  const auto reason = [](double value, const Limits& usual) {
+    return fmt::format("{} Pa, expected {} to {}; is the unit Pa?", value, usual.least, usual.most);
+  };
+  const std::optional<double> modulus_pa = modulus_of(specimen);
+  if (modulus_pa && !kModulusPa.hold(*modulus_pa)) return RejectedRow{0, "modulus_pa", reason(*modulus_pa, kModulusPa)};
+  // The area under the curve of another test is no toughness.
+  const bool is_notched = specimen.test == tester::TestKind::toughness;
+  const std::optional<double> toughness_pa = is_notched ? toughness_of(specimen) : specimen.toughness_pa;
+  if (toughness_pa && !kToughnessPa.hold(*toughness_pa))
+    return RejectedRow{0, "toughness_pa", reason(*toughness_pa, kToughnessPa)};
+  return std::nullopt;
 }
 
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {

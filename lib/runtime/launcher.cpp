@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -189,7 +190,7 @@ void Launch::take_message(const Received& received) {
 void Launch::show_output(SupervisedNode& node) {
   for (const std::string& line : node.take_output()) {
     if (&node == recorder_.get() && line.rfind("recording", 0) == 0) recorder_is_ready_ = true;
-    if (!display_.on_terminal()) display_.say(fmt::format("{} | {}", node.name(), line));
+    if (!display_.on_terminal()) std::fprintf(stderr, "%s | %s\n", node.name().c_str(), line.c_str());
   }
 }
 

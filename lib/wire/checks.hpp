@@ -1,10 +1,12 @@
 #pragma once
 // Small checks that the conversions share; each error names the member and what was expected.
 
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
 #include "base/result.hpp"
+#include "measurement/limits.hpp"
 #include "pattern/design.hpp"
 #include "tester/tester.hpp"
 
@@ -15,6 +17,15 @@ inline Result<void> expect_range(std::string_view member, double value, double m
   return fail("{}: {} is outside [{}, {}]", member, value, minimum, maximum);
 }
 
+inline Result<void> expect_range(std::string_view member, double value, const measurement::Limits& limits) {
+  return expect_range(member, value, limits.least, limits.most);
+}
+
+inline Result<void> expect_finite(std::string_view member, double value) {
+  if (std::isfinite(value)) return {};
+  return fail("{}: {} is no number", member, value);
+}
+
 /// An index into `count` things; `count` may be anything that a message holds.
 inline Result<void> expect_index(std::string_view member, int index, int count) {
   if (index >= 0 && index < count) return {};
@@ -23,8 +34,8 @@ inline Result<void> expect_index(std::string_view member, int index, int count) 
 
 /// Moduli, toughnesses and stresses beyond these are no material's; a value out of range is a broken program, not a
 /// finding.
-inline constexpr double kLargestPressurePa = 1e13;
-inline constexpr double kLargestStrain = 100.0;
+inline constexpr double kLargestPressurePa = measurement::kStressPa.most;
+inline constexpr double kLargestStrain = measurement::kStrain.most;
 inline constexpr int kLargestRound = 100'000;
 inline constexpr std::int64_t kLargestCount = 1'000'000'000;
 
@@ -37,8 +48,8 @@ inline Result<void> expect_round(int round, int minimum = 0) {
 }
 
 inline Result<void> expect_name(std::string_view member, std::string_view name) {
-  if (!name.empty() && name.size() <= 200) return {};
-  return fail("{}: a text of 1 to 200 bytes was expected, not {}", member, name.size());
+  if (!name.empty() && name.size() <= measurement::kLongestName) return {};
+  return fail("{}: a text of 1 to {} bytes was expected, not {}", member, measurement::kLongestName, name.size());
 }
 
 inline Result<void> expect_count(std::string_view member, std::size_t count, std::size_t maximum) {

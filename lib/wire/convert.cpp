@@ -98,8 +98,9 @@ Result<tester::TestConditions> from_wire(const test_conditions_t& message) {
   if (message.orientation_deg != 0.0 && message.orientation_deg != 90.0) {
     return fail("conditions: orientation {} degrees, expected 0 or 90", message.orientation_deg);
   }
-  const Result<void> sound = all_of(expect_range("strain_rate_per_s", message.strain_rate_per_s, 1e-9, 1e5),
-                                    expect_range("thickness_mm", message.thickness_mm, 1e-3, 1e3));
+  const Result<void> sound =
+      all_of(expect_range("strain_rate_per_s", message.strain_rate_per_s, measurement::kStrainRatePerS),
+             expect_range("thickness_mm", message.thickness_mm, measurement::kThicknessMm));
   if (!sound) return in_type("conditions", sound.error());
   return tester::TestConditions{message.orientation_deg, message.strain_rate_per_s, message.thickness_mm};
 }

@@ -10,14 +10,17 @@
 namespace nacre::wire {
 namespace {
 
-constexpr double kLargestArea = 1e9;  // GPa MPa
+// Nothing that is measured within measurement::kModulusPa and kToughnessPa exceeds these: an agent whose own message is
+// refused cannot go on. GPa MPa; and the most that a tester may answer, over the least that a specimen may have.
+constexpr double kLargestArea = 1e13;
+constexpr double kLargestError = kLargestPressurePa / measurement::kToughnessPa.least;
 
 Result<void> expect_area(std::string_view member, double area) { return expect_range(member, area, 0.0, kLargestArea); }
 
 /// Rank correlation and errors of a comparison of `count` designs.
 Result<void> expect_errors(std::string_view member, int count, double mean, double maximum) {
-  return all_of(expect_range(member, count, 0, kLargestCount), expect_range(member, mean, 0.0, 1e9),
-                expect_range(member, maximum, 0.0, 1e9));
+  return all_of(expect_range(member, count, 0, kLargestCount), expect_range(member, mean, 0.0, kLargestError),
+                expect_range(member, maximum, 0.0, kLargestError));
 }
 
 Result<std::vector<explore::Evaluated>> samples_of(const gamut_t& message) {
@@ -248,27 +251,11 @@ Result<Measurement> from_wire(const measurement_t& message) {
   if (record.valid && !record.modulus_pa && !record.toughness_pa && record.curve.empty()) {
     return fail("{}: specimen {} is valid and carries no result", type, message.specimen);
   }
+  const auto implausible = record.valid ? measurement::implausible_value(record) : std::nullopt;
+  if (implausible) {
+    return fail("{}: specimen {}: {} {}", type, message.specimen, implausible->column, implausible->reason);
+  }
   return Measurement{message.round, message.order_id, *fidelity, std::move(record)};
-}
-
-diagnose_request_t to_wire(const DiagnoseRequest& request) {
-  diagnose_request_t message{};
-  message.round = request.round;
-  message.fidelity = to_wire(request.fidelity);
-  message.parameters = to_wire(request.parameters);
-  message.specimens = request.specimens;
-  return message;
-}
-
-Result<DiagnoseRequest> from_wire(const diagnose_request_t& message) {
-  constexpr std::string_view type = "diagnose_request_t";
-  if (const Result<void> sound = expect_round(message.round); !sound) return in_type(type, sound.error());
-  const Result<tester::Fidelity> fidelity = fidelity_from_wire(message.fidelity);
-  if (!fidelity) return in_type(type, fidelity.error());
-  const Result<material::ParameterSet> parameters = from_wire(message.parameters);
-  if (!parameters) return in_type(type, parameters.error());
-  if (!std::ranges::is_sorted(message.specimens)) return fail("{}: specimens are not sorted", type);
-  return DiagnoseRequest{message.round, *fidelity, *parameters, message.specimens};
 }
 
 round_summary_t to_wire(const RoundSummary& summary) {
@@ -357,26 +344,6 @@ Result<void> validate(const node_status_t& message) {
   return all_of(expect_range("node_status_t: progress", message.progress, -1.0, 1.0),
                 expect_range("node_status_t: unacknowledged", message.unacknowledged, 0, kLargestCount),
                 expect_range("node_status_t: computing", message.computing, 0, kLargestCount));
-}
-
-Result<void> validate(const diagnosis_t& message) {
-  constexpr std::string_view verdicts[] = {"base_sufficient", "named", "ambiguous", "unexplained"};
-  if (std::ranges::find(verdicts, message.verdict) == std::end(verdicts)) {
-    return fail("diagnosis_t: verdict \"{}\", expected base_sufficient, named, ambiguous or unexplained",
-                message.verdict);
-  }
-  for (const next_experiment_t& next : message.next_experiments) {
-    const Result<pattern::Design> design = pattern::design_from_name(next.design);
-    if (!design) return in_type("diagnosis_t", design.error());
-    if (const auto test = test_kind_from_wire(next.test); !test) return in_type("diagnosis_t", test.error());
-    if (const auto conditions = from_wire(next.conditions); !conditions)
-      return in_type("diagnosis_t", conditions.error());
-    if (const auto loading = tester::loading_from_string(next.loading); !loading)
-      return in_type("diagnosis_t", loading.error());
-    const Result<void> count = expect_range("diagnosis_t: replicates", next.replicates, 1, 1000);
-    if (!count) return count;
-  }
-  return expect_round(message.round);
 }
 
 }  // namespace nacre::wire

@@ -168,7 +168,9 @@ int calibrate(const Options& options) {
       set, settings, [&](double share, std::string_view doing) { progress.set_share(share, std::string(doing)); });
   progress.end();
   write_file_atomically(options.out, material::to_toml(result.calibrated.parameters));
-  options.json ? print_json(to_json(result)) : print_table(result);
+  nlohmann::ordered_json document = to_json(result);
+  document["rejected"] = rejected_json(set.rejected);
+  options.json ? print_json(document) : print_table(result);
   return 0;
 }
 

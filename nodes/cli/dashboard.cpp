@@ -67,7 +67,7 @@ void add_dashboard(CLI::App& app, Action& action) {
   CLI::App& command =
       add_command(app, action, "dashboard", "Show a run, playing or finished, as a live page in the browser", options,
                   show_dashboard);
-  command.add_option("RUN", options->run, "Folder of the run")->capture_default_str();
+  command.add_option("RUN,--run", options->run, "Folder of the run")->capture_default_str();
   command.add_option("--port", options->port, "Port of the page; 0: any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -154,7 +154,9 @@ int diagnose(const Options& options) {
   if (!options.report.empty())
     write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {
-    print_json(nlohmann::ordered_json::parse(to_json(d)));
+    auto document = nlohmann::ordered_json::parse(to_json(d));
+    document["rejected"] = rejected_json(set.rejected);
+    print_json(document);
   } else {
     fmt::print("{}: {}\n", diagnosis::to_string(d.verdict), d.summary);
     print_candidates(d);

@@ -10,6 +10,7 @@
 #include "doctor_checks.hpp"
 #include "game/scenario.hpp"
 #include "output.hpp"
+#include "run_access.hpp"
 #include "runtime/run_folder.hpp"
 
 namespace nacre::cli {
@@ -17,6 +18,7 @@ namespace {
 
 struct Options {
   std::string logs = "logs";
+  std::string run;
   std::string scenario;
   int port = 0;
   bool json = false;
@@ -52,8 +54,11 @@ std::vector<Finding> look_at_everything(const Options& options) {
   if (std::filesystem::is_directory(options.logs)) {
     findings.push_back(check_sync(options.logs));
     if (findings.back().verdict != Verdict::fault) findings.push_back(check_cache(options.logs));
-    findings.push_back(check_latest_run(options.logs));
   }
+  // Without --run there may be no run yet.
+  const std::filesystem::path latest = std::filesystem::path(options.logs) / "latest";
+  if (!options.run.empty() || std::filesystem::exists(latest))
+    findings.push_back(check_run(options.run.empty() ? latest : open_run(options.run).folder));
   findings.push_back(check_clock());
   findings.push_back(check_slurm(scenario.farm.executor == "slurm"));
   return findings;
@@ -83,6 +88,7 @@ void add_doctor(CLI::App& app, Action& action) {
   CLI::App& command =
       add_command(app, action, "doctor", "Check what usually keeps a game from running", options, examine);
   command.add_option("--logs", options->logs, "Where runs are kept")->capture_default_str();
+  command.add_option("--run", options->run, "Folder of a run to look at, too; default: LOGS/latest");
   command.add_option("--scenario", options->scenario, "Check for this scenario: its port, several machines, Slurm");
   command.add_option("--port", options->port, "UDP port to check; 0: any")->check(CLI::Range(0, 65535));
   command.add_flag("--json", options->json, "One JSON document on standard output");

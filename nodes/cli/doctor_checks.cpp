@@ -194,18 +194,17 @@ Finding check_cache(const fs::path& logs) {
   }
 }
 
-Finding check_latest_run(const fs::path& logs) {
-  const fs::path run = logs / "latest", file = run / "run.db";
-  if (!fs::exists(file)) return {"database of the latest run", Verdict::good, "there is none yet"};
+Finding check_run(const fs::path& run) {
+  const fs::path file = run / "run.db";
+  if (!fs::exists(file)) return {"database of the run", Verdict::good, "there is none yet"};
   const std::string remedy = fmt::format("nacre rebuild --run {}", run.string());
   if (const auto whole = store::check_database(file); !whole) {
-    return {"database of the latest run", Verdict::fault, whole.error().message, remedy};
+    return {"database of the run", Verdict::fault, whole.error().message, remedy};
   }
   const int version = store::schema_version(file);
-  if (version == store::kRunSchemaVersion)
-    return {"database of the latest run", Verdict::good, file.string() + " is whole"};
+  if (version == store::kRunSchemaVersion) return {"database of the run", Verdict::good, file.string() + " is whole"};
   return {
-      "database of the latest run", Verdict::remark,
+      "database of the run", Verdict::remark,
       fmt::format("{} has schema version {}, this program writes {}", file.string(), version, store::kRunSchemaVersion),
       remedy};
 }

@@ -42,8 +42,8 @@ Finding check_clock();
 
 // The databases.
 Finding check_cache(const std::filesystem::path& logs);
-/// run.db of LOGS/latest; good where there is none.
-Finding check_latest_run(const std::filesystem::path& logs);
+/// run.db of a run's folder; good where there is none.
+Finding check_run(const std::filesystem::path& run);
 
 // The cluster. `wanted`: the scenario asks for it.
 Finding check_slurm(bool wanted);

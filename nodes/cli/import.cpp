@@ -40,7 +40,9 @@ nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
 }
 
 nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
-  return {{"file", fault.file}, {"line", fault.line}, {"column", fault.column}, {"reason", fault.reason}};
+  nlohmann::ordered_json document = {{"file", fault.file}};
+  document.update(row_json(measurement::RejectedRow{fault.line, fault.column, fault.reason}));
+  return document;
 }
 
 void print_import(const measurement::Import& import, const Options& options) {

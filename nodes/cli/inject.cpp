@@ -65,26 +65,35 @@ void print_delivery(const Delivery& delivery, bool json) {
                delivery.repeated, delivery.conflicting.size(), delivery.unanswered, delivery.rejected.size());
     return;
   }
-  nlohmann::ordered_json rejected = nlohmann::ordered_json::array();
-  for (const auto& row : delivery.rejected) {
-    rejected.push_back({{"line", row.line}, {"column", row.column}, {"reason", row.reason}});
-  }
   print_json({{"accepted", delivery.accepted},
               {"repeated", delivery.repeated},
               {"conflicting", delivery.conflicting},
               {"unanswered", delivery.unanswered},
-              {"rejected", rejected}});
+              {"rejected", rejected_json(delivery.rejected)}});
 }
 
-/// Sends what the validation agent does not contradict, and waits for its answers.
-Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, const Options& options) {
-  const std::map<std::string, std::string> known = hashes_by_specimen(run);
-  const auto endpoint = speak(run, "inject");
-  Delivery delivery;
-  delivery.rejected = set.rejected;
+/// The row of a specimen that no node would take.
+measurement::RejectedRow refused(const measurement::SpecimenRecord& specimen, int line, const std::string& reason) {
+  if (auto implausible = measurement::implausible_value(specimen)) {
+    implausible->line = line;
+    return *implausible;
+  }
+  return {line, "", reason};
+}
+
+/// Content hashes of the messages that are under way.
+struct Offered {
   std::vector<std::string> hashes;
-  std::set<std::string> repeated;
-  for (const measurement::SpecimenRecord& specimen : set.specimens) {
+  std::set<std::string> repeated;  ///< those that the validation agent has already
+};
+
+/// Offers what the validation agent does not contradict and every node would take; the rest goes into `delivery`.
+Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet& set, const std::string& folder,
+                        runtime::Endpoint& endpoint, Delivery& delivery) {
+  const std::map<std::string, std::string> known = hashes_by_specimen(run);
+  Offered offered;
+  for (std::size_t i = 0; i < set.specimens.size(); ++i) {
+    const measurement::SpecimenRecord& specimen = set.specimens[i];
     const runtime::Message message = measurement_message(specimen, run.scenario.fidelity);
     const auto same_name = known.find(specimen.specimen);
     const bool is_known = same_name != known.end();
@@ -96,11 +105,26 @@ Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, cons
       delivery.conflicting.push_back(specimen.specimen);
       continue;
     }
-    const auto hash = endpoint->offer(message);
-    if (!hash) throw InputError::format("{}: specimen {}: {}", options.set, specimen.specimen, hash.error().message);
-    hashes.push_back(*hash);
-    if (is_known) repeated.insert(*hash);
+    const auto hash = endpoint.offer(message);
+    if (!hash) {
+      delivery.rejected.push_back(refused(specimen, set.lines[i], hash.error().message));
+      warn_about(delivery.rejected.back(), folder);
+      continue;
+    }
+    offered.hashes.push_back(*hash);
+    if (is_known) offered.repeated.insert(*hash);
   }
+  return offered;
+}
+
+/// Sends a set and waits for the validation agent's answers.
+Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, const Options& options) {
+  const auto endpoint = speak(run, "inject");
+  Delivery delivery;
+  delivery.rejected = set.rejected;
+  const auto [hashes, repeated] = offer_specimens(run, set, options.set, *endpoint, delivery);
+  if (hashes.empty() && delivery.conflicting.empty())
+    throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
   wait_for_validation_agent(*endpoint, hashes, options.timeout_s);
   for (const std::string& hash : hashes) {
     const bool is_answered = endpoint->waiting_for(hash).count("validation_agent") == 0;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/result.hpp"
+#include "measurement/set_columns.hpp"
 
 namespace nacre::cli {
 
@@ -18,9 +19,25 @@ void remark(const std::string& line) { fmt::print(stderr, "{}\n", line); }
 
 void warn(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
 
-void warn_about(const measurement::MeasurementSet& set, const std::string& name) {
+void warn_about(const measurement::MeasurementSet& set, const std::string& folder) {
   for (const std::string& warning : set.warnings) warn(warning);
-  for (const auto& row : set.rejected) warn(fmt::format("{}: line {}, {}: {}", name, row.line, row.column, row.reason));
+  for (const auto& row : set.rejected) warn_about(row, folder);
+}
+
+void warn_about(const measurement::RejectedRow& row, const std::string& folder) {
+  const std::string table = (std::filesystem::path(folder) / measurement::kTableName).string();
+  const std::string column = row.column.empty() ? "" : fmt::format("column {}: ", row.column);
+  warn(fmt::format("{}:{}: {}{}", table, row.line, column, row.reason));
+}
+
+nlohmann::ordered_json row_json(const measurement::RejectedRow& row) {
+  return {{"line", row.line}, {"column", row.column}, {"reason", row.reason}};
+}
+
+nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>& rejected) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& row : rejected) rows.push_back(row_json(row));
+  return rows;
 }
 
 void check_standard_output() {

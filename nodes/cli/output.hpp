@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -24,8 +25,14 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
 void remark(const std::string& line);
 void warn(const std::string& line);
 
-/// What was odd about a measurement set, and the rows of it that could not be used.
-void warn_about(const measurement::MeasurementSet& set, const std::string& name);
+/// What was odd about the measurement set in `folder`, and the rows of it that could not be used.
+void warn_about(const measurement::MeasurementSet& set, const std::string& folder);
+/// `FOLDER/measurements.csv:LINE: column X: reason`, without column where the row as a whole is wrong.
+void warn_about(const measurement::RejectedRow& row, const std::string& folder);
+
+/// A row that could not be used as {line, column, reason}, and all of a set.
+nlohmann::ordered_json row_json(const measurement::RejectedRow& row);
+nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>& rejected);
 
 /// Throws InputError unless all that was written to standard output has arrived (full disk, closed pipe).
 void check_standard_output();

@@ -44,9 +44,15 @@ struct Judgement {
 int judge_in_run(const Options& options, const Judgement& judgement) {
   const RunAccess run = open_run(options.run);
   const auto specimens = view_laboratory(run).facts.book.specimens();
-  if (std::none_of(specimens.begin(), specimens.end(),
-                   [&](const auto& each) { return each.specimen == judgement.specimen; })) {
+  const auto specimen = std::find_if(specimens.begin(), specimens.end(),
+                                     [&](const auto& each) { return each.specimen == judgement.specimen; });
+  if (specimen == specimens.end()) {
     warn(fmt::format("{}: the validation agent has no specimen of this name yet", judgement.specimen));
+  }
+  const auto implausible = specimen == specimens.end() ? std::nullopt : measurement::implausible_value(*specimen);
+  if (judgement.valid && implausible) {
+    throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, implausible->column,
+                             implausible->reason);
   }
   review_t message{};
   message.specimen = judgement.specimen;
@@ -63,8 +69,7 @@ int judge_in_run(const Options& options, const Judgement& judgement) {
 
 measurement::MeasurementSet read_set(const std::string& folder) {
   measurement::MeasurementSet set = measurement::read_measurement_set(folder);
-  for (const auto& row : set.rejected)
-    warn(fmt::format("{}: line {}, {}: {}", folder, row.line, row.column, row.reason));
+  for (const auto& row : set.rejected) warn_about(row, folder);
   return set;
 }
 

@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "explore/gamut_csv.hpp"
+#include "game/standings.hpp"
 #include "measurement/measurement.hpp"
 #include "output.hpp"
 
@@ -21,7 +22,7 @@ struct Options {
   bool json = false;
 };
 
-/// What is measured already: patterns, and the homogeneous line l1 from soft, interface, rigid and the mixtures.
+/// What is measured already: patterns, and the homogeneous line l1 as a game draws it.
 struct Measured {
   std::vector<pattern::Pattern> patterns;
   std::vector<optimize::Performance> benchmark;
@@ -34,13 +35,10 @@ Measured read_measured(const std::string& folder) {
   warn_about(set, folder);
   std::set<pattern::Pattern> patterns;
   for (const measurement::Replicates& design : measurement::summarise(set.specimens)) {
-    if (const pattern::Layout* layout = design.design.layout()) {
-      if (const auto symmetric = pattern::Pattern::from_layout(*layout)) patterns.insert(*symmetric);
-    } else if (design.modulus_count > 0 && design.toughness_count > 0) {
-      measured.benchmark.push_back({design.modulus_pa, design.toughness_pa});
-    }
+    if (const auto pattern = game::eightfold_pattern(design.design)) patterns.insert(*pattern);
   }
   measured.patterns.assign(patterns.begin(), patterns.end());
+  measured.benchmark = game::benchmark_line(set.specimens);
   return measured;
 }
 

@@ -4,9 +4,11 @@
 #include <fstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "program_test.hpp"
+#include "runtime/run_folder.hpp"
 
 namespace nacre {
 namespace {
@@ -167,6 +169,36 @@ TEST_F(CommandLine, ExploreAndSelectWorkHandInHand) {
     EXPECT_TRUE(document[0].contains(field));
 }
 
+/// A measurement set in which the homogeneous line has its middle at this name.
+std::string homogeneous_line(const std::string& middle) {
+  std::string table = "specimen,pattern,test,orientation_deg,modulus_pa,toughness_pa\n";
+  const auto add = [&](const std::string& design, int orientation_deg, double modulus_pa, double toughness_pa) {
+    const std::string name = fmt::format("{}-{}", design, orientation_deg);
+    table += fmt::format("{}-E,{},modulus,{},{},\n", name, design, orientation_deg, modulus_pa);
+    table += fmt::format("{}-T,{},toughness,{},,{}\n", name, design, orientation_deg, toughness_pa);
+  };
+  add("rigid", 0, 2e9, 1e5);
+  add(middle, 0, 1.2e9, 4e5);
+  add("soft", 0, 1e6, 6e5);
+  add("mix:0.7", 90, 9e9, 9e6);  // turned: no competitor of upright designs
+  return table;
+}
+
+TEST_F(CommandLine, SelectDrawsTheHomogeneousLineByRigidFraction) {
+  const std::string gamut = file("gamut.csv",
+                                 "index,pattern,rigid_fraction,modulus_pa,toughness_pa\n"
+                                 "0,577fffe9fffdef,0.8,1.1e9,5e5\n1,3ffc9b4ad4d2d9,0.6,1.5e9,3.5e5\n"
+                                 "2,39647e81c943cf,0.5,1.6e9,3e5\n3,13c4e17fb6f8fd,0.5,8e8,4.3e5\n");
+  const auto selected = [&](const std::string& middle) {
+    file(middle + "/measurements.csv", homogeneous_line(middle));
+    return run_nacre({"select", gamut, "--measured", path(middle), "--count", "4", "--json"});
+  };
+  const Outcome interface = selected("mix:0.5"), beside = selected("mix:0.5001");  // their names sort elsewhere
+  ASSERT_EQ(interface.status, 0) << interface.err;
+  EXPECT_EQ(interface.out, beside.out);
+  EXPECT_EQ(nlohmann::json::parse(interface.out).size(), 3U) << "the last one lies below middle and soft";
+}
+
 TEST_F(CommandLine, SelectRefusesBrokenGamuts) {
   expect_refused(run_nacre({"select", file("empty.csv", "")}), {"empty.csv"});
   expect_refused(run_nacre({"select", file("nan.csv",
@@ -281,6 +313,42 @@ TEST_F(CommandLine, MeasurementSetsThatCannotBeUsedAreRefusedWithTheirPlace) {
   expect_refused(calibrate("nofolder"), {"nofolder"});
 }
 
+TEST_F(CommandLine, RowsThatCannotBeUsedAreListedWithTheirLine) {
+  file("set/measurements.csv",
+       "specimen,pattern,test,modulus_pa\na,577fffe9fffdef,modulus,1.4e9\n"
+       "b,577fffe9fffdef,modulus,x\nc,577fffe9fffdef,modulus,1e9,surplus\n");
+  const Outcome outcome = run_nacre({"calibrate", path("set"), "--fidelity", "tiny", "--modulus-budget", "2",
+                                     "--budget", "0", "--out", path("p.toml"), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto rejected = nlohmann::json::parse(outcome.out).at("rejected");
+  ASSERT_EQ(rejected.size(), 2U);
+  EXPECT_EQ(rejected[0]["line"], 3);
+  EXPECT_EQ(rejected[0]["column"], "modulus_pa");
+  EXPECT_THAT(rejected[0]["reason"].get<std::string>(), HasSubstr("expected"));
+  EXPECT_THAT(outcome.err, HasSubstr(path("set/measurements.csv:3: column modulus_pa: ")));
+  EXPECT_THAT(outcome.err, HasSubstr(path("set/measurements.csv:4: has 5 cells")));
+}
+
+TEST_F(CommandLine, InjectKeepsBackAModulusInAnotherUnitAndSendsTheRest) {
+  auto run = runtime::RunFolder::create(folder_ / "logs", "unheard", game::Scenario{});
+  run.set_port(runtime::PortReservation(0).port());
+  const std::string head = "specimen,pattern,test,modulus_pa\n";
+  file("set/measurements.csv", head + "a,rigid,modulus,0.4\nb,rigid,modulus,2e9\n");
+  const std::vector<std::string> command = {"inject",      path("set"), "--run", run.path().string(),
+                                            "--timeout-s", "0.2",       "--json"};
+  const Outcome outcome = run_nacre(command);
+  EXPECT_EQ(outcome.status, 1) << "nobody is there to take the good one" << outcome.err;
+  const auto delivery = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(delivery["unanswered"], 1);
+  ASSERT_EQ(delivery["rejected"].size(), 1U);
+  EXPECT_EQ(delivery["rejected"][0]["line"], 2);
+  EXPECT_EQ(delivery["rejected"][0]["column"], "modulus_pa");
+  EXPECT_THAT(delivery["rejected"][0]["reason"].get<std::string>(), HasSubstr("is the unit Pa?"));
+  EXPECT_THAT(outcome.err, HasSubstr("measurements.csv:2: column modulus_pa: 0.4 Pa"));
+  file("set/measurements.csv", head + "a,rigid,modulus,0.4\n");
+  expect_refused(run_nacre(command), {"none of its 1 specimens can be sent"});
+}
+
 TEST_F(CommandLine, CommandsThatNeedARunSayWhatIsMissing) {
   for (const char* command : {"status", "report"}) {
     expect_refused(run_nacre({command, "--run", path("norun")}), {"norun", "manifest.json"});
@@ -301,6 +369,16 @@ TEST_F(CommandLine, DoctorNamesEveryCheckWithAVerdict) {
   const Outcome nowhere = run_nacre({"doctor", "--logs", path("nowhere"), "--json"});
   EXPECT_EQ(nowhere.status, 1);
   EXPECT_THAT(nowhere.out, HasSubstr("mkdir -p"));
+}
+
+TEST_F(CommandLine, DoctorAndDashboardTakeARunAsTheOthersDo) {
+  for (const char* command : {"doctor", "dashboard"})
+    expect_refused(run_nacre({command, "--run", path("norun")}), {"norun", "manifest.json"});
+  const auto run = runtime::RunFolder::create(folder_ / "logs", "played", game::Scenario{});
+  std::ofstream(run.path() / "run.db") << twenty("this is no database");
+  const Outcome outcome = run_nacre({"doctor", "--run", run.path().string(), "--json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("nacre rebuild --run " + fs::canonical(run.path()).string()));
 }
 
 TEST_F(CommandLine, DoctorFindsADatabaseThatIsNone) {

@@ -56,11 +56,18 @@ TEST_F(InjectedGame, GoesOnWithWhatAPersonMeasuresAndTakesEverySpecimenOnce) {
   SpecimenRecord changed = whole[0];
   changed.batch += "-9";
   EXPECT_EQ(person_->inject("changed", {changed}, 1)["conflicting"].size(), 1U) << "another one under the same name";
+  SpecimenRecord in_gpa;  // kept as not valid, and no person's word makes it count
+  in_gpa.specimen = "in-gpa";
+  in_gpa.design = pattern::Mixture{0.33};
+  in_gpa.modulus_pa = 0.4;
+  in_gpa.valid = false;
+  EXPECT_EQ(person_->inject("in_gpa", {in_gpa})["accepted"], 1);
+  person_->decide({"review", "in-gpa", "--valid", "--why", "looks fine"}, 2);
   const auto delivery = person_->inject("whole", whole);
   EXPECT_EQ(delivery["repeated"], 2) << delivery;
   EXPECT_EQ(delivery["accepted"], whole.size() - 2) << delivery;
   person_->play_to_end();
-  EXPECT_EQ(measurements_taken(person_->run()).size(), whole.size());
+  EXPECT_EQ(measurements_taken(person_->run()).size(), whole.size() + 1);
   EXPECT_EQ(person_->rounds().size(), 2U);
   for (const char* node : {"validation_agent", "proposal_agent", "simulator_farm", "analyser"}) {
     EXPECT_EQ(run_nacre({"replay", person_->run().string(), "--node", node}).status, 0) << node;

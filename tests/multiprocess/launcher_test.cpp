@@ -71,6 +71,8 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("every node is ready"), HasSubstr("round 0: gap"), HasSubstr("the game is over")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("recorder | "))) << "what nodes log goes to standard error";
+  EXPECT_THAT(outcome.err, HasSubstr("recorder | recording into"));
   for (const char* file : {"scenario.toml", "manifest.json", "run.lcm", "inputs/base_materials.csv",
                            "nodes/validation_agent/output.log", "nodes/recorder/output.log"}) {
     EXPECT_TRUE(fs::exists(run() / file)) << file;

@@ -41,6 +41,8 @@ TEST(Entries, WhatIsWrongIsNamedWithItsColumn) {
   EXPECT_THAT(fault(with(R"("modulus_pa":-1)")), HasSubstr("modulus_pa: -1"));
   EXPECT_THAT(fault(with(R"("modulus_pa":"1e999")")), HasSubstr("modulus_pa"));
   EXPECT_THAT(fault(with(R"("modulus_pa":[1])")), HasSubstr("modulus_pa: expected"));
+  EXPECT_THAT(fault(with(R"("modulus_pa":0.4)")), HasSubstr("modulus_pa: 0.4 Pa, expected 10000"));
+  EXPECT_EQ(fault(with(R"("modulus_pa":0.4,"valid":false)")), "none");
   EXPECT_THAT(fault(with(R"("colour":"red")")), HasSubstr("colour: no such column"));
   EXPECT_THAT(fault(with(R"("curve":"/etc/passwd")")), HasSubstr("curve: no such column"));
   EXPECT_THAT(fault(with(R"("curve_csv":"strain,stress_pa\n0,0\n")")), HasSubstr("curve: "));

@@ -50,6 +50,18 @@ TEST(MeasurementBook, ReplicatesCompleteAnOrderValidOrNot) {
   EXPECT_EQ(book.progress(orders, 0).front().valid, 1);
 }
 
+TEST(MeasurementBook, AReviewBringsBackASpecimenButNoValueOfAnotherUnit) {
+  MeasurementBook book;
+  for (const double modulus_pa : {0.4, 0.4e9}) {
+    SpecimenRecord left_out = specimen(modulus_pa < 1.0 ? "in GPa" : "in Pa", modulus_pa);
+    left_out.valid = false;
+    book.enter(left_out, "");
+    book.review(left_out.specimen, {1, true, "looks fine"});
+  }
+  ASSERT_EQ(book.specimens().size(), 2u);
+  for (const SpecimenRecord& each : book.specimens()) EXPECT_EQ(each.valid, each.specimen == "in Pa");
+}
+
 TEST(MeasurementBook, SpecimensWithoutOrderIdFillTheOldestOrderThatAskedTheSame) {
   MeasurementBook book;
   for (const char* name : {"a", "b", "c"}) book.enter(specimen(name), "");

@@ -209,6 +209,17 @@ TEST_F(ImportedSet, APatternThatIsNoRegularFileIsRefusedAndNotWaitedFor) {
   EXPECT_THAT(to_string(imported.rejected.front()), HasSubstr("no regular file"));
 }
 
+TEST_F(ImportedSet, WhatNoMessageCouldHoldIsRejectedWithItsColumn) {
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,print_order\n"
+      "a.csv," +
+      std::string(201, 'n') + ",soft,10,3.2,50,\nb.csv,b,soft,10,1001,50,\nc.csv,c,soft,10,3.2,50,0\n");
+  ASSERT_EQ(sheet.rejected.size(), 3U);
+  EXPECT_EQ(sheet.rejected[0].column, "specimen");
+  EXPECT_EQ(sheet.rejected[1].column, "thickness_mm");
+  EXPECT_EQ(sheet.rejected[2].column, "print_order");
+}
+
 TEST_F(ImportedSet, ASheetWithoutARequiredColumnIsRefused) {
   write("sheet.csv", "file,specimen,pattern,width_mm,gauge_mm\n");
   EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "base/files.hpp"
@@ -36,7 +37,8 @@ class SetOnDisk : public testing::Test {
   }
   /// The only rejected row of a set that holds it beside a good one.
   RejectedRow rejected(const std::string& header, const std::string& row) {
-    const MeasurementSet set = read(header + "\n" + row + "\n" + "specimen,soft,modulus,1e6\n");
+    const std::string empty_cells(static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) - 3, ',');
+    const MeasurementSet set = read(header + "\n" + row + "\nGOOD,soft,modulus,1e6" + empty_cells + "\n");
     EXPECT_EQ(set.rejected.size(), 1u) << row;
     return set.rejected.empty() ? RejectedRow{} : set.rejected.front();
   }
@@ -138,6 +140,8 @@ TEST_F(SetOnDisk, ValuesOutOfRangeAreRejectedWithTheirColumn) {
       {"S,rigid,modulus,2e9,,0,,,", "strain_rate_per_s", "positive"},
       {"S,rigid,modulus,2e9,,,3mm,,", "thickness_mm", "number"},
       {"S,rigid,modulus,2e9,,,,1.5,", "print_order", "whole number"},
+      {"S,rigid,modulus,2e9,,,,0,", "print_order", "integer from 1"},
+      {"S,rigid,modulus,2e9,,,,-3,", "print_order", "integer from 1"},
       {"S,rigid,modulus,2e9,,,,,yes", "valid", "0, 1, true or false"},
       {"S,rigid,toughness,2e9,,,,,", "toughness_pa", "toughness_pa or a curve"},
       {"S,rigid,tensile,2e9,,,,,", "curve", "expected one"},
@@ -151,6 +155,29 @@ TEST_F(SetOnDisk, ValuesOutOfRangeAreRejectedWithTheirColumn) {
     EXPECT_EQ(set.rejected[0].column, item.column) << item.row;
     EXPECT_THAT(set.rejected[0].reason, HasSubstr(item.expected)) << item.row;
   }
+}
+
+TEST_F(SetOnDisk, WhatNoMessageCouldHoldIsRejectedWithItsColumn) {
+  const std::string header = "specimen,pattern,test,modulus_pa,strain_rate_per_s,thickness_mm";
+  const std::string longest(kLongestName, 'n');
+  EXPECT_EQ(rejected(header, longest + "n,rigid,modulus,2e9,,").column, "specimen");
+  EXPECT_EQ(rejected(header, "S,rigid,modulus,2e9,0.9e-9,").column, "strain_rate_per_s");
+  EXPECT_EQ(rejected(header, "S,rigid,modulus,2e9,1.1e5,").column, "strain_rate_per_s");
+  EXPECT_EQ(rejected(header, "S,rigid,modulus,2e9,,0.9e-3").column, "thickness_mm");
+  EXPECT_EQ(rejected(header, "S,rigid,modulus,2e9,,1001").column, "thickness_mm");
+  EXPECT_EQ(rejected(header, "S,rigid,modulus,1.1e13,,").column, "modulus_pa");
+  const MeasurementSet set = read(header + "\n" + longest + ",rigid,modulus,2e9,1e-9,1e3\n");
+  EXPECT_TRUE(set.rejected.empty());
+}
+
+TEST_F(SetOnDisk, ValuesOfAnotherUnitAreWarnedAbout) {
+  const MeasurementSet set = read(
+      "specimen,pattern,test,modulus_pa,toughness_pa\n"
+      "S1,rigid,modulus,0.4,\n\nS2,rigid,toughness,,1.1\nS3,rigid,modulus,1e4,\nS4,rigid,toughness,,10\n");
+  EXPECT_EQ(set.lines, (std::vector<int>{2, 4, 5, 6}));
+  ASSERT_EQ(set.warnings.size(), 2u);
+  EXPECT_THAT(set.warnings[0], HasSubstr(":2: column modulus_pa: 0.4 Pa, expected 10000"));
+  EXPECT_THAT(set.warnings[1], HasSubstr(":4: column toughness_pa: 1.1 Pa, expected 10 "));
 }
 
 TEST_F(SetOnDisk, IdenticalRepeatIsIgnoredAndADifferentOneIsAnError) {
@@ -207,6 +234,8 @@ TEST_F(SetOnDisk, BadCurvesAreRejectedWithPlaceInTheirFile) {
                {"strain,stress_pa\n0,0\n1\n2,2\n3,3\n4,4\n", "c.csv:3: column stress_pa: nothing there"},
                {"strain,stress_pa\n0,0\n-1,0\n2,2\n3,3\n4,4\n", "above -1"},
                {"strain,strain,stress_pa\n", "twice"},
+               {"strain,stress_pa\n0,0\n101,0\n2,2\n3,3\n4,4\n", "c.csv:3: 0 Pa at strain 101"},
+               {"strain,stress_pa\n0,0\n1,2e13\n2,2\n3,3\n4,4\n", "c.csv:3: "},
                {"strain,stress_pa\n0,0\n1,-1\n2,-2\n3,-3\n4,-4\n", "not positive"}};
   for (const auto& item : cases) {
     write("c.csv", item.text);

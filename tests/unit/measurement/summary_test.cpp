@@ -94,6 +94,23 @@ TEST(Values, ModulusIsGivenOrTheInitialSlope) {
   EXPECT_NEAR(modulus_of(record).value(), 1e9, 1.0);
 }
 
+TEST(Values, ACoarseCurveIsReadByItsFirstChords) {
+  SpecimenRecord record = modulus_specimen("a", 5.0);
+  record.modulus_pa.reset();
+  record.curve = {{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, 1e7, 1.5e7, 1.7e7, 1.8e7}};
+  EXPECT_NEAR(modulus_of(record).value(), 1e9, 1.0);
+  record.curve = {{0.0, 0.0015, 0.01, 0.02, 0.03}, {0.0, 1.5e6, 5.75e6, 6e6, 6e6}};  // 1 GPa, then 0.5 GPa
+  EXPECT_NEAR(modulus_of(record).value(), 0.75e9, 1.0);
+  record.curve.strain = {0.0, 0.06, 0.07, 0.08, 0.09};
+  EXPECT_FALSE(modulus_of(record)) << "a chord to 6 %";
+  record.curve.strain = {0.0006, 0.01, 0.02, 0.03, 0.04};
+  EXPECT_FALSE(modulus_of(record)) << "begins too late";
+  record.curve.strain = {0.0, 0.001, 0.0005, 0.02, 0.03};
+  EXPECT_FALSE(modulus_of(record)) << "unloaded before the end of the interval";
+  record.curve = {{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, -1e7, 0.0, 0.0, 0.0}};
+  EXPECT_FALSE(modulus_of(record));
+}
+
 TEST(Observe, NothingChangesWithoutExtensions) {
   const tester::Curve curve = {{0.0, 0.1, 0.2}, {0.0, 1e6, 3.3e6}};
   for (const material::Extensions& none :

@@ -1,5 +1,7 @@
 #include "wire/convert.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "samples.hpp"
@@ -113,6 +115,67 @@ TEST(Convert, ValidSpecimensCarryAResult) {
   EXPECT_FALSE(read<Measurement>(write(m)));
   m.record.valid = false;  // a failed specimen has none
   EXPECT_TRUE(read<Measurement>(write(m)));
+}
+
+TEST(Convert, AValueOfAnotherUnitIsNoValidSpecimen) {
+  Measurement m = samples::measurement();
+  const auto fault = [&] {
+    const auto back = read<Measurement>(write(m));
+    return back ? std::string() : back.error().message;
+  };
+  m.record.toughness_pa = 1.1;  // MJ/m3
+  EXPECT_NE(fault().find("toughness_pa 1.1 Pa"), std::string::npos) << fault();
+  EXPECT_NE(fault().find("is the unit Pa?"), std::string::npos) << fault();
+  m.record.toughness_pa.reset();
+  m.record.curve = {{0.0, 0.1, 0.2, 0.3, 0.4}, {0.0, 20.0, 20.0, 20.0, 0.0}};  // MPa
+  EXPECT_NE(fault().find("toughness_pa"), std::string::npos) << fault();
+  m.record.test = tester::TestKind::modulus;
+  m.record.curve = {};
+  for (const double modulus_pa : {0.0, 0.4, 9999.0}) {
+    m.record.modulus_pa = modulus_pa;
+    EXPECT_NE(fault().find("modulus_pa"), std::string::npos) << modulus_pa;
+  }
+  m.record.valid = false;
+  EXPECT_EQ(fault(), "") << "kept, though never used";
+  m.record.valid = true;
+  m.record.modulus_pa = 1e4;
+  EXPECT_EQ(fault(), "");
+  m.record.modulus_pa.reset();
+  m.record.curve = {{0.0, 0.0005, 0.001, 0.002, 0.003}, {0.0, 5e2, 1e3, 2e3, 3e3}};
+  EXPECT_EQ(fault(), "") << "the area under the curve of a modulus test is no toughness";
+}
+
+TEST(Convert, ErrorsOfTheOddestValidSpecimensCanBeTold) {
+  AdoptedModel model = samples::model();
+  model.before.modulus_max = 1e13 / 1e4;
+  model.before.toughness_max = 1e13 / 10.0;
+  expect_round_trip(model);
+  RoundSummary round = samples::round();
+  round.measured_hypervolume_staircase = 1e4 * 1e7;  // GPa MPa of 1e13 Pa each
+  expect_round_trip(round);
+}
+
+TEST(Convert, ADiagnosisHoldsNumbersThatAreOnesAndKnownStates) {
+  const auto refused = [](auto change) {
+    diagnosis_t message = samples::diagnosis();
+    change(message);
+    return !validate(message);
+  };
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(refused([](diagnosis_t&) {}));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.effects[0].name = ""; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.effects[0].parameter = kNoNumber; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.effects[0].interval_high = 1.0 / 0.0; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.candidates[0].name = ""; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.candidates[0].status = "guilty"; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.candidates[0].statistic = kNoNumber; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.candidates[0].p_family_wise = 1.1; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.candidates[0].absorption = kNoNumber; }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) {
+    m.has_gain = true;
+    m.relative_reduction = kNoNumber;
+  }));
+  EXPECT_TRUE(refused([](diagnosis_t& m) { m.next_experiments[0].replicates = 0; }));
 }
 
 TEST(Convert, CodesOutsideTheEnumerationsAreRefused) {

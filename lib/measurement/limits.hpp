@@ -1,0 +1,27 @@
+#pragma once
+// What a measurement may say. Tables, sheets and messages keep to the same limits, so that whatever can be read can
+// also be sent to a game.
+
+#include <cstddef>
+
+namespace nacre::measurement {
+
+/// A closed range.
+struct Limits {
+  double least;
+  double most;
+  bool hold(double value) const { return value >= least && value <= most; }
+};
+
+/// Below: no printed material, but most likely GPa or MPa written as Pa, or MJ/m3 as J/m3. One such value in a game
+/// makes relative errors of a million and more, and the model follows it. Above: no material at all.
+inline constexpr Limits kModulusPa{1e4, 1e13};
+inline constexpr Limits kToughnessPa{10.0, 1e13};
+
+inline constexpr Limits kStressPa{-1e13, 1e13};
+inline constexpr Limits kStrain{-100.0, 100.0};
+inline constexpr Limits kStrainRatePerS{1e-9, 1e5};
+inline constexpr Limits kThicknessMm{1e-3, 1e3};
+inline constexpr std::size_t kLongestName = 200;  ///< of a specimen, in bytes
+
+}  // namespace nacre::measurement
