@@ -156,7 +156,8 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
                                  kFewestCurveRows));
   if (test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
-  ImportedSpecimen imported{.record = row.record, .file = shown_file, .maker = from.maker, .test = *test};
+  ImportedSpecimen imported{
+      .record = row.record, .file = shown_file, .line = row.line, .maker = from.maker, .test = *test};
   if (const auto rate = strain_rate(from.time_s, curve.strain); rate && !row.rate_is_given)
     imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
   set_values(*test, imported.record);
