@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/files.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
 
@@ -93,6 +94,24 @@ TEST(ReviewProgram, ProposesTheOutlierOfTheExampleAndLeavesTheDecisionToAPerson)
   }
   EXPECT_EQ(run_nacre({"review", "--set", set, "nobody", "--invalid", "--why", "?"}).status, 2);
   EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-19", "--invalid"}).status, 2) << "a reason is wanted";
+}
+
+TEST(ReviewProgram, ChangesNothingOfTheSetButTheJudgementAndShowsItsWarnings) {
+  const fs::path set = fresh_folder("judged");
+  std::ofstream(set / "measurements.csv") << "specimen,pattern,test,modulus_pa,curve,note,colour\n"
+                                             "A,rigid,modulus,2e9,raw.csv,bent,red\n"
+                                             "B,rigid,bending,2e9,,,blue\n";
+  const std::string curve = "strain,stress_pa,time_s\n0,0,0\n.1,1,1\n.2,2,2\n.3,3,3\n.4,4,4\n";
+  std::ofstream(set / "raw.csv") << curve;
+  const Outcome shown = run_nacre({"review", "--set", set.string()});
+  EXPECT_THAT(shown.err, HasSubstr("unknown column `colour`"));
+  EXPECT_THAT(shown.err, HasSubstr("line 3, test"));
+  ASSERT_EQ(run_nacre({"review", "--set", set.string(), "A", "--invalid", "--why", "bubble", "--by", "me"}).status, 0);
+  EXPECT_EQ(read_file(set / "measurements.csv"),
+            "specimen,pattern,test,modulus_pa,curve,note,colour,valid\n"
+            "A,rigid,modulus,2e9,raw.csv,bent; bubble (me),red,0\n"
+            "B,rigid,bending,2e9,,,blue,\n");
+  EXPECT_EQ(read_file(set / "raw.csv"), curve);
 }
 
 constexpr const char* kScenario = R"(rounds = 1
