@@ -49,6 +49,27 @@ TEST(Fabricate, RefusesWhatCannotBePrinted) {
   }
 }
 
+TEST(Fabricate, WritesOverAnotherJobOnlyWhenToldTo) {
+  const fs::path folder = fresh_folder("known_job");
+  const auto fabricate = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"fabricate", "--dpi", "100,100,100", "--out", folder.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_nacre(arguments);
+  };
+  ASSERT_EQ(fabricate({"rigid"}).status, 0);
+  const std::string sheet = read_file(folder / "build_sheet.json");
+  std::ofstream(folder / "specimens.csv") << "filled in\n";
+  const Outcome refused = fabricate({"soft"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("expected a new folder, or --replace"));
+  EXPECT_EQ(read_file(folder / "build_sheet.json"), sheet);
+  EXPECT_EQ(read_file(folder / "specimens.csv"), "filled in\n");
+  EXPECT_EQ(fabricate({"rigid"}).status, 0) << "the same job";
+  EXPECT_EQ(read_file(folder / "specimens.csv"), "filled in\n");
+  EXPECT_EQ(fabricate({"soft", "--replace"}).status, 0);
+  EXPECT_THAT(read_file(folder / "specimens.csv"), HasSubstr(",soft,"));
+}
+
 TEST(ImportProgram, MakesASetOfWhatIsUsableAndNamesTheRest) {
   const fs::path set = fresh_folder("imported") / "set";
   const Outcome outcome = run_nacre(
@@ -155,14 +176,27 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   EXPECT_EQ(states(person.run()).at(proposed), "rejected");
   EXPECT_EQ(states(person.run()).at(own), "approved");
 
-  const std::string job = (folder / "job").string();
+  const std::string earlier = (folder / "earlier/job").string(), job = (folder / "job").string();
+  const std::vector<std::string> coarse = {"--replicates", "1", "--dpi", "100,100,100"};
+  const auto fabricate_one = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "fabricate");
+    arguments.insert(arguments.end(), coarse.begin(), coarse.end());
+    ASSERT_EQ(run_nacre(arguments).status, 0);
+  };
+  fabricate_one({"checkerboard:5", "--out", earlier});
+  EXPECT_THAT(run_nacre({"printed", earlier, "--run", run}).out, HasSubstr("1 specimens printed"));
   const Outcome printed =
       run_nacre({"fabricate", "--orders", "--run", run, "--out", job, "--dpi", "100,100,100", "--json"}, 120.0);
   ASSERT_EQ(printed.status, 0) << printed.err;
   EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"].size(), 16U);
+  EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"][0]["label"], "job_2-01") << "job-01 is the run's already";
   EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 specimens printed"));
   EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 known already"));
   EXPECT_EQ(run_nacre({"fabricate", "--orders", "--run", run, "--out", job}).status, 1) << "nothing is left to print";
+  fabricate_one({"checkerboard:2", "--batch", "job", "--out", (folder / "clash").string()});
+  const Outcome clash = run_nacre({"printed", (folder / "clash").string(), "--run", run});
+  EXPECT_EQ(clash.status, 2);
+  EXPECT_THAT(clash.err, HasSubstr("job-01: is printed already"));
 
   person.game().kill_everything();
   EXPECT_EQ(states(person.run()).at(own), "printed");
