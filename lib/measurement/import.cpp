@@ -27,7 +27,7 @@ class Exports {
  public:
   Exports(const std::vector<fs::path>& files, fs::path folder) : files_(files), folder_(std::move(folder)) {}
 
-  /// The test of a row, or what is wrong with it.
+  /// The test of a row, which must outlive this, or what is wrong with it.
   tl::expected<TesterRecord, ImportFault> record_of(const SheetRow& row, const std::string& sheet) {
     const auto path = find(row.file);
     if (!path) return tl::unexpected(ImportFault{sheet, row.line, "file", path.error().message});
@@ -44,7 +44,14 @@ class Exports {
       return tl::unexpected(
           ImportFault{sheet, row.line, "part", fmt::format("{}, but `{}` holds {} tests", row.part, row.file, count)});
     }
-    return (*records)[static_cast<std::size_t>(std::max(row.part, 1) - 1)];
+    const int part = std::max(row.part, 1);
+    const auto [owner, is_first] = owners_.try_emplace({key_of(*path, row.columns), part}, &row);
+    if (!is_first) {
+      return tl::unexpected(ImportFault{sheet, row.line, "file",
+                                        fmt::format("`{}` is already specimen {} (line {}), expected a test of its own",
+                                                    row.file, owner->second->record.specimen, owner->second->line)});
+    }
+    return (*records)[static_cast<std::size_t>(part - 1)];
   }
 
   /// Files that no row asked for.
@@ -80,8 +87,13 @@ class Exports {
     return found.front();
   }
 
+  /// Columns of one file may be tests of their own.
+  static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
+    return path.lexically_normal().string() + '\n' + choice.extension + '\n' + choice.force;
+  }
+
   const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
-    const std::string key = path.string() + '\n' + choice.extension + '\n' + choice.force;
+    const std::string key = key_of(path, choice);
     const auto known = read_.find(key);
     if (known != read_.end()) return known->second;
     return read_.emplace(key, read_anew(path, choice)).first->second;
@@ -100,6 +112,7 @@ class Exports {
   fs::path folder_;
   std::set<std::string> used_;
   std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
+  std::map<std::pair<std::string, int>, const SheetRow*> owners_;  ///< key and part -> the first row of the test
 };
 
 tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row) {

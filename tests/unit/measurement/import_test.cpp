@@ -203,6 +203,17 @@ TEST_F(ImportedSet, ExportsAreFoundByNameAndUnusedOnesAreSaid) {
   EXPECT_THAT(import.warnings[0], HasSubstr("b.csv: no specimen of the sheet names this export"));
 }
 
+TEST_F(ImportedSet, ATestIsOneSpecimen) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import import = this->import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,part\n"
+      "a.csv,A1,rigid,52,3.2,54,\n./a.csv,A2,rigid,52,3.2,54,1\n");
+  EXPECT_EQ(import.specimens.size(), 1U);
+  ASSERT_EQ(import.rejected.size(), 1U);
+  EXPECT_EQ(import.rejected[0].line, 3);
+  EXPECT_THAT(import.rejected[0].reason, HasSubstr("`./a.csv` is already specimen A1 (line 2)"));
+}
+
 TEST_F(ImportedSet, APatternThatIsNoRegularFileIsRefusedAndNotWaitedFor) {
   const Import imported = import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,s1,/dev/stdin,10,3,50\n");
   ASSERT_FALSE(imported.rejected.empty());
