@@ -129,7 +129,8 @@ TEST_F(CommandLine, WrongUsageIsRefused) {
   expect_refused(run_nacre({"simulate", "soft", "--fidelity", "fine"}), {"fine"});
   expect_refused(run_nacre({"simulate", "soft", "--test", "hardness"}), {"hardness"});
   expect_refused(run_nacre({"explore", "--algorithm", "magic", "--out", path("g.csv")}), {"magic"});
-  expect_refused(run_nacre({"nonsense"}), {});
+  expect_refused(run_nacre({"nonsense"}), {"nonsense: no such command", "simulate"});
+  expect_refused(run_nacre({"simulte", "--help"}), {"simulte: no such command; is `simulate` meant?"});
   expect_refused(run_nacre({"launch"}), {"SCENARIO"});
 }
 
@@ -143,6 +144,14 @@ TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {
   std::string said;
   EXPECT_EQ(wait_for_end(process, said).exit_status, 2);
   EXPECT_THAT(said, HasSubstr("No space left on device"));
+}
+
+TEST_F(CommandLine, AStandardErrorThatTakesNothingEndsItInOrder) {
+  runtime::ChildProcess process({"/bin/sh", "-c", "exec \"$0\" simulate nonsense 2>/dev/full", program("nacre")});
+  std::string said;
+  const runtime::ProcessEnd end = wait_for_end(process, said);
+  EXPECT_EQ(end.signal, 0);
+  EXPECT_EQ(end.exit_status, 2);
 }
 
 TEST_F(CommandLine, ScenarioErrorsNameFileLineKeyAndRange) {
