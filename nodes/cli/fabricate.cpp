@@ -11,6 +11,7 @@
 #include "fabricate/build_sheet.hpp"
 #include "laboratory_view.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "pattern/constraints.hpp"
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
@@ -173,12 +174,12 @@ int fabricate_job(const Options& options) {
     return 1;
   }
   const fabricate::Job job = fabricate::plan_job(request);
+  prepare_output_folder(options.out);
   if (options.replace) {
     fabricate::forget_job(options.out);
   } else if (fabricate::holds_another_job(options.out, job)) {
     throw InputError::format("{}: holds another print job; expected a new folder, or --replace", options.out);
   }
-  make_folder(options.out);
   Progress progress("fabricate");
   const auto written = fabricate::write_job(
       job, options.out, [&](double share, std::string_view model) { progress.set_share(share, std::string(model)); });

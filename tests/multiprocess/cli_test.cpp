@@ -146,6 +146,22 @@ TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {
   EXPECT_THAT(said, HasSubstr("No space left on device"));
 }
 
+TEST_F(CommandLine, WhereResultsGoIsTriedBeforeTheWork) {
+  const std::string file = this->file("file", ""), taken = file + "/below";
+  const std::string laboratory = this->file("lab.toml", "seed = 7\n");  // in full size, hours of work
+  expect_refused(run_nacre({"explore", "--budget", "100000", "--out", taken}), {file});
+  expect_refused(run_nacre({"explore", "--budget", "100000", "--out", "/dev/null"}), {"/dev/null: is no regular file"});
+  for (const char* where : {"--curves", "--frames", "--film"})
+    expect_refused(run_nacre({"simulate", "rigid", kPublishedA, where, taken}), {file});
+  expect_refused(run_nacre({"simulate", kPublishedA, "--film", file + "/a.gif"}), {file});
+  expect_refused(run_nacre({"measure", "--lab", laboratory, "--out", taken, kPublishedA}), {file});
+  expect_refused(run_nacre({"fabricate", "rigid", "--out", taken}), {file});
+  ASSERT_EQ(run_nacre({"explore", "--fidelity", "tiny", "--budget", "2", "--population", "2", "--batch", "2", "--out",
+                       path("new/folder/g.csv")})
+                .status,
+            0);
+}
+
 TEST_F(CommandLine, AStandardErrorThatTakesNothingEndsItInOrder) {
   runtime::ChildProcess process({"/bin/sh", "-c", "exec \"$0\" simulate nonsense 2>/dev/full", program("nacre")});
   std::string said;
@@ -269,9 +285,12 @@ TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   EXPECT_EQ(seeds, 2U);
   const Outcome again = run_nacre(command);  // from what it kept
   EXPECT_EQ(again.out, outcome.out);
+  EXPECT_THAT(outcome.err, Not(HasSubstr("families.toml")));
+  EXPECT_THAT(again.err, AllOf(HasSubstr("found/families.toml"), Not(HasSubstr("warning"))));
   file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577fffe9fffdef\"]\n");
   const Outcome edited = run_nacre(command);
   EXPECT_EQ(nlohmann::json::parse(edited.out).at(0)["name"], "mine");
+  EXPECT_THAT(edited.err, HasSubstr("other families than these measurements propose"));
   file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577\"]\n");
   expect_refused(run_nacre(command), {"families.toml:3", "577"});
 }
