@@ -178,6 +178,19 @@ TEST_F(CommandLine, ScenarioErrorsNameFileLineKeyAndRange) {
   EXPECT_FALSE(fs::exists(path("logs"))) << "nothing is made for a scenario that cannot be played";
 }
 
+TEST_F(CommandLine, FilesThatAScenarioNamesAreReadBeforeARunIsMade) {
+  const std::string broken = file("broken.toml", "seed = 1\nnot toml\n");
+  const std::string table = file("line.csv", "no,such,columns\n1,2,3\n");
+  for (const auto& [lines, name] : {std::pair{"model_file = \"broken.toml\"\n", "broken.toml:2"},
+                                    {"numerics_floor_file = \"broken.toml\"\n", "broken.toml:2"},
+                                    {"benchmark_file = \"line.csv\"\n", "line.csv"},
+                                    {"base_materials_file = \"line.csv\"\n", "line.csv"},
+                                    {"[laboratory]\nfile = \"broken.toml\"\n", "broken.toml: line 2"}}) {
+    expect_refused(run_nacre({"launch", file("s.toml", lines), "--logs", path("logs")}), {path(name)});
+    EXPECT_FALSE(fs::exists(path("logs"))) << lines;
+  }
+}
+
 TEST_F(CommandLine, ExploreAndSelectWorkHandInHand) {
   const Outcome explored = run_nacre({"explore", "--fidelity", "tiny", "--algorithm", "random", "--budget", "30",
                                       "--out", path("gamut.csv"), "--json"},
