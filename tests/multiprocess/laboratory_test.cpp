@@ -170,7 +170,9 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   const std::string own = (*pattern::design_from_name("3ffc9b4ad4d2d9")).name();
   EXPECT_EQ(states(person.run()).at(proposed), "pending");
   EXPECT_EQ(states(person.run()).at("soft"), "approved");
+  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  pending "));
   person.decide({"approve", proposed, "--reject", "--why", "islands"});
+  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  rejected "));
   EXPECT_THAT(person.decide({"approve", "--add", own, "--why", "published"}), HasSubstr("added"));
   person.wait_for("orders of the person's design", [&] { return person.orders().size() == 8; });
   EXPECT_EQ(states(person.run()).at(proposed), "rejected");
