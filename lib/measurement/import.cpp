@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -178,6 +179,20 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   return imported;
 }
 
+/// A doubt about the size of a specimen as the sheet has it, or nothing: units are mistaken by factors of ten and more.
+std::string doubt_of_size(const SheetRow& row) {
+  constexpr double kBarWidthMm = 13.0, kFactor = 2.0;  // ASTM D638, type I
+  const bool notched = row.record.test == tester::TestKind::toughness;
+  const double width_mm = notched ? 1e3 * thesis::kSpecimenWidth.value : kBarWidthMm;
+  const double thickness_mm = 1e3 * thesis::kSpecimenThickness.value;
+  const auto far_off = [&](double value, double nominal) {
+    return value > kFactor * nominal || value < nominal / kFactor;
+  };
+  if (!far_off(row.width_mm, width_mm) && !far_off(row.record.conditions.thickness_mm, thickness_mm)) return "";
+  return fmt::format("{} x {} mm in the gauge, nominal {} x {} mm: are width_mm and thickness_mm right?", row.width_mm,
+                     row.record.conditions.thickness_mm, width_mm, thickness_mm);
+}
+
 /// Doubts about a specimen, as sentences.
 void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vector<std::string>& warnings) {
   const std::string who = fmt::format("specimen {}", one.record.specimen);
@@ -187,6 +202,14 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   if (one.test.toe_strain > kLargestToe)
     warnings.push_back(fmt::format("{}: a toe of {:.2f} % strain was taken off: was the specimen slack in its grips?",
                                    who, 100.0 * one.test.toe_strain));
+  if (const std::string doubt = doubt_of_size(row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
+  constexpr double kLargestStrain = 3.0, kLargestPeakPa = 1e10;
+  if (one.test.failure_strain > kLargestStrain)
+    warnings.push_back(fmt::format("{}: failure strain {:.3g} is no usual one: are extension and gauge ({} mm) right?",
+                                   who, one.test.failure_strain, row.gauge_mm));
+  if (one.test.peak_stress_pa > kLargestPeakPa)
+    warnings.push_back(fmt::format("{}: peak stress {:.3g} Pa is no usual one: are force and size right?", who,
+                                   one.test.peak_stress_pa));
   const double rate = one.record.conditions.strain_rate_per_s;
   if (rate < kSlowest || rate > kFastest)
     warnings.push_back(fmt::format("{}: strain rate {} 1/s: are the units of time and extension right?", who, rate));
