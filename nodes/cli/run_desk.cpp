@@ -6,7 +6,6 @@
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
-#include "output.hpp"
 #include "specimen_messages.hpp"
 #include "wire/codec.hpp"
 #include "wire/convert.hpp"
