@@ -151,7 +151,10 @@ Response Dashboard::gamut(const Request& request) {
     return error_response(404, "there is no such family");
   }
   const int round = round_of(request);
-  return {.type = "application/octet-stream", .body = gamut_bytes(*data_.gamut(round), round), .headers = {}};
+  const auto gamut = data_.gamut(round);
+  if (gamut->patterns.empty() && !data_.record()->rounds.contains(round))
+    return error_response(404, "there is no such round");
+  return {.type = "application/octet-stream", .body = gamut_bytes(*gamut, round), .headers = {}};
 }
 
 Response Dashboard::design(const Request& request) {

@@ -1,7 +1,10 @@
 #include "dashboard/server.hpp"
 
+#include <netdb.h>
 #include <poll.h>
 
+#include <cerrno>
+#include <cstring>
 #include <thread>
 
 #include <httplib.h>
@@ -48,6 +51,17 @@ void answer(const Response& from, httplib::Response& to) {
   to.set_content(from.body, from.type);
 }
 
+/// Why nothing can listen there, when `reason` is what the system said last.
+std::string why_not_listening(const std::string& host, int reason) {
+  addrinfo* addresses = nullptr;
+  if (const int unknown = ::getaddrinfo(host.c_str(), nullptr, nullptr, &addresses); unknown != 0)
+    return fmt::format("is no address: {}", ::gai_strerror(unknown));
+  ::freeaddrinfo(addresses);
+  if (reason == EADDRINUSE) return "is taken: is another dashboard there? (--port 0 takes any free port)";
+  if (reason == EADDRNOTAVAIL) return "is no address of this machine, expected one of its own, or 0.0.0.0 for all";
+  return fmt::format("cannot be listened to: {}", std::strerror(reason));
+}
+
 }  // namespace
 
 void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
@@ -65,12 +79,12 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
+  errno = 0;
   const int port = settings.port == 0                                  ? server.bind_to_any_port(settings.host)
                    : server.bind_to_port(settings.host, settings.port) ? settings.port
                                                                        : -1;
   if (port <= 0)
-    throw InputError::format("{}:{}: cannot be listened to: is another dashboard there? (--port 0 takes any free port)",
-                             settings.host, settings.port);
+    throw InputError::format("{}:{}: {}", settings.host, settings.port, why_not_listening(settings.host, errno));
   const AccessRules rules{
       .hosts = host_names(settings.host, port), .token = settings.token, .cookie_name = fmt::format("nacre_{}", port)};
 

@@ -1,4 +1,5 @@
 #include "diagnosis/coordinates.hpp"
+#include "sysid/eta.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,6 @@ constexpr double kWidePrior = 0.5;
 /// eta is looked for within this distance of the centre, in log units, with this standard deviation: the emulator knows
 /// no more.
 constexpr double kEtaReach = 1.5, kEtaSd = 0.7;
-constexpr std::array kSearchedEta = {0, 1, 2, 6, 7, 8, 9};
 
 struct Bounds {
   double low = 0.0, high = 0.0;
@@ -32,8 +32,6 @@ Bounds widened(const material::ParameterRange& range, bool logarithmic) {
 
 }  // namespace
 
-std::span<const int> searched_eta() { return kSearchedEta; }
-
 CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> effects)
     : centre_(basis.centre), effects_(effects.begin(), effects.end()) {
   centre_.extensions.clear();
@@ -47,9 +45,10 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
   if (basis.modulus) add_moduli(Block::modulus, material::FitTarget::microstructures);
   if (basis.toughness) {
     const material::ToughnessVector eta = to_vector(centre_.toughness);
-    for (const int i : kSearchedEta) {
-      const double middle = std::log(eta[static_cast<std::size_t>(i)]);
-      base_.push_back({Block::toughness, i, middle - kEtaReach, middle + kEtaReach, true, kEtaSd / (2.0 * kEtaReach)});
+    for (const std::size_t i : sysid::kSearchedEta) {
+      const double middle = std::log(eta[i]);
+      base_.push_back({Block::toughness, static_cast<int>(i), middle - kEtaReach, middle + kEtaReach, true,
+                       kEtaSd / (2.0 * kEtaReach)});
     }
   }
   // Poisson's ratios too: they bend the curves of coupons pulled far.

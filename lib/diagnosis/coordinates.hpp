@@ -72,7 +72,4 @@ class CoordinateMap {
   std::vector<EffectCoordinate> extension_;
 };
 
-/// Indices in the vector of eta of the constants that are searched: Poisson's ratios stay (T hardly depends on them).
-std::span<const int> searched_eta();
-
 }  // namespace nacre::diagnosis

@@ -5,8 +5,10 @@
 #include <nlopt.hpp>
 #include <numeric>
 
+#include "base/matern.hpp"
 #include "base/parallel.hpp"
 #include "diagnosis/coordinates.hpp"
+#include "sysid/eta.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -20,10 +22,7 @@ constexpr int kNearest = 5;            // runs whose curves stand for a fit's
 
 double square(double x) { return x * x; }
 
-double matern52(double distance) {
-  const double r = std::sqrt(5.0) * distance;
-  return (1.0 + r + r * r / 3.0) * std::exp(-r);
-}
+double matern52_at(double distance) { return matern52(std::sqrt(5.0) * distance); }
 
 int library_index(std::string_view name) {
   const auto library = material::effect_library();
@@ -35,7 +34,7 @@ int library_index(std::string_view name) {
 }  // namespace
 
 double effect_covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const auto m = [](double distance) { return matern52(std::abs(distance) / kEffectLength); };
+  const auto m = [](double distance) { return matern52_at(std::abs(distance) / kEffectLength); };
   const double size = a[0] * b[0] + m(a[0] - b[0]) - m(a[0]) * m(b[0]);
   const double shape = a.size() > 1 ? m((a.tail(a.size() - 1) - b.tail(b.size() - 1)).norm()) : 1.0;
   return size * shape;
@@ -55,11 +54,10 @@ FractureSurface::FractureSurface(const Observations& observations, const Fractur
 FractureSurface::Point FractureSurface::point_of(const material::ParameterSet& set) const {
   Point point;
   const material::ToughnessVector eta = to_vector(set.toughness);
-  const auto searched = searched_eta();
-  point.log_eta.resize(static_cast<Eigen::Index>(searched.size()));
-  for (std::size_t k = 0; k < searched.size(); ++k) {
-    const auto i = static_cast<std::size_t>(searched[k]);
-    point.log_eta[static_cast<Eigen::Index>(k)] = std::log(eta[i] / centre_[i]);
+  point.log_eta.resize(static_cast<Eigen::Index>(sysid::kSearchedEta.size()));
+  for (Eigen::Index k = 0; k < point.log_eta.size(); ++k) {
+    const std::size_t i = sysid::kSearchedEta[static_cast<std::size_t>(k)];
+    point.log_eta[k] = std::log(eta[i] / centre_[i]);
   }
   for (const auto& [name, values] : simulated_side(set).extensions) {
     const material::Effect& effect = *material::find_effect(name);
@@ -73,7 +71,7 @@ FractureSurface::Point FractureSurface::point_of(const material::ParameterSet& s
 }
 
 double FractureSurface::covariance(const Kernel& kernel, const Point& a, const Point& b) {
-  const double near = matern52((a.log_eta - b.log_eta).norm() / kCurvedLength);
+  const double near = matern52_at((a.log_eta - b.log_eta).norm() / kCurvedLength);
   double sum = square(kOffset) + square(kernel.linear) * a.log_eta.dot(b.log_eta) + square(kernel.curved) * near;
   for (const auto& [effect, x] : a.effects) {
     const auto other = b.effects.find(effect);

@@ -5,6 +5,7 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::diagnosis {
@@ -29,13 +30,13 @@ bool tells_on_moduli(const material::Effect& effect) {
 
 void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
   material::ToughnessVector eta = to_vector(parameters);
-  for (std::size_t k = 0; k < searched_eta().size(); ++k)
-    eta[static_cast<std::size_t>(searched_eta()[k])] *= std::exp(sign * spread * normal[k]);
+  for (std::size_t k = 0; k < sysid::kSearchedEta.size(); ++k)
+    eta[sysid::kSearchedEta[k]] *= std::exp(sign * spread * normal[k]);
   parameters = material::toughness_from_vector(eta);
 }
 
 std::vector<double> normals(RandomStream& random) {
-  std::vector<double> values(searched_eta().size());
+  std::vector<double> values(sysid::kSearchedEta.size());
   for (double& value : values) value = random.normal();
   return values;
 }
@@ -199,8 +200,7 @@ tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
   for (const FractureRun& run : runs_->runs()) {
     double distance = 0.0;
     const auto other = to_vector(run.parameters.toughness);
-    for (const int i : searched_eta())
-      distance += std::pow(std::log(eta[static_cast<std::size_t>(i)] / other[static_cast<std::size_t>(i)]), 2);
+    for (const std::size_t i : sysid::kSearchedEta) distance += std::pow(std::log(eta[i] / other[i]), 2);
     for (const material::Effect& effect : material::effect_library()) {
       const auto strength = [&](const material::ParameterSet& set) {
         return material::strength_of(effect.parameters.front(), material::extension_value(set.extensions, effect.name));

@@ -7,12 +7,17 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "base/result.hpp"
 #include "fabricate/preview.hpp"
 
 namespace nacre::fabricate {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kSheetName = "build_sheet.json";
+constexpr const char* kPeoplesSheetName = "build_sheet.html";
+constexpr const char* kTableName = "specimens.csv";
 
 std::string slices_of(const WrittenModel& written) {
   return written.folder.empty() ? "slices" : written.folder + "/slices";
@@ -77,15 +82,13 @@ Json specimen_json(const Job& job, const Placed& specimen) {
           {"y_mm", specimen.y_mm}};
 }
 
-}  // namespace
-
-std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
+Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
   const JobRequest& request = job.request;
   const Printer& printer = request.printer;
   Json models = Json::array(), specimens = Json::array();
   for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written[i]));
   for (const Placed& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
-  const Json sheet{
+  return {
       {"job", request.name},
       {"seed", request.seed},
       {"printer",
@@ -97,7 +100,44 @@ std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& wr
       {"trays", job.trays},
       {"models", models},
       {"specimens", specimens}};
-  return sheet.dump(2) + "\n";
+}
+
+/// A sheet without what was counted in the files.
+Json plan_of(Json sheet) {
+  for (Json& model : sheet.at("models")) {
+    for (const char* counted :
+         {"slices", "slice_count", "columns", "rows", "droplets", "rigid_fraction", "rigid_fraction_by_layer"})
+      model.erase(counted);
+  }
+  return sheet;
+}
+
+}  // namespace
+
+std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
+  return sheet_json(job, written).dump(2) + "\n";
+}
+
+bool holds_another_job(const std::filesystem::path& folder, const Job& job) {
+  std::error_code unreadable;
+  if (!std::filesystem::exists(folder / kSheetName, unreadable)) {  // interrupted, or somebody's own table
+    return std::filesystem::exists(folder / kTableName, unreadable) &&
+           read_file(folder / kTableName) != specimen_table(job);
+  }
+  try {
+    const Json planned = Json::parse(sheet_json(job, std::vector<WrittenModel>(job.models.size())).dump());
+    return plan_of(Json::parse(read_file(folder / kSheetName))) != plan_of(planned);
+  } catch (const Json::exception&) {
+    return true;
+  }
+}
+
+void forget_job(const std::filesystem::path& folder) {
+  for (const char* sheet : {kSheetName, kPeoplesSheetName, kTableName}) {
+    std::error_code failure;
+    std::filesystem::remove(folder / sheet, failure);
+    if (failure) throw InputError::format("{}: cannot be replaced: {}", (folder / sheet).string(), failure.message());
+  }
 }
 
 std::string specimen_table(const Job& job) {
@@ -133,9 +173,10 @@ std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path&
     write_preview(plan, place / "preview.png");
     written.push_back(std::move(stack));
   }
-  write_file_atomically(folder / "specimens.csv", specimen_table(job));
-  write_file_atomically(folder / "build_sheet.html", build_sheet_html(job, written));
-  write_file_atomically(folder / "build_sheet.json", build_sheet_json(job, written));
+  if (!std::filesystem::exists(folder / kTableName))  // people fill it in
+    write_file_atomically(folder / kTableName, specimen_table(job));
+  write_file_atomically(folder / kPeoplesSheetName, build_sheet_html(job, written));
+  write_file_atomically(folder / kSheetName, build_sheet_json(job, written));
   return written;
 }
 

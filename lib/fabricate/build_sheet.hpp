@@ -22,10 +22,16 @@ struct WrittenModel {
 using JobProgress = std::function<void(double, std::string_view)>;
 
 /// Writes a job into `folder`: per model `slices/NNNN.png` and `preview.png` (in the folder itself when there is one
-/// model, else in a folder of its name), `specimens.csv` for `nacre import`, `build_sheet.html`, and last
-/// `build_sheet.json`. Throws InputError naming the file.
+/// model, else in a folder of its name), `specimens.csv` for `nacre import` unless it is there, `build_sheet.html`, and
+/// last `build_sheet.json`. Throws InputError naming the file.
 std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path& folder,
                                     const JobProgress& progress = {});
+
+/// Whether the sheets in `folder` are of another job than this, so that writing this one would lose them.
+bool holds_another_job(const std::filesystem::path& folder, const Job& job);
+
+/// Takes the sheets of a job away, what people filled in included, so that another can be written.
+void forget_job(const std::filesystem::path& folder);
 
 /// The build sheet as JSON (docs/FORMATS.md).
 std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written);

@@ -14,7 +14,7 @@ bool could_answer(const PrintedSpecimen& specimen, const Order& order) {
 
 DesignStage stage_of(const DesignState& state, bool all_complete) {
   if (state.ordered > 0 ? all_complete : state.valid > 0) return DesignStage::measured;
-  if (state.printed > 0 || state.arrived > 0) return DesignStage::printed;
+  if (state.printed > 0) return DesignStage::printed;
   if (state.ordered > 0) return DesignStage::approved;
   return DesignStage::pending;
 }
@@ -82,7 +82,10 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
     ++state.arrived;
     state.valid += specimen.valid;
   }
-  for (auto& [name, state] : states) state.stage = stage_of(state, all_complete[name]);
+  for (auto& [name, state] : states) {
+    state.printed = std::max(state.printed, state.arrived);  // what was measured came out of a printer, told or not
+    state.stage = stage_of(state, all_complete[name]);
+  }
   std::map<std::string, bool> decided;
   for (const StatedDecision& decision : facts.decisions) {
     if (!decided.emplace(decision.design.name(), true).second) continue;

@@ -36,6 +36,7 @@ struct PrintedSpecimen {
   tester::TestKind test = tester::TestKind::modulus;
   double orientation_deg = 0.0;
   std::string order_id;  ///< empty when nobody ordered it
+  bool operator==(const PrintedSpecimen&) const = default;
 };
 
 struct ProposedForRound {

@@ -79,18 +79,46 @@ void read_table(std::string_view source, std::string_view table, const toml::tab
   }
 }
 
+/// Where the first of these keys (`table.name`, or `name`) stands that the file has; the file itself when it has none.
+std::string place_of(std::string_view source, const toml::table& entries,
+                     std::initializer_list<std::string_view> keys) {
+  for (const std::string_view key : keys) {
+    const std::size_t dot = key.find('.');
+    const auto node = dot == std::string_view::npos ? entries[key] : entries[key.substr(0, dot)][key.substr(dot + 1)];
+    if (node) return place(source, *node.node());
+  }
+  return std::string(source);
+}
+
 /// What no key shows by itself.
-void check_together(std::string_view source, const Scenario& scenario) {
+void check_together(std::string_view source, const toml::table& entries, const Scenario& scenario) {
   const ValidationSettings& validation = scenario.validation;
   if (validation.enough_valid > validation.replicates) {
-    throw InputError::format("{}: validation.enough_valid = {}: expected at most validation.replicates = {}", source,
+    throw InputError::format("{}: validation.enough_valid = {}: expected at most validation.replicates = {}",
+                             place_of(source, entries, {"validation.enough_valid", "validation.replicates"}),
                              validation.enough_valid, validation.replicates);
   }
   const ProposalSettings& proposal = scenario.proposal;
   if (proposal.seeds > proposal.samples) {
-    throw InputError::format("{}: proposal.seeds = {}: expected at most proposal.samples = {}", source, proposal.seeds,
+    throw InputError::format("{}: proposal.seeds = {}: expected at most proposal.samples = {}",
+                             place_of(source, entries, {"proposal.seeds", "proposal.samples"}), proposal.seeds,
                              proposal.samples);
   }
+}
+
+/// The document, and the scenario that it says.
+std::pair<toml::table, Scenario> parse(std::string_view text, std::string_view source) {
+  toml::table entries;
+  try {
+    entries = toml::parse(text, source);
+  } catch (const toml::parse_error& error) {
+    throw InputError::format("{}:{}:{}: not TOML: {}", source, error.source().begin.line, error.source().begin.column,
+                             error.description());
+  }
+  Scenario scenario;
+  read_table(source, "", entries, scenario);
+  check_together(source, entries, scenario);
+  return {std::move(entries), std::move(scenario)};
 }
 
 /// Folders that a file named in a scenario is looked for in, nearest first.
@@ -111,7 +139,7 @@ std::vector<std::filesystem::path> search_folders(const std::filesystem::path& s
   return folders;
 }
 
-void resolve_file(std::string_view source, std::string_view key, const std::filesystem::path& scenario_path,
+void resolve_file(const toml::table& entries, std::string_view key, const std::filesystem::path& scenario_path,
                   std::string& file) {
   if (file.empty()) return;
   const auto is_file = [](const std::filesystem::path& path) {
@@ -131,7 +159,7 @@ void resolve_file(std::string_view source, std::string_view key, const std::file
   throw InputError::format(
       "{}: {} = \"{}\": no such file; expected a path, absolute or relative to the scenario, to a "
       "folder above it or to the working folder",
-      source, key, file);
+      place_of(scenario_path.string(), entries, {key}), key, file);
 }
 
 }  // namespace
@@ -142,28 +170,16 @@ std::vector<std::string> Scenario::nodes() const {
   return names;
 }
 
-Scenario parse_scenario(std::string_view text, std::string_view source) {
-  toml::table entries;
-  try {
-    entries = toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    throw InputError::format("{}:{}:{}: not TOML: {}", source, error.source().begin.line, error.source().begin.column,
-                             error.description());
-  }
-  Scenario scenario;
-  read_table(source, "", entries, scenario);
-  check_together(source, scenario);
-  return scenario;
-}
+Scenario parse_scenario(std::string_view text, std::string_view source) { return parse(text, source).second; }
 
 Scenario read_scenario(const std::filesystem::path& path) {
-  Scenario scenario = parse_scenario(read_file(path), path.string());
-  resolve_file(path.string(), "benchmark_file", path, scenario.benchmark_file);
-  resolve_file(path.string(), "base_materials_file", path, scenario.base_materials_file);
-  resolve_file(path.string(), "model_file", path, scenario.model_file);
-  resolve_file(path.string(), "numerics_floor_file", path, scenario.numerics_floor_file);
-  resolve_file(path.string(), "laboratory.file", path, scenario.laboratory.file);
-  return scenario;
+  auto [entries, scenario] = parse(read_file(path), path.string());
+  resolve_file(entries, "benchmark_file", path, scenario.benchmark_file);
+  resolve_file(entries, "base_materials_file", path, scenario.base_materials_file);
+  resolve_file(entries, "model_file", path, scenario.model_file);
+  resolve_file(entries, "numerics_floor_file", path, scenario.numerics_floor_file);
+  resolve_file(entries, "laboratory.file", path, scenario.laboratory.file);
+  return std::move(scenario);
 }
 
 std::string to_toml(const Scenario& scenario) {

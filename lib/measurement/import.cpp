@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -27,7 +28,7 @@ class Exports {
  public:
   Exports(const std::vector<fs::path>& files, fs::path folder) : files_(files), folder_(std::move(folder)) {}
 
-  /// The test of a row, or what is wrong with it.
+  /// The test of a row, which must outlive this, or what is wrong with it.
   tl::expected<TesterRecord, ImportFault> record_of(const SheetRow& row, const std::string& sheet) {
     const auto path = find(row.file);
     if (!path) return tl::unexpected(ImportFault{sheet, row.line, "file", path.error().message});
@@ -44,7 +45,14 @@ class Exports {
       return tl::unexpected(
           ImportFault{sheet, row.line, "part", fmt::format("{}, but `{}` holds {} tests", row.part, row.file, count)});
     }
-    return (*records)[static_cast<std::size_t>(std::max(row.part, 1) - 1)];
+    const int part = std::max(row.part, 1);
+    const auto [owner, is_first] = owners_.try_emplace({key_of(*path, row.columns), part}, &row);
+    if (!is_first) {
+      return tl::unexpected(ImportFault{sheet, row.line, "file",
+                                        fmt::format("`{}` is already specimen {} (line {}), expected a test of its own",
+                                                    row.file, owner->second->record.specimen, owner->second->line)});
+    }
+    return (*records)[static_cast<std::size_t>(part - 1)];
   }
 
   /// Files that no row asked for.
@@ -80,8 +88,13 @@ class Exports {
     return found.front();
   }
 
+  /// Columns of one file may be tests of their own.
+  static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
+    return path.lexically_normal().string() + '\n' + choice.extension + '\n' + choice.force;
+  }
+
   const tl::expected<std::vector<TesterRecord>, ImportFault>& read(const fs::path& path, const ColumnChoice& choice) {
-    const std::string key = path.string() + '\n' + choice.extension + '\n' + choice.force;
+    const std::string key = key_of(path, choice);
     const auto known = read_.find(key);
     if (known != read_.end()) return known->second;
     return read_.emplace(key, read_anew(path, choice)).first->second;
@@ -100,6 +113,7 @@ class Exports {
   fs::path folder_;
   std::set<std::string> used_;
   std::map<std::string, tl::expected<std::vector<TesterRecord>, ImportFault>> read_;
+  std::map<std::pair<std::string, int>, const SheetRow*> owners_;  ///< key and part -> the first row of the test
 };
 
 tester::Curve nominal_curve(const TesterRecord& record, const SheetRow& row) {
@@ -156,12 +170,27 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
                                  kFewestCurveRows));
   if (test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
-  ImportedSpecimen imported{.record = row.record, .file = shown_file, .maker = from.maker, .test = *test};
+  ImportedSpecimen imported{
+      .record = row.record, .file = shown_file, .line = row.line, .maker = from.maker, .test = *test};
   if (const auto rate = strain_rate(from.time_s, curve.strain); rate && !row.rate_is_given)
     imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
   set_values(*test, imported.record);
   keep_history(from, *test, imported.record);
   return imported;
+}
+
+/// A doubt about the size of a specimen as the sheet has it, or nothing: units are mistaken by factors of ten and more.
+std::string doubt_of_size(const SheetRow& row) {
+  constexpr double kBarWidthMm = 13.0, kFactor = 2.0;  // ASTM D638, type I
+  const bool notched = row.record.test == tester::TestKind::toughness;
+  const double width_mm = notched ? 1e3 * thesis::kSpecimenWidth.value : kBarWidthMm;
+  const double thickness_mm = 1e3 * thesis::kSpecimenThickness.value;
+  const auto far_off = [&](double value, double nominal) {
+    return value > kFactor * nominal || value < nominal / kFactor;
+  };
+  if (!far_off(row.width_mm, width_mm) && !far_off(row.record.conditions.thickness_mm, thickness_mm)) return "";
+  return fmt::format("{} x {} mm in the gauge, nominal {} x {} mm: are width_mm and thickness_mm right?", row.width_mm,
+                     row.record.conditions.thickness_mm, width_mm, thickness_mm);
 }
 
 /// Doubts about a specimen, as sentences.
@@ -173,6 +202,14 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   if (one.test.toe_strain > kLargestToe)
     warnings.push_back(fmt::format("{}: a toe of {:.2f} % strain was taken off: was the specimen slack in its grips?",
                                    who, 100.0 * one.test.toe_strain));
+  if (const std::string doubt = doubt_of_size(row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
+  constexpr double kLargestStrain = 3.0, kLargestPeakPa = 1e10;
+  if (one.test.failure_strain > kLargestStrain)
+    warnings.push_back(fmt::format("{}: failure strain {:.3g} is no usual one: are extension and gauge ({} mm) right?",
+                                   who, one.test.failure_strain, row.gauge_mm));
+  if (one.test.peak_stress_pa > kLargestPeakPa)
+    warnings.push_back(fmt::format("{}: peak stress {:.3g} Pa is no usual one: are force and size right?", who,
+                                   one.test.peak_stress_pa));
   const double rate = one.record.conditions.strain_rate_per_s;
   if (rate < kSlowest || rate > kFastest)
     warnings.push_back(fmt::format("{}: strain rate {} 1/s: are the units of time and extension right?", who, rate));

@@ -15,6 +15,7 @@ namespace nacre::measurement {
 struct ImportedSpecimen {
   SpecimenRecord record;
   std::string file;
+  int line = 0;  ///< of the sheet
   std::string maker;
   ReducedTest test;
 };
@@ -23,6 +24,7 @@ struct Import {
   std::vector<ImportedSpecimen> specimens;  ///< in the order of the sheet
   std::vector<ImportFault> rejected;        ///< one per specimen or file that could not be used
   std::vector<std::string> warnings;
+  int known = 0;  ///< how many of the specimens the set held before (write_import)
 };
 
 struct ImportSettings {
@@ -34,5 +36,11 @@ struct ImportSettings {
 /// InputError when the sheet itself cannot be used.
 Import import_exports(const std::vector<std::filesystem::path>& files, const std::filesystem::path& sheet,
                       const ImportSettings& settings = {});
+
+/// Writes what came of `sheet` into the measurement set `folder`: a new one, or one that gains specimens. What the set
+/// holds stays: a specimen that it knows by the same test keeps the judgement that the set has of it (`import` then
+/// says that one), a known name with another test is moved to the rejected. Throws InputError when the set cannot be
+/// read or written.
+void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import);
 
 }  // namespace nacre::measurement

@@ -106,6 +106,8 @@ Result<LinearPart> linear_part(const tester::Curve& curve) {
   const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -
                                              curve.stress_pa.begin());
   const double peak_pa = curve.stress_pa[peak];
+  if (-*std::min_element(curve.stress_pa.begin(), curve.stress_pa.end()) > peak_pa)
+    return fail("tension counts as positive: the force is negative, expected an export with its sign reversed");
   if (peak_pa <= 0.0) return fail("the force never becomes positive, expected tension to count as positive");
   const std::vector<std::size_t> path = first_loading(curve, peak);
   std::vector<Window> windows;

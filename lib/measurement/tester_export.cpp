@@ -319,8 +319,21 @@ class ExportReader {
     return comma ? DecimalMark::comma : DecimalMark::point;
   }
 
+  /// A row that was torn at its decimal commas has numbers beyond the heading's last column.
+  bool is_torn(const Cells& row, const Layout& layout) const {
+    return delimiter_ == ',' && row.size() > layout.names.size() &&
+           std::any_of(row.begin() + static_cast<std::ptrdiff_t>(layout.names.size()), row.end(),
+                       [](const auto& cell) { return looks_like_number(cell); });
+  }
+
   void take_rows(const Layout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
                  const std::vector<std::string>& warnings) {
+    for (const auto& [index, row] : rows) {
+      if (!is_torn(row, layout)) continue;
+      return reject(index + 1, "",
+                    fmt::format("has {} cells, expected {}: decimal commas in a comma-separated file?", row.size(),
+                                layout.names.size()));
+    }
     const auto mark = decimal_mark(layout, rows);
     if (!mark) return;
     if (records_.empty() || !is_mts()) {

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 
-#include "base/csv.hpp"
 #include "base/files.hpp"
 #include "measurement/measurement.hpp"
-#include "measurement/set_columns.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/set_table.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -28,18 +28,24 @@ std::string curve_name(const std::string& specimen, std::set<std::string>& taken
 
 std::string optional_number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-std::string table_row(const SpecimenRecord& record, const std::string& curve, const std::set<std::string>& others) {
-  std::string row = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_cell(record.specimen), csv_cell(record.design.name()),
-      tester::to_string(record.test), record.conditions.orientation_deg, record.conditions.strain_rate_per_s,
-      csv_cell(record.batch), record.print_order == 0 ? "" : std::to_string(record.print_order),
-      record.conditions.thickness_mm, optional_number(record.modulus_pa), optional_number(record.toughness_pa),
-      csv_cell(curve), record.valid ? 1 : 0, csv_cell(record.note));
-  for (const std::string& name : others) {
-    const auto cell = record.other_columns.find(name);
-    row += "," + (cell == record.other_columns.end() ? "" : csv_cell(cell->second));
-  }
-  return row + "\n";
+/// A specimen as cells by column. A column of the author's that has the name of one of nacre's is left out.
+std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const std::string& curve) {
+  std::map<std::string, std::string> cells = {
+      {"specimen", record.specimen},
+      {"pattern", record.design.name()},
+      {"test", std::string(tester::to_string(record.test))},
+      {"orientation_deg", fmt::format("{}", record.conditions.orientation_deg)},
+      {"strain_rate_per_s", fmt::format("{}", record.conditions.strain_rate_per_s)},
+      {"batch", record.batch},
+      {"print_order", record.print_order == 0 ? "" : std::to_string(record.print_order)},
+      {"thickness_mm", fmt::format("{}", record.conditions.thickness_mm)},
+      {"modulus_pa", optional_number(record.modulus_pa)},
+      {"toughness_pa", optional_number(record.toughness_pa)},
+      {"curve", curve},
+      {"valid", record.valid ? "1" : "0"},
+      {"note", record.note}};
+  cells.insert(record.other_columns.begin(), record.other_columns.end());
+  return cells;
 }
 
 void create_folders(const std::filesystem::path& folder) {
@@ -48,25 +54,33 @@ void create_folders(const std::filesystem::path& folder) {
   if (failure) throw InputError::format("{}: cannot be created: {}", folder.string(), failure.message());
 }
 
-}  // namespace
-
-void write_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens) {
+/// Writes the specimens' curves and puts their rows at the end of the table.
+void add_specimens(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens,
+                   std::set<std::string>& taken, SetTable& table) {
   create_folders(folder / "curves");
-  std::set<std::string> others;
-  for (const SpecimenRecord& record : specimens) {
-    for (const auto& [name, text] : record.other_columns) others.insert(name);
-  }
-  std::string table;
-  for (const std::string_view column : kColumns) table += (table.empty() ? "" : ",") + std::string(column);
-  for (const std::string& name : others) table += "," + csv_cell(name);
-  table += "\n";
-  std::set<std::string> taken;
   for (const SpecimenRecord& record : specimens) {
     const std::string curve = record.curve.empty() ? "" : curve_name(record.specimen, taken);
     if (!curve.empty()) write_file_atomically(folder / curve, to_csv(record.curve));
-    table += table_row(record, curve, others);
+    table.append(cells_of(record, curve));
   }
-  write_file_atomically(folder / kTableName, table);  // last: a set with a table has its curves
+  table.write(folder);  // last: a set with a table has its curves
+}
+
+}  // namespace
+
+void write_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens) {
+  SetTable table;
+  std::set<std::string> taken;
+  add_specimens(folder, specimens, taken, table);
+}
+
+void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens) {
+  SetTable table(folder);
+  std::set<std::string> taken;
+  std::error_code none;  // a set need not have curves
+  for (const auto& file : std::filesystem::directory_iterator(folder / "curves", none))
+    taken.insert(file.path().stem().string());
+  add_specimens(folder, specimens, taken, table);
 }
 
 }  // namespace nacre::measurement

@@ -186,6 +186,7 @@ std::string shown(char c) {
 
 Result<Layout> layout_from_text(std::string_view text, std::string_view source) {
   constexpr std::string_view kExpected = "expected 20 lines of 20 characters 0 (soft) or 1 (rigid)";
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // editors put the mark of UTF-8 before plain text
   std::vector<std::string_view> lines = lines_of(text);
   while (!lines.empty() && lines.back().find_first_not_of(" \t") == std::string_view::npos) lines.pop_back();
   Layout layout;

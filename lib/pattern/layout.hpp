@@ -81,8 +81,8 @@ Result<Layout> layout_from_key(std::string_view key);
 /// 20 lines of 20 characters 0 (soft) or 1 (rigid).
 std::string to_text(const Layout& layout);
 
-/// Reads the 20 lines (LF or CRLF, trailing blank lines allowed). The error names line and column and what was
-/// expected; `source` is the name used for the place.
+/// Reads the 20 lines (LF or CRLF, byte-order mark and trailing blank lines allowed). The error names line and column
+/// and what was expected; `source` is the name used for the place.
 Result<Layout> layout_from_text(std::string_view text, std::string_view source);
 
 }  // namespace nacre::pattern

@@ -60,11 +60,11 @@ std::string specimen_row(const store::MeasuredSpecimen& m) {
   const auto modulus = measurement::modulus_of(r),
              toughness = r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa;
   const std::string validity = r.valid ? "valid" : "<strong class=\"bad\">invalid</strong>";
-  return table_row({specimen_name(r.specimen), m.round < 0 ? "not ordered" : fmt::format("{}", m.round),
-                    design_name(r.design.name()), test_name(r.test), modulus ? gpa(*modulus) : "–",
-                    toughness ? mpa(*toughness) : "–", conditions_of(r), escaped(r.batch), validity,
-                    fmt::format("<span>{}</span>", escaped(r.note))},
-                   r.valid ? "" : "invalid");
+  return table_row(
+      {specimen_name(r.specimen), m.round < 0 ? "–" : fmt::format("{}", m.round), design_name(r.design.name()),
+       test_name(r.test), modulus ? gpa(*modulus) : "–", toughness ? mpa(*toughness) : "–", conditions_of(r),
+       escaped(r.batch), validity, fmt::format("<span>{}</span>", escaped(r.note))},
+      r.valid ? "" : "invalid");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "base/result.hpp"
 #include "command.hpp"
+#include "laboratory_view.hpp"
 #include "nacre/approval_t.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
@@ -96,6 +97,20 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
   return 0;
 }
 
+/// The designs, each with its state: what was decided needs no second yes.
+void list_designs(const RunAccess& run, const wire::Proposal& proposal) {
+  std::map<std::string, game::DesignState> states;
+  for (game::DesignState& state : game::design_states(view_laboratory(run).facts))
+    states.emplace(state.design.name(), std::move(state));
+  fmt::print("proposal {}:\n", proposal.round);
+  for (const auto& design : proposal.designs) {
+    const auto known = states.find(design.design.name());
+    const auto stage = known == states.end() ? game::DesignStage::pending : known->second.stage;
+    fmt::print("{}  {:9} E {:.4f} GPa  T {:.4f} MPa  {}\n", design.design.name(), game::to_string(stage),
+               1e-9 * design.modulus_pa, 1e-6 * design.toughness_pa, design.reason);
+  }
+}
+
 int approve(const ApproveOptions& options) {
   const RunAccess run = open_run(options.run);
   if (options.add) return add_own(options, run);
@@ -105,11 +120,7 @@ int approve(const ApproveOptions& options) {
     return 1;
   }
   if (options.designs.empty() && !options.all) {
-    fmt::print("proposal {}:\n", proposal->round);
-    for (const auto& design : proposal->designs) {
-      fmt::print("{}  E {:.4f} GPa  T {:.4f} MPa  {}\n", design.design.name(), 1e-9 * design.modulus_pa,
-                 1e-6 * design.toughness_pa, design.reason);
-    }
+    list_designs(run, *proposal);
     return 0;
   }
   for (const std::string& design : designs_meant(options, *proposal)) {

@@ -8,6 +8,7 @@
 #include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
 #include "sysid/offline.hpp"
@@ -140,6 +141,7 @@ void print_table(const sysid::OfflineCalibration& result) {
 }
 
 int calibrate(const Options& options) {
+  prepare_output_file(options.out);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
   const material::ParameterSet defaults = material::default_parameters();

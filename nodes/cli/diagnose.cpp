@@ -13,6 +13,7 @@
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
 
@@ -138,6 +139,7 @@ int plan(const Options& options) {
 }
 
 int diagnose(const Options& options) {
+  if (!options.report.empty()) prepare_output_file(options.report);
   if (options.plan) return plan(options);
   if (!options.table.empty()) return diagnose_table(options);
   if (options.set.empty())

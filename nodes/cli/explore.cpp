@@ -16,6 +16,7 @@
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "progress.hpp"
 #include "runtime/interrupts.hpp"
 #include "store/kept_simulation.hpp"
@@ -72,6 +73,7 @@ int explore_gamut(const Options& options) {
   const auto parameters = options.params.empty() ? defaults : material::read_parameters(options.params, defaults);
   const explore::SearchSettings settings = search_settings(options);
   const auto search = explore::make_search(settings);
+  prepare_output_file(options.out);
   std::unique_ptr<store::SimulationCache> cache;
   std::optional<explore::BatchLog> log;
   if (!options.cache.empty()) {
@@ -82,8 +84,7 @@ int explore_gamut(const Options& options) {
   const runtime::Interrupts interrupts;
   Progress progress("explore: patterns", options.budget);
   constexpr auto kSaveEvery = std::chrono::seconds(5);
-  auto saved = std::chrono::steady_clock::time_point{};  // long ago: the first batch already shows whether the file can
-                                                         // be written
+  auto saved = std::chrono::steady_clock::time_point{};  // long ago: the first batch is kept already
   int failed = 0;
   for (auto batch = ask(); !batch.empty(); batch = ask()) {
     std::vector<std::optional<optimize::Performance>> performances(batch.size());

@@ -11,6 +11,7 @@
 #include "fabricate/build_sheet.hpp"
 #include "laboratory_view.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "pattern/constraints.hpp"
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
@@ -41,6 +42,7 @@ struct Options {
   std::vector<double> tray_mm = {255.0, 252.0};
   double gap_mm = 5.0;
   std::uint64_t seed = 1;
+  bool replace = false;
   bool json = false;
 };
 
@@ -88,8 +90,7 @@ std::vector<Wanted> wanted_by_name(const Options& options) {
 }
 
 /// What a game has ordered and nobody has printed or measured yet.
-std::vector<Wanted> wanted_by_game(const Options& options) {
-  const LaboratoryView view = view_laboratory(open_run(options.run));
+std::vector<Wanted> wanted_by_game(const LaboratoryView& view) {
   std::vector<Wanted> wanted;
   for (const OrderState& order : view.orders) {
     const int missing = order.order.replicates - std::max(order.arrived, order.printed);
@@ -108,11 +109,39 @@ std::vector<Wanted> wanted_by_game(const Options& options) {
   return wanted;
 }
 
+/// Whether a specimen of the run is called as those of a batch of this name would be.
+bool names_specimens(const std::string& batch, const game::LaboratoryFacts& facts) {
+  const auto has_label = [&](const std::string& name) {
+    const std::size_t digits = batch.size() + 1;
+    return name.starts_with(batch + "-") && name.size() > digits &&
+           name.find_first_not_of("0123456789", digits) == std::string::npos;
+  };
+  const auto measured = facts.book.specimens();
+  return std::any_of(facts.printed.begin(), facts.printed.end(),
+                     [&](const auto& one) { return has_label(one.label); }) ||
+         std::any_of(measured.begin(), measured.end(), [&](const auto& one) { return has_label(one.specimen); });
+}
+
+/// `batch`, or the first of batch_2, batch_3, ... whose labels the run has not: a label names a measurement.
+std::string free_batch(const std::string& batch, const game::LaboratoryFacts& facts) {
+  std::string name = batch;
+  for (int copy = 2; names_specimens(name, facts); ++copy) name = fmt::format("{}_{}", batch, copy);
+  if (name != batch)
+    remark(fmt::format("the run has specimens {}-01 and so on: these are called {}-01 ...", batch, name));
+  return name;
+}
+
 fabricate::JobRequest request_of(const Options& options) {
   fabricate::JobRequest request;
   request.name =
       options.batch.empty() ? std::filesystem::weakly_canonical(options.out).filename().string() : options.batch;
-  request.wanted = options.orders ? wanted_by_game(options) : wanted_by_name(options);
+  if (options.orders) {
+    const LaboratoryView view = view_laboratory(open_run(options.run));
+    request.wanted = wanted_by_game(view);
+    request.name = free_batch(request.name, view.facts);
+  } else {
+    request.wanted = wanted_by_name(options);
+  }
   request.printer = {options.dpi[0], options.dpi[1], options.dpi[2], options.tray_mm[0], options.tray_mm[1]};
   request.interface = options.interface == "sharp" ? fabricate::Interface::sharp : fabricate::Interface::engineered;
   request.grips = options.grips == "rigid" ? fabricate::Grips::rigid : fabricate::Grips::pattern;
@@ -145,7 +174,12 @@ int fabricate_job(const Options& options) {
     return 1;
   }
   const fabricate::Job job = fabricate::plan_job(request);
-  make_folder(options.out);
+  prepare_output_folder(options.out);
+  if (options.replace) {
+    fabricate::forget_job(options.out);
+  } else if (fabricate::holds_another_job(options.out, job)) {
+    throw InputError::format("{}: holds another print job; expected a new folder, or --replace", options.out);
+  }
   Progress progress("fabricate");
   const auto written = fabricate::write_job(
       job, options.out, [&](double share, std::string_view model) { progress.set_share(share, std::string(model)); });
@@ -200,6 +234,8 @@ void add_fabricate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command.add_option("--gap-mm", options->gap_mm, "Between specimens")->capture_default_str();
   command.add_option("--seed", options->seed, "Of the mixtures' droplets and the print order")->capture_default_str();
+  command.add_flag("--replace", options->replace,
+                   "Take the place of another job in the folder, filled-in sheets included");
   command.add_flag("--json", options->json, "The build sheet on standard output");
 }
 

@@ -21,6 +21,7 @@
 #include "laboratory_view.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"
 #include "shipped_files.hpp"
@@ -123,8 +124,15 @@ Beginning beginning_of_run(const Options& options) {
 /// families.toml of the folder when a person or a former call left one, else a proposal, which is written there.
 std::vector<Family> families_in(const std::filesystem::path& folder, const std::vector<families::Member>& designs) {
   const std::filesystem::path file = folder / "families.toml";
-  if (std::filesystem::exists(file)) return families::read_families(file);
   const std::vector<Family> proposed = families::proposed_families(designs);
+  if (std::filesystem::exists(file)) {
+    std::vector<Family> known = families::read_families(file);
+    remark(fmt::format("families and their seeds are those of {}", file.string()));
+    if (known != proposed)
+      warn(fmt::format("{}: other families than these measurements propose; without this file they are proposed anew",
+                       file.string()));
+    return known;
+  }
   write_file_atomically(file, families::to_toml(proposed));
   return proposed;
 }
@@ -284,7 +292,7 @@ nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning
                                 sysid::LocalSimulator& simulator) {
   const std::filesystem::path folder = folder_of(options) / family.name;
   const StagedFamily* stage = staged(family, beginning);
-  std::filesystem::create_directories(folder);
+  prepare_output_folder(folder.string());
   material::ParameterSet parameters = beginning.parameters;
   nlohmann::ordered_json document = {{"name", family.name}, {"seeds", family.seeds.size()}};
   document["errors_of_the_global_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
@@ -361,7 +369,7 @@ int find_families(const Options& options) {
     return std::ranges::count(near, *game::eightfold_pattern(group.design), &families::Member::pattern) == 0;
   });
   const std::filesystem::path folder = folder_of(options);
-  std::filesystem::create_directories(folder);
+  prepare_output_folder(folder.string());
   if (options.propose) {
     const auto proposed = families_in(folder, near);
     for (const Family& family : proposed) fmt::print("{}: {} seeds\n", family.name, family.seeds.size());

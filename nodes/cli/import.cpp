@@ -53,29 +53,33 @@ void print_import(const measurement::Import& import, const Options& options) {
                  1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
                  one.record.valid ? "" : "  NOT VALID");
     }
-    fmt::print("{} specimens, {} rejected: {}\n", import.specimens.size(), import.rejected.size(), options.out);
+    fmt::print("{} specimens{}, {} rejected: {}\n", import.specimens.size(),
+               import.known > 0 ? fmt::format(" ({} there before)", import.known) : "", import.rejected.size(),
+               options.out);
     return;
   }
   nlohmann::ordered_json specimens = nlohmann::ordered_json::array(), rejected = specimens;
   for (const auto& one : import.specimens) specimens.push_back(to_json(one));
   for (const auto& fault : import.rejected) rejected.push_back(to_json(fault));
-  print_json({{"set", options.out}, {"specimens", specimens}, {"rejected", rejected}, {"warnings", import.warnings}});
+  print_json({{"set", options.out},
+              {"specimens", specimens},
+              {"known", import.known},
+              {"rejected", rejected},
+              {"warnings", import.warnings}});
 }
 
 int import_exports(const Options& options) {
   const measurement::ImportSettings settings{.toe = options.toe == "keep" ? measurement::Toe::keep
                                                                           : measurement::Toe::compensate};
-  const measurement::Import import = measurement::import_exports(
+  measurement::Import import = measurement::import_exports(
       std::vector<std::filesystem::path>(options.files.begin(), options.files.end()), options.sheet, settings);
+  measurement::write_import(options.out, options.sheet, import);
   for (const std::string& warning : import.warnings) warn(warning);
   for (const auto& fault : import.rejected) warn(to_string(fault));
   if (import.specimens.empty()) {
     throw InputError::format("{}: none of its specimens is usable; the first: {}", options.sheet,
                              import.rejected.empty() ? "no rows" : to_string(import.rejected.front()));
   }
-  std::vector<measurement::SpecimenRecord> records;
-  for (const auto& one : import.specimens) records.push_back(one.record);
-  measurement::write_measurement_set(options.out, records);
   print_import(import, options);
   return 0;
 }
@@ -92,7 +96,8 @@ void add_import(CLI::App& app, Action& action) {
   command.add_option("--specimens", options->sheet, "Sheet: which file is which specimen, and its size")
       ->required()
       ->check(CLI::ExistingFile);
-  command.add_option("--out", options->out, "Folder of the measurement set")->required();
+  command.add_option("--out", options->out, "Folder of the measurement set; one that exists gains specimens")
+      ->required();
   command.add_option("--toe", options->toe, "First part of the curves: compensate (ASTM D638 A1) or keep")
       ->check(CLI::IsMember({"compensate", "keep"}))
       ->capture_default_str();

@@ -1,8 +1,8 @@
 #include "laboratory_view.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
@@ -70,6 +70,15 @@ std::vector<PrintedRow> read_printed(const RunAccess& run) {
   return rows;
 }
 
+/// A label names a measurement later: it can stand for one specimen only.
+InputError another_specimen(const game::PrintedSpecimen& known) {
+  return InputError::format(
+      "{}: is printed already, as a specimen of {} ({} test); expected labels that the run does not know: make this "
+      "job "
+      "again with --batch NAME --replace, which changes its labels only, and write those on the specimens",
+      known.label, known.design.name(), tester::to_string(known.test));
+}
+
 template <class Domain, class Take>
 auto each(const Take& take) {
   return [take](const std::string& payload) {
@@ -118,11 +127,13 @@ LaboratoryView view_laboratory(const RunAccess& run) {
 
 int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by) {
   std::vector<PrintedRow> rows = read_printed(run);
-  std::set<std::string> known;
-  for (const auto& [specimen, person] : rows) known.insert(specimen.label);
+  std::map<std::string, game::PrintedSpecimen> known;
+  for (const auto& [specimen, person] : rows) known.emplace(specimen.label, specimen);
   const std::size_t before = rows.size();
   for (const game::PrintedSpecimen& specimen : specimens) {
-    if (known.insert(specimen.label).second) rows.emplace_back(specimen, by);
+    const auto [entry, is_new] = known.emplace(specimen.label, specimen);
+    if (is_new) rows.emplace_back(specimen, by);
+    if (entry->second != specimen) throw another_specimen(entry->second);
   }
   std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const auto& [specimen, person] : rows) {

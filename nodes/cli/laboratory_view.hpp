@@ -30,8 +30,8 @@ struct LaboratoryView {
 /// Throws InputError when the record of what was printed cannot be read.
 LaboratoryView view_laboratory(const RunAccess& run);
 
-/// Adds specimens to the record of what was printed; those with a label that it holds already stay as they are. Returns
-/// how many were new. Throws InputError.
+/// Adds specimens to the record of what was printed, but those that it holds already. Returns how many were new. Throws
+/// InputError, and records nothing, when it holds another specimen of the same label.
 int record_printed(const RunAccess& run, const std::vector<game::PrintedSpecimen>& specimens, const std::string& by);
 
 /// The specimens of a build sheet (JSON). Throws InputError naming file and key.

@@ -2,15 +2,27 @@
 
 #include <string>
 
+#include "analyser/analyser_core.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "game/scenario.hpp"
 #include "output.hpp"
+#include "replay_laboratory.hpp"
 #include "runtime/interrupts.hpp"
 #include "runtime/launcher.hpp"
 #include "runtime/recorder.hpp"
+#include "validation_agent/validation_core.hpp"
 
 namespace nacre::cli {
 namespace {
+
+/// Reads the files that a scenario names as its nodes will: what they refuse is said with the user's own path, before a
+/// run is made that could only fail.
+void check_inputs(const game::Scenario& scenario) {
+  validation_agent::make_core(scenario);
+  analyser::make_core(scenario);
+  if (scenario.laboratory.virtual_lab) make_laboratory(scenario);
+}
 
 int play(const runtime::LaunchOptions& options) {
   if (options.scenario.empty() == options.resume.empty()) {
@@ -25,6 +37,7 @@ int play(const runtime::LaunchOptions& options) {
   if (!options.only.empty() && !options.elsewhere.empty()) {
     throw InputError("nacre launch: expected either --only or --elsewhere, not both");
   }
+  if (!options.scenario.empty()) check_inputs(game::read_scenario(options.scenario));
   return runtime::launch(options);
 }
 

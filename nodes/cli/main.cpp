@@ -1,6 +1,11 @@
 // nacre: the command line. One subcommand per file; exit status 0 done, 1 the answer is no, 2 wrong usage or bad input.
 
+#include <algorithm>
+#include <cstdio>
 #include <exception>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include "base/result.hpp"
 #include "command.hpp"
@@ -10,6 +15,39 @@ namespace nacre::cli {
 namespace {
 
 constexpr int kBadInput = 2;
+
+/// Letters to be changed, added or left out to make one word of the other.
+std::size_t changes_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0U);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row[b.size()];
+}
+
+/// Throws InputError unless the word typed behind `nacre` is a command (or an option).
+void require_known_command(CLI::App& app, const std::string& typed) {
+  if (typed.starts_with("-")) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  std::string nearest;
+  std::size_t fewest = 3;  // changes at which a word is another one
+  for (const std::string& name : names) {
+    const std::size_t changes = changes_between(typed, name);
+    if (changes == 0) return;
+    if (changes < fewest) nearest = name;
+    fewest = std::min(fewest, changes);
+  }
+  throw InputError::format("{}: no such command; {}", typed,
+                           nearest.empty() ? fmt::format("expected one of {}", fmt::join(names, ", "))
+                                           : fmt::format("is `{}` meant?", nearest));
+}
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -25,6 +63,7 @@ int run(int argc, char** argv) {
         add_replay,   add_doctor,    add_rebuild,   add_backup}) {
     add(app, action);
   }
+  if (argc > 1) require_known_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -38,13 +77,14 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace nacre::cli
 
+// What ends the program is said by functions that cannot throw themselves: standard error may be closed or full.
 int main(int argc, char** argv) {
   try {
     return nacre::cli::run(argc, argv);
   } catch (const nacre::InputError& error) {
-    fmt::print(stderr, "nacre: {}\n", error.what());
+    std::fprintf(stderr, "nacre: %s\n", error.what());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "nacre: unexpected: {}\n", error.what());
+    std::fprintf(stderr, "nacre: unexpected: %s\n", error.what());
   }
   return nacre::cli::kBadInput;
 }

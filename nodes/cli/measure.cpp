@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
 #include "virtual_lab/laboratory.hpp"
@@ -30,6 +31,7 @@ int measure(const Options& options) {
   if (options.test != "both") campaign.tests = {*tester::test_kind_from_string(options.test)};
   if (options.orientation == "90") campaign.orientations_deg = {90.0};
   if (options.orientation == "both") campaign.orientations_deg = {0.0, 90.0};
+  prepare_output_folder(options.out);
   remark(fmt::format("measuring {} designs", campaign.designs.size()));
   Progress progress("measure:");
   const auto records =

@@ -15,9 +15,10 @@ void print_json(const nlohmann::ordered_json& document) {
   fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void remark(const std::string& line) { fmt::print(stderr, "{}\n", line); }
+// Work must not end because nobody can read a remark.
+void remark(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
-void warn(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
+void warn(const std::string& line) { remark("warning: " + line); }
 
 void warn_about(const measurement::MeasurementSet& set, const std::string& folder) {
   for (const std::string& warning : set.warnings) warn(warning);

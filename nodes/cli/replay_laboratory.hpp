@@ -5,7 +5,8 @@
 
 namespace nacre::cli {
 
-/// The virtual laboratory of a scenario, for replay: the only place besides `nacre measure` that knows its truth.
+/// The virtual laboratory of a scenario, for replay and to see whether its file can be read: the only place besides
+/// `nacre measure` that knows its truth.
 runtime::NodeProgram make_laboratory(const game::Scenario& scenario);
 
 }  // namespace nacre::cli

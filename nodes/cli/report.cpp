@@ -8,6 +8,7 @@
 #include "base/files.hpp"
 #include "command.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "run_access.hpp"
 #include "runtime/round_history.hpp"
 #include "shipped_files.hpp"
@@ -37,6 +38,7 @@ int report(const Options& options) {
   if (!std::filesystem::exists(thesis))
     remark("data/thesis is neither here nor above the program: its figures are left out");
   const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
+  prepare_output_folder(folder.string());
   analyser::write_paper(folder, analyser::read_paper_source(run.folder, run.manifest.run_id,
                                                             std::filesystem::exists(thesis) ? thesis : ""));
   if (const auto model = adopted_parameters(run))

@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "laboratory_view.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/set_table.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
@@ -67,32 +68,17 @@ int judge_in_run(const Options& options, const Judgement& judgement) {
   return status;
 }
 
-measurement::MeasurementSet read_set(const std::string& folder) {
-  measurement::MeasurementSet set = measurement::read_measurement_set(folder);
-  for (const auto& row : set.rejected) warn_about(row, folder);
-  return set;
-}
-
-/// Writes the judgements into the set itself.
+/// Writes the judgements into the table of the set; its curves and everything else stay as they are.
 int judge_in_set(const Options& options, const std::vector<Judgement>& judgements) {
-  measurement::MeasurementSet set = read_set(options.set);
-  if (!set.rejected.empty()) {
-    throw InputError::format(
-        "{}: {} rows cannot be used and would be lost by writing the set: expected them mended or "
-        "removed first",
-        options.set, set.rejected.size());
-  }
+  measurement::SetTable table(options.set);
   for (const Judgement& judgement : judgements) {
-    const auto specimen = std::find_if(set.specimens.begin(), set.specimens.end(),
-                                       [&](const auto& each) { return each.specimen == judgement.specimen; });
-    if (specimen == set.specimens.end()) {
+    if (!table.holds(judgement.specimen)) {
       throw InputError::format("{}: not in {}: expected the name of one of its {} specimens", judgement.specimen,
-                               options.set, set.specimens.size());
+                               options.set, table.size());
     }
-    specimen->valid = judgement.valid;
-    specimen->note = fmt::format("{} ({})", judgement.why, options.by);
+    table.judge(judgement.specimen, judgement.valid, fmt::format("{} ({})", judgement.why, options.by));
   }
-  measurement::write_measurement_set(options.set, set.specimens);
+  table.write(options.set);
   for (const Judgement& judgement : judgements)
     fmt::print("{}: {}\n", judgement.specimen, judgement.valid ? "valid" : "not valid");
   return 0;
@@ -106,8 +92,10 @@ int judge(const Options& options, const std::vector<Judgement>& judgements) {
 }
 
 std::vector<SpecimenRecord> specimens_to_review(const Options& options) {
-  return options.set.empty() ? view_laboratory(open_run(options.run)).facts.book.specimens()
-                             : read_set(options.set).specimens;
+  if (options.set.empty()) return view_laboratory(open_run(options.run)).facts.book.specimens();
+  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  warn_about(set, options.set);
+  return set.specimens;
 }
 
 nlohmann::ordered_json to_json(const ReplicateGroup& group) {

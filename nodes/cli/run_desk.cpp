@@ -5,6 +5,7 @@
 #include "laboratory_view.hpp"
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
+#include "output.hpp"
 #include "specimen_messages.hpp"
 #include "wire/codec.hpp"
 #include "wire/convert.hpp"
@@ -51,7 +52,7 @@ std::optional<material::ParameterSet> RunDesk::family_model(const std::string& f
 }
 
 void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder.string());
   write_file_atomically(folder / "families.toml", families::to_toml(families));
 }
 

@@ -15,6 +15,7 @@
 #include "film_files.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
+#include "output_path.hpp"
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
@@ -198,23 +199,24 @@ void write_files(const std::vector<Specimen>& specimens, const Options& options)
   }
 }
 
-/// Before anything is computed: a GIF shows one specimen, a folder must be there.
+/// Before anything is computed: a GIF shows one specimen, and what is to be written can be.
 void check_film_options(const Options& options) {
   if (options.wants_films() && options.test == "modulus")
     throw InputError("--frames and --film show the toughness test: --test modulus does not run it");
   if (options.film.empty()) return;
-  if (!is_gif(options.film)) return make_folder(options.film);
+  if (!is_gif(options.film)) return prepare_output_folder(options.film);
   if (options.patterns.size() > 1)
     throw InputError::format("--film {}: a GIF shows one specimen, not {}; name a folder for pictures of all",
                              options.film, options.patterns.size());
+  prepare_output_file(options.film);
 }
 
 int simulate(const Options& options) {
   std::vector<Specimen> specimens = read_specimens(options.patterns);
   material::ParameterSet parameters = material::default_parameters();
   if (!options.params.empty()) parameters = material::read_parameters(options.params, parameters);
-  if (!options.curves.empty()) make_folder(options.curves);
-  if (!options.frames.empty()) make_folder(options.frames);
+  if (!options.curves.empty()) prepare_output_folder(options.curves);
+  if (!options.frames.empty()) prepare_output_folder(options.frames);
   check_film_options(options);
   run_tests(specimens, options, parameters);
   write_files(specimens, options);

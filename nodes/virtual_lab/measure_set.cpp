@@ -10,6 +10,8 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "measurement/set_columns.hpp"
+#include "measurement/set_table.hpp"
 #include "virtual_lab/laboratory.hpp"
 
 namespace nacre::virtual_laboratory {
@@ -84,6 +86,14 @@ std::filesystem::path truth_file(std::filesystem::path folder) {
   return folder.concat(".truth.toml");
 }
 
+/// A set is not measured over: judgements, and the truth beside it, belong to the specimens that it holds.
+void require_new(const std::filesystem::path& folder) {
+  std::error_code unreadable;
+  if (!std::filesystem::exists(folder / measurement::kTableName, unreadable)) return;
+  throw InputError::format("{}: holds {} specimens; expected a new folder", folder.string(),
+                           measurement::SetTable(folder).size());
+}
+
 }  // namespace
 
 std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
@@ -110,6 +120,7 @@ std::vector<SpecimenRecord> measure_set(const std::filesystem::path& laboratory_
                                         const std::filesystem::path& folder, const Campaign& campaign,
                                         const CampaignProgress& progress) {
   const Truth truth = read_laboratory(laboratory_file);
+  require_new(folder);
   std::vector<SpecimenRecord> records = measure(truth, campaign, progress);
   measurement::write_measurement_set(folder, records);
   write_sealed(truth_file(folder), truth);

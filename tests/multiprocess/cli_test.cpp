@@ -131,7 +131,8 @@ TEST_F(CommandLine, WrongUsageIsRefused) {
   expect_refused(run_nacre({"simulate", "soft", "--fidelity", "fine"}), {"fine"});
   expect_refused(run_nacre({"simulate", "soft", "--test", "hardness"}), {"hardness"});
   expect_refused(run_nacre({"explore", "--algorithm", "magic", "--out", path("g.csv")}), {"magic"});
-  expect_refused(run_nacre({"nonsense"}), {});
+  expect_refused(run_nacre({"nonsense"}), {"nonsense: no such command", "simulate"});
+  expect_refused(run_nacre({"simulte", "--help"}), {"simulte: no such command; is `simulate` meant?"});
   expect_refused(run_nacre({"launch"}), {"SCENARIO"});
 }
 
@@ -147,12 +148,49 @@ TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {
   EXPECT_THAT(said, HasSubstr("No space left on device"));
 }
 
+TEST_F(CommandLine, WhereResultsGoIsTriedBeforeTheWork) {
+  const std::string file = this->file("file", ""), taken = file + "/below";
+  const std::string laboratory = this->file("lab.toml", "seed = 7\n");  // in full size, hours of work
+  expect_refused(run_nacre({"explore", "--budget", "100000", "--out", taken}), {file});
+  expect_refused(run_nacre({"explore", "--budget", "100000", "--out", "/dev/null"}), {"/dev/null: is no regular file"});
+  for (const char* where : {"--curves", "--frames", "--film"})
+    expect_refused(run_nacre({"simulate", "rigid", kPublishedA, where, taken}), {file});
+  expect_refused(run_nacre({"simulate", kPublishedA, "--film", file + "/a.gif"}), {file});
+  expect_refused(run_nacre({"measure", "--lab", laboratory, "--out", taken, kPublishedA}), {file});
+  expect_refused(run_nacre({"fabricate", "rigid", "--out", taken}), {file});
+  ASSERT_EQ(run_nacre({"explore", "--fidelity", "tiny", "--budget", "2", "--population", "2", "--batch", "2", "--out",
+                       path("new/folder/g.csv")})
+                .status,
+            0);
+}
+
+TEST_F(CommandLine, AStandardErrorThatTakesNothingEndsItInOrder) {
+  runtime::ChildProcess process({"/bin/sh", "-c", "exec \"$0\" simulate nonsense 2>/dev/full", program("nacre")});
+  std::string said;
+  const runtime::ProcessEnd end = wait_for_end(process, said);
+  EXPECT_EQ(end.signal, 0);
+  EXPECT_EQ(end.exit_status, 2);
+}
+
 TEST_F(CommandLine, ScenarioErrorsNameFileLineKeyAndRange) {
   expect_refused(run_nacre({"launch", file("s.toml", "seed = 1\n[proposal]\ndesigns = 0\n"), "--logs", path("logs")}),
                  {"s.toml:3", "proposal.designs", "1 to 100"});
   expect_refused(run_nacre({"launch", file("t.toml", "sead = 1\n"), "--logs", path("logs")}), {"t.toml:1", "sead"});
   expect_refused(run_nacre({"launch", path("nowhere.toml"), "--logs", path("logs")}), {"nowhere.toml"});
   EXPECT_FALSE(fs::exists(path("logs"))) << "nothing is made for a scenario that cannot be played";
+}
+
+TEST_F(CommandLine, FilesThatAScenarioNamesAreReadBeforeARunIsMade) {
+  const std::string broken = file("broken.toml", "seed = 1\nnot toml\n");
+  const std::string table = file("line.csv", "no,such,columns\n1,2,3\n");
+  for (const auto& [lines, name] : {std::pair{"model_file = \"broken.toml\"\n", "broken.toml:2"},
+                                    {"numerics_floor_file = \"broken.toml\"\n", "broken.toml:2"},
+                                    {"benchmark_file = \"line.csv\"\n", "line.csv"},
+                                    {"base_materials_file = \"line.csv\"\n", "line.csv"},
+                                    {"[laboratory]\nfile = \"broken.toml\"\n", "broken.toml: line 2"}}) {
+    expect_refused(run_nacre({"launch", file("s.toml", lines), "--logs", path("logs")}), {path(name)});
+    EXPECT_FALSE(fs::exists(path("logs"))) << lines;
+  }
 }
 
 TEST_F(CommandLine, ExploreAndSelectWorkHandInHand) {
@@ -292,9 +330,12 @@ TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   EXPECT_EQ(seeds, 2U);
   const Outcome again = run_nacre(command);  // from what it kept
   EXPECT_EQ(again.out, outcome.out);
+  EXPECT_THAT(outcome.err, Not(HasSubstr("families.toml")));
+  EXPECT_THAT(again.err, AllOf(HasSubstr("found/families.toml"), Not(HasSubstr("warning"))));
   file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577fffe9fffdef\"]\n");
   const Outcome edited = run_nacre(command);
   EXPECT_EQ(nlohmann::json::parse(edited.out).at(0)["name"], "mine");
+  EXPECT_THAT(edited.err, HasSubstr("other families than these measurements propose"));
   file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577\"]\n");
   expect_refused(run_nacre(command), {"families.toml:3", "577"});
 }

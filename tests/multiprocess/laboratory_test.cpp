@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/files.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
 
@@ -46,6 +47,27 @@ TEST(Fabricate, RefusesWhatCannotBePrinted) {
                                                 {"fabricate", "rigid", "--tray-mm", "50,50", "--out", folder}}) {
     EXPECT_EQ(run_nacre(wrong).status, 2) << wrong[1];
   }
+}
+
+TEST(Fabricate, WritesOverAnotherJobOnlyWhenToldTo) {
+  const fs::path folder = fresh_folder("known_job");
+  const auto fabricate = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"fabricate", "--dpi", "100,100,100", "--out", folder.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_nacre(arguments);
+  };
+  ASSERT_EQ(fabricate({"rigid"}).status, 0);
+  const std::string sheet = read_file(folder / "build_sheet.json");
+  std::ofstream(folder / "specimens.csv") << "filled in\n";
+  const Outcome refused = fabricate({"soft"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("expected a new folder, or --replace"));
+  EXPECT_EQ(read_file(folder / "build_sheet.json"), sheet);
+  EXPECT_EQ(read_file(folder / "specimens.csv"), "filled in\n");
+  EXPECT_EQ(fabricate({"rigid"}).status, 0) << "the same job";
+  EXPECT_EQ(read_file(folder / "specimens.csv"), "filled in\n");
+  EXPECT_EQ(fabricate({"soft", "--replace"}).status, 0);
+  EXPECT_THAT(read_file(folder / "specimens.csv"), HasSubstr(",soft,"));
 }
 
 TEST(ImportProgram, MakesASetOfWhatIsUsableAndNamesTheRest) {
@@ -95,6 +117,24 @@ TEST(ReviewProgram, ProposesTheOutlierOfTheExampleAndLeavesTheDecisionToAPerson)
   EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-19", "--invalid"}).status, 2) << "a reason is wanted";
 }
 
+TEST(ReviewProgram, ChangesNothingOfTheSetButTheJudgementAndShowsItsWarnings) {
+  const fs::path set = fresh_folder("judged");
+  std::ofstream(set / "measurements.csv") << "specimen,pattern,test,modulus_pa,curve,note,colour\n"
+                                             "A,rigid,modulus,2e9,raw.csv,bent,red\n"
+                                             "B,rigid,bending,2e9,,,blue\n";
+  const std::string curve = "strain,stress_pa,time_s\n0,0,0\n.1,1,1\n.2,2,2\n.3,3,3\n.4,4,4\n";
+  std::ofstream(set / "raw.csv") << curve;
+  const Outcome shown = run_nacre({"review", "--set", set.string()});
+  EXPECT_THAT(shown.err, HasSubstr("unknown column `colour`"));
+  EXPECT_THAT(shown.err, HasSubstr("line 3, test"));
+  ASSERT_EQ(run_nacre({"review", "--set", set.string(), "A", "--invalid", "--why", "bubble", "--by", "me"}).status, 0);
+  EXPECT_EQ(read_file(set / "measurements.csv"),
+            "specimen,pattern,test,modulus_pa,curve,note,colour,valid\n"
+            "A,rigid,modulus,2e9,raw.csv,bent; bubble (me),red,0\n"
+            "B,rigid,bending,2e9,,,blue,\n");
+  EXPECT_EQ(read_file(set / "raw.csv"), curve);
+}
+
 constexpr const char* kScenario = R"(rounds = 1
 fidelity = "tiny"
 [diagnosis]
@@ -130,20 +170,35 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   const std::string own = (*pattern::design_from_name("3ffc9b4ad4d2d9")).name();
   EXPECT_EQ(states(person.run()).at(proposed), "pending");
   EXPECT_EQ(states(person.run()).at("soft"), "approved");
+  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  pending "));
   person.decide({"approve", proposed, "--reject", "--why", "islands"});
+  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  rejected "));
   EXPECT_THAT(person.decide({"approve", "--add", own, "--why", "published"}), HasSubstr("added"));
   person.wait_for("orders of the person's design", [&] { return person.orders().size() == 8; });
   EXPECT_EQ(states(person.run()).at(proposed), "rejected");
   EXPECT_EQ(states(person.run()).at(own), "approved");
 
-  const std::string job = (folder / "job").string();
+  const std::string earlier = (folder / "earlier/job").string(), job = (folder / "job").string();
+  const std::vector<std::string> coarse = {"--replicates", "1", "--dpi", "100,100,100"};
+  const auto fabricate_one = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "fabricate");
+    arguments.insert(arguments.end(), coarse.begin(), coarse.end());
+    ASSERT_EQ(run_nacre(arguments).status, 0);
+  };
+  fabricate_one({"checkerboard:5", "--out", earlier});
+  EXPECT_THAT(run_nacre({"printed", earlier, "--run", run}).out, HasSubstr("1 specimens printed"));
   const Outcome printed =
       run_nacre({"fabricate", "--orders", "--run", run, "--out", job, "--dpi", "100,100,100", "--json"}, 120.0);
   ASSERT_EQ(printed.status, 0) << printed.err;
   EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"].size(), 16U);
+  EXPECT_EQ(nlohmann::json::parse(printed.out)["specimens"][0]["label"], "job_2-01") << "job-01 is the run's already";
   EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 specimens printed"));
   EXPECT_THAT(run_nacre({"printed", job, "--run", run}).out, HasSubstr("16 known already"));
   EXPECT_EQ(run_nacre({"fabricate", "--orders", "--run", run, "--out", job}).status, 1) << "nothing is left to print";
+  fabricate_one({"checkerboard:2", "--batch", "job", "--out", (folder / "clash").string()});
+  const Outcome clash = run_nacre({"printed", (folder / "clash").string(), "--run", run});
+  EXPECT_EQ(clash.status, 2);
+  EXPECT_THAT(clash.err, HasSubstr("job-01: is printed already"));
 
   person.game().kill_everything();
   EXPECT_EQ(states(person.run()).at(own), "printed");

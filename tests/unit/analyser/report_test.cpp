@@ -87,6 +87,13 @@ TEST(Report, TinyRunSaysThatItsFiguresMeanNothing) {
   EXPECT_LT(page.find("nothing.</strong>"), page.find("</header>"));
 }
 
+TEST(Report, ASpecimenThatNamesNoOrderHasNoRound) {
+  store::RunRecord run = sample::run(1);
+  for (store::MeasuredSpecimen& m : run.specimens) m.round = -1;
+  EXPECT_THAT(section_of(render_report(run, "r"), "specimens"),
+              AllOf(HasSubstr("<td>–</td>"), Not(HasSubstr("not ordered"))));
+}
+
 TEST(Report, HostileTextsDoNotBecomeMarkup) {
   const std::string evil = "</style><script>alert(1)</script>\"'><img src=x onerror=alert(1)>&amp;\x01";
   store::RunRecord run = sample::run(1);

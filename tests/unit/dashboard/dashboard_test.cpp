@@ -11,6 +11,8 @@
 
 #include "../wire/samples.hpp"
 #include "base/files.hpp"
+#include "base/result.hpp"
+#include "dashboard/server.hpp"
 #include "fake_desk.hpp"
 #include "store/run_database.hpp"
 
@@ -112,6 +114,26 @@ TEST_F(DashboardOfARun, WritesWithinATickOfTheClockAreToldApart) {
   EXPECT_EQ(versions.size(), 100);
 }
 
+TEST_F(DashboardOfARun, AnAddressThatCannotBeListenedToIsSaidWithItsCause) {
+  const auto complaint = [&](const std::string& host, int port) -> std::string {
+    try {
+      serve(
+          *dashboard_, {.host = host, .port = port, .token = ""}, [](int) {}, [] { return true; });
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint("300.1.1.1", 0), HasSubstr("300.1.1.1:0: is no address: "));
+  EXPECT_THAT(complaint("192.0.2.1", 0), HasSubstr("is no address of this machine"));  // TEST-NET-1 is nobody's
+  std::string second;
+  int asked = 0;
+  serve(
+      *dashboard_, {.host = "127.0.0.1", .port = 0, .token = ""},
+      [&](int port) { second = complaint("127.0.0.1", port); }, [&] { return ++asked > 1; });
+  EXPECT_THAT(second, HasSubstr("is another dashboard there?"));
+}
+
 TEST_F(DashboardOfARun, NoFileOutsideThePageIsServed) {
   for (const char* path : {"/secret.toml", "/../secret.toml", "/page/../secret.toml", "//secret.toml",
                            "/index.html/../../secret.toml", "/run.db", "/%2e%2e/secret.toml"})
@@ -125,6 +147,7 @@ TEST_F(DashboardOfARun, NumbersAndNamesOutOfRangeAreRefused) {
   for (const char* round : {"", "-1", "1e3", "x", "99999999999", "1 ", "0x1"})
     EXPECT_EQ(get("/api/gamut", {{"round", round}}).status, 400) << round;
   EXPECT_EQ(get("/api/gamut").status, 400);
+  EXPECT_EQ(get("/api/gamut", {{"round", "99"}}).status, 404);
   for (const char* design : {"", "577fffe9fffde", "../x", "mix:2", "mix:nan"})
     EXPECT_EQ(get("/api/design", {{"design", design}}).status, 400) << design;
   for (const char* model : {"", "..", "a/b", "a b"})

@@ -152,5 +152,27 @@ TEST(BuildSheet, SaysWhatIsInTheSlices) {
   fs::remove_all(folder);
 }
 
+TEST(BuildSheet, OfAnotherJobIsNoticedAndTheTableThatPeopleFillInIsKept) {
+  const fs::path folder = fs::temp_directory_path() / ("nacre-known-job-" + std::to_string(::getpid()));
+  JobRequest request{.name = "known", .wanted = {{.design = pattern::Mixture{0.65}, .thickness_mm = 0.1}}};
+  const Job job = plan_job(request);
+  EXPECT_FALSE(holds_another_job(folder, job));
+  write_job(job, folder);
+  const fs::path table = folder / "specimens.csv";
+  write_file_atomically(table, "filled in\n");
+  EXPECT_FALSE(holds_another_job(folder, job));
+  write_job(job, folder);
+  EXPECT_EQ(read_file(table), "filled in\n");
+  request.wanted[0].replicates = 3;
+  const Job fewer = plan_job(request);
+  EXPECT_TRUE(holds_another_job(folder, fewer));
+  fs::remove(folder / "build_sheet.json");
+  EXPECT_TRUE(holds_another_job(folder, job)) << "a table that is not this job's";
+  forget_job(folder);
+  EXPECT_FALSE(holds_another_job(folder, fewer));
+  EXPECT_FALSE(fs::exists(table));
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace nacre::fabricate

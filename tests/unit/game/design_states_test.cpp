@@ -59,6 +59,14 @@ TEST(DesignStates, ADesignGoesFromPendingToMeasured) {
   EXPECT_EQ(state.decided_by, "lab");
 }
 
+TEST(DesignStates, WhatWasMeasuredWasPrinted) {
+  LaboratoryFacts facts;
+  facts.orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};
+  facts.book.enter(specimen_of("A-1", kDesign), "");
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::printed);
+  EXPECT_EQ(design_states(facts).front().printed, 1) << "nobody said so";
+}
+
 TEST(DesignStates, TheFirstDecisionCounts) {
   LaboratoryFacts facts;
   facts.proposed = {{0, kDesign}};

@@ -77,7 +77,7 @@ TEST(Import, UnloadingLoopsAreKeptAndAnElasticLoopCostsNoEnergy) {
 TEST(Import, EveryDamagedFileGivesOneErrorAndLosesNoOtherSpecimen) {
   const Import import = import_exports({}, kExports / "damaged/specimens.csv");
   const std::map<std::string, std::pair<int, std::string>> expected = {
-      {"compression.csv", {2, "never becomes positive"}},
+      {"compression.csv", {2, "tension counts as positive: the force is negative"}},
       {"cut_off.csv", {134, "expected 3"}},
       {"cut_utf16.csv", {0, "half a character"}},
       {"empty.csv", {0, "is empty, expected a table"}},
@@ -203,6 +203,42 @@ TEST_F(ImportedSet, ExportsAreFoundByNameAndUnusedOnesAreSaid) {
   EXPECT_THAT(import.warnings[0], HasSubstr("b.csv: no specimen of the sheet names this export"));
 }
 
+TEST_F(ImportedSet, RowsTornAtDecimalCommasAreNamed) {
+  write("a.csv", "time_s,extension_mm,force_n\n0,0,0\n0,4,0,013,2,02\n0,8,0,027,4,05\n1,2,0,04,6,1\n1,6,0,05,8,1\n");
+  const Import import =
+      this->import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid,52,3.2,54\n");
+  ASSERT_EQ(import.rejected.size(), 1U);
+  EXPECT_EQ(import.rejected[0].line, 3);
+  EXPECT_THAT(import.rejected[0].reason, HasSubstr("has 6 cells, expected 3: decimal commas"));
+}
+
+TEST_F(ImportedSet, SizesAndValuesThatUnitsExplainAreDoubted) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const auto doubts = [&](const std::string& size) {
+    const Import import = this->import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid," + size);
+    std::string all;
+    for (const std::string& warning : import.warnings) all += warning + "\n";
+    return all;
+  };
+  EXPECT_EQ(doubts("52,3.2,54\n"), "");
+  EXPECT_EQ(doubts("50,6.2,54\n"), "");
+  EXPECT_THAT(doubts("5.2,3.2,54\n"), HasSubstr("5.2 x 3.2 mm in the gauge, nominal 52 x 3.2 mm"));
+  EXPECT_THAT(doubts("52,0.0032,54\n"), HasSubstr("are width_mm and thickness_mm right?"));
+  EXPECT_THAT(doubts("0.052,0.0032,54\n"), HasSubstr("peak stress 5.96e+12 Pa is no usual one"));
+  EXPECT_THAT(doubts("52,3.2,0.054\n"), HasSubstr("failure strain 29.4 is no usual one"));
+}
+
+TEST_F(ImportedSet, ATestIsOneSpecimen) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import import = this->import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,part\n"
+      "a.csv,A1,rigid,52,3.2,54,\n./a.csv,A2,rigid,52,3.2,54,1\n");
+  EXPECT_EQ(import.specimens.size(), 1U);
+  ASSERT_EQ(import.rejected.size(), 1U);
+  EXPECT_EQ(import.rejected[0].line, 3);
+  EXPECT_THAT(import.rejected[0].reason, HasSubstr("`./a.csv` is already specimen A1 (line 2)"));
+}
+
 TEST_F(ImportedSet, APatternThatIsNoRegularFileIsRefusedAndNotWaitedFor) {
   const Import imported = import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,s1,/dev/stdin,10,3,50\n");
   ASSERT_FALSE(imported.rejected.empty());
@@ -282,6 +318,8 @@ TEST(Reduction, KeepingTheToeKeepsTheCurve) {
 TEST(Reduction, ACurveThatNeverRisesIsRefused) {
   const tester::Curve flat{{0, 1, 2, 3, 4, 5}, {0, 0, 0, 0, 0, 0}}, falling{{0, 1, 2, 3, 4}, {5, 4, 3, 2, 1}};
   EXPECT_FALSE(reduce(flat, Toe::compensate));
+  const tester::Curve reversed{{0, 1, 2, 3, 4, 5}, {1e-3, -1, -2, -3, -4, -5}};
+  EXPECT_THAT(reduce(reversed, Toe::compensate).error().message, HasSubstr("the force is negative"));
   EXPECT_FALSE(reduce(falling, Toe::compensate));
 }
 

@@ -121,6 +121,12 @@ TEST(Layout, FirstDigitOfALayoutKeyIsTheUpperLeftCorner) {
   EXPECT_EQ(key_of(layout), "L8" + std::string(99, '0'));
 }
 
+TEST(LayoutText, AByteOrderMarkIsPassedOver) {
+  const std::string text = to_text(Layout{});
+  EXPECT_EQ(layout_from_text("\xEF\xBB\xBF" + text, "text").value(), Layout{});
+  EXPECT_FALSE(layout_from_text("\xEF\xBB\xBF\xEF\xBB\xBF" + text, "text"));
+}
+
 TEST(LayoutText, AcceptsCarriageReturnsMissingLastNewlineAndTrailingBlankLines) {
   Layout layout;
   layout.set(3, 4, true);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/files.hpp"
@@ -198,6 +199,25 @@ TEST(MeasureSet, WritesASetThatReadsBackAndSealsItsTruthBesideIt) {
     EXPECT_EQ(*numbers.rbegin(), static_cast<int>(numbers.size())) << batch;
   EXPECT_EQ(read_laboratory(folder.string() + ".truth.toml").effects.droplet_mixing_pixels, 0.5);
   EXPECT_FALSE(std::filesystem::exists(folder / "truth.toml"));
+}
+
+TEST(MeasureSet, RefusesAFolderThatHoldsASetBeforeAnythingIsSimulated) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "virtual_lab_known_set";
+  std::filesystem::create_directories(folder);
+  const std::string laboratory = folder.string() + ".lab.toml",
+                    table = "specimen,pattern,test,modulus_pa\na,soft,x,1\n";
+  write_file_atomically(laboratory, "seed = 3\nfidelity = \"tiny\"\n");
+  write_file_atomically(folder / "measurements.csv", table);
+  int simulated = 0;
+  try {
+    measure_set(laboratory, folder, {{pattern::Mixture{0.65}}, {TestKind::modulus}},
+                [&](double, int, int) { ++simulated; });
+    ADD_FAILURE() << "was measured over";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("holds 1 specimens; expected a new folder"));
+  }
+  EXPECT_EQ(simulated, 0);
+  EXPECT_EQ(read_file(folder / "measurements.csv"), table);
 }
 
 TEST(Campaign, TurnedTwinsAreMeasuredAcrossAndHomogeneousCouponsOnce) {

@@ -1,0 +1,45 @@
+#pragma once
+// measurements.csv as cells: to change one thing about a set without writing the rest of it anew.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measurement/measurement.hpp"
+
+namespace nacre::measurement {
+
+/// The table of a set. Rows, also those that cannot be used, and cells stay as their author wrote them.
+class SetTable {
+ public:
+  /// The columns of docs/FORMATS.md and no row.
+  SetTable();
+  /// The table of the set in `folder`. Throws InputError when it cannot be read, or when a row is no CSV, which could
+  /// not be written back.
+  explicit SetTable(const std::filesystem::path& folder);
+
+  std::size_t size() const { return rows_.size(); }  ///< rows, usable or not
+  /// Whether a row has this name, usable or not.
+  bool holds(std::string_view specimen) const;
+  /// A row more, its cells by column; columns that the table lacks are added at the right.
+  void append(const std::map<std::string, std::string>& cells);
+  /// Puts a judgement into every row of this name: `valid`, and the note behind the one that is there.
+  void judge(std::string_view specimen, bool valid, const std::string& note);
+  /// Writes measurements.csv, and nothing else. Throws InputError when it cannot be written.
+  void write(const std::filesystem::path& folder) const;
+
+ private:
+  std::size_t column(std::string_view name);  ///< index; added when it is absent
+  std::string& cell(std::vector<std::string>& row, std::string_view name);
+
+  std::vector<std::string> heading_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// Adds specimens, whose names must be new, to the set in `folder`: their rows and curves; what is there stays. Throws
+/// InputError when the table cannot be read or something cannot be written.
+void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens);
+
+}  // namespace nacre::measurement

@@ -1,0 +1,72 @@
+// An import into a measurement set that may exist: what is there stays.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "measurement/import.hpp"
+#include "measurement/set_columns.hpp"
+#include "measurement/set_table.hpp"
+
+namespace nacre::measurement {
+namespace {
+
+/// Whether the set's specimen is the one that was imported. Judgements and columns that the import knows nothing of do
+/// not count.
+bool same_test(SpecimenRecord known, const SpecimenRecord& imported) {
+  for (const auto& [name, text] : imported.other_columns) {
+    const auto cell = known.other_columns.find(name);
+    if ((cell == known.other_columns.end() ? "" : cell->second) != text) return false;
+  }
+  known.other_columns = imported.other_columns;
+  known.valid = imported.valid;
+  known.note = imported.note;
+  return known == imported;
+}
+
+/// Parts `import` by what the set holds already; the specimens that are new to it.
+std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const std::string& sheet, Import& import) {
+  const MeasurementSet set = read_measurement_set(folder);
+  const SetTable table(folder);
+  std::vector<SpecimenRecord> added;
+  std::vector<ImportedSpecimen> kept;
+  for (ImportedSpecimen& one : import.specimens) {
+    const auto known = std::find_if(set.specimens.begin(), set.specimens.end(),
+                                    [&](const auto& each) { return each.specimen == one.record.specimen; });
+    const bool repeated = known != set.specimens.end() && same_test(*known, one.record);
+    if (!repeated && table.holds(one.record.specimen)) {
+      import.rejected.push_back(
+          {sheet, one.line, "specimen",
+           fmt::format("`{}` stands in {} with other content, which stays; expected another name, "
+                       "or that row removed first",
+                       one.record.specimen, (folder / kTableName).string())});
+      continue;
+    }
+    import.known += repeated;
+    if (repeated) {
+      one.record.valid = known->valid;
+      one.record.note = known->note;
+    } else {
+      added.push_back(one.record);
+    }
+    kept.push_back(std::move(one));
+  }
+  import.specimens = std::move(kept);
+  return added;
+}
+
+}  // namespace
+
+void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import) {
+  std::error_code unreadable;
+  if (std::filesystem::exists(folder / kTableName, unreadable)) {
+    const std::vector<SpecimenRecord> added = settle(folder, sheet, import);
+    if (!added.empty()) add_to_measurement_set(folder, added);
+    return;
+  }
+  std::vector<SpecimenRecord> records;
+  for (const ImportedSpecimen& one : import.specimens) records.push_back(one.record);
+  if (!records.empty()) write_measurement_set(folder, records);
+}
+
+}  // namespace nacre::measurement

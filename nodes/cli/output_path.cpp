@@ -1,0 +1,34 @@
+#include "output_path.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "base/result.hpp"
+#include "output.hpp"
+
+namespace nacre::cli {
+
+namespace fs = std::filesystem;
+
+void prepare_output_file(const std::string& file) {
+  if (const fs::path folder = fs::path(file).parent_path(); !folder.empty()) make_folder(folder.string());
+  std::error_code unreadable;
+  const fs::file_status status = fs::status(file, unreadable);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError::format("{}: is no regular file, expected the name of one to write", file);
+  const std::string aside = file + ".part";  // as write_file_atomically() does
+  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0 && errno != EEXIST)
+    throw InputError::format("{}: cannot be written: {}", file, std::strerror(errno));
+  if (descriptor < 0) return;
+  ::close(descriptor);
+  ::unlink(aside.c_str());
+}
+
+void prepare_output_folder(const std::string& folder) { prepare_output_file((fs::path(folder) / "nacre").string()); }
+
+}  // namespace nacre::cli

@@ -1,0 +1,15 @@
+#pragma once
+// Where results go is tried before the work is done whose results they are.
+
+#include <string>
+
+namespace nacre::cli {
+
+/// Makes the folders above `file` and proves that it can be written, leaving one that is there as it is. Throws
+/// InputError naming the path and the system's reason; also for a folder, a device, a pipe.
+void prepare_output_file(const std::string& file);
+
+/// Makes `folder` with its parents and proves that files can be made in it. Throws InputError.
+void prepare_output_folder(const std::string& folder);
+
+}  // namespace nacre::cli
