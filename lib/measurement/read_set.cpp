@@ -67,6 +67,25 @@ void require_columns(const Heading& heading, const std::string& table, int line,
   }
 }
 
+/// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
+void collect_curve_warnings(const SpecimenRecord& record, const std::string& place,
+                            std::vector<std::string>& warnings) {
+  constexpr Limits kUsualPeakPa{1e3, 1e10};
+  constexpr double kMostUsualStrain = 3.0, kNotSeparated = 0.2;
+  if (record.curve.empty()) return;
+  const auto doubt = [&](const std::string& sentence) {
+    warnings.push_back(fmt::format("{}: column curve: {}", place, sentence));
+  };
+  const double peak_pa = std::ranges::max(record.curve.stress_pa), strain = std::ranges::max(record.curve.strain);
+  if (!kUsualPeakPa.hold(peak_pa))
+    doubt(fmt::format("the largest stress is {:.3g}, no usual one; is the unit Pa?", peak_pa));
+  if (strain > kMostUsualStrain)
+    doubt(fmt::format("strain reaches {:.3g}, no usual one; is it a ratio, not per cent?", strain));
+  if (record.test == tester::TestKind::toughness && record.curve.stress_pa.back() > kNotSeparated * peak_pa)
+    doubt(fmt::format("ends at {:.0f} % of its largest stress, expected a pull to separation",
+                      100.0 * record.curve.stress_pa.back() / peak_pa));
+}
+
 /// Doubts about a usable row, each as a sentence that begins with its place.
 void collect_warnings(const SpecimenRecord& record, const std::string& place, std::vector<std::string>& warnings) {
   constexpr double kAreaTolerance = 0.02, kMostUsualPa = 1e11;
@@ -93,6 +112,7 @@ void collect_warnings(const SpecimenRecord& record, const std::string& place, st
     warnings.push_back(
         fmt::format("{}: column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", place, *modulus));
   }
+  collect_curve_warnings(record, place, warnings);
 }
 
 /// Reads rows one after another into a set, and keeps specimen names unique.

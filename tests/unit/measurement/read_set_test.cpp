@@ -55,6 +55,21 @@ class SetOnDisk : public testing::Test {
 
 constexpr const char* kShort = "specimen,pattern,test,modulus_pa\n";
 
+// Units that were forgotten are what people get wrong most often.
+TEST_F(SetOnDisk, CurvesInOtherUnitsAndUnfinishedPullsAreDoubted) {
+  const std::string heading = "specimen,pattern,test,curve\n", row = "A,577fffe9fffdef,toughness,a.csv\n";
+  const auto doubts = [&](const std::string& points) {
+    write("a.csv", "strain,stress_pa\n" + points);
+    const MeasurementSet set = read(heading + row);
+    return set.warnings.empty() ? std::string() : set.warnings.front();
+  };
+  EXPECT_EQ(doubts("0,0\n0.01,5e6\n0.02,9e6\n0.03,6e6\n0.04,0\n"), "");
+  EXPECT_THAT(doubts("0,0\n0.01,5\n0.02,900\n0.03,6\n0.04,0\n"), HasSubstr("is the unit Pa?"));
+  EXPECT_THAT(doubts("0,0\n1,5e6\n2,9e6\n3,6e6\n4,0\n"),
+              HasSubstr("measurements.csv:2: column curve: strain reaches 4"));
+  EXPECT_THAT(doubts("0,0\n0.01,5e6\n0.02,9e6\n0.03,8e6\n0.04,7.2e6\n"), HasSubstr("ends at 80 %"));
+}
+
 TEST(SmallSet, EveryKindOfRowIsUnderstood) {
   const MeasurementSet set = read_measurement_set(kSmallSet);
   EXPECT_TRUE(set.rejected.empty());
