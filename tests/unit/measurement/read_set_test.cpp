@@ -262,13 +262,13 @@ TEST_F(SetOnDisk, BadCurvesAreRejectedWithPlaceInTheirFile) {
 }
 
 TEST_F(SetOnDisk, GivenToughnessFarFromTheAreaIsAWarningAndWins) {
-  write("c.csv", "strain,stress_pa\n0,0\n0.1,100\n0.2,200\n0.3,300\n0.4,0\n");  // area 60
+  write("c.csv", "strain,stress_pa\n0,0\n0.1,1e5\n0.2,2e5\n0.3,3e5\n0.4,0\n");  // area 6e4
   const std::string header = "specimen,pattern,test,toughness_pa,curve\n";
-  EXPECT_TRUE(read(header + "S,rigid,toughness,61,c.csv\n").warnings.empty());
-  const MeasurementSet set = read(header + "S,rigid,toughness,62,c.csv\n");
+  EXPECT_TRUE(read(header + "S,rigid,toughness,6.1e4,c.csv\n").warnings.empty());
+  const MeasurementSet set = read(header + "S,rigid,toughness,6.2e4,c.csv\n");
   ASSERT_EQ(set.warnings.size(), 1u);
   EXPECT_THAT(set.warnings[0], HasSubstr(":2: column toughness_pa"));
-  EXPECT_EQ(toughness_of(set.specimens[0]), 62.0);
+  EXPECT_EQ(toughness_of(set.specimens[0]), 6.2e4);
 }
 
 TEST_F(SetOnDisk, WhatIsWrittenIsReadBack) {
