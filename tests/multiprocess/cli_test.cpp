@@ -370,8 +370,15 @@ TEST_F(CommandLine, RowsThatCannotBeUsedAreListedWithTheirLine) {
   EXPECT_THAT(outcome.err, HasSubstr(path("set/measurements.csv:4: has 5 cells")));
 }
 
+game::Scenario scenario_without_files() {
+  game::Scenario scenario;
+  scenario.base_materials_file.clear();
+  scenario.numerics_floor_file.clear();
+  return scenario;
+}
+
 TEST_F(CommandLine, InjectKeepsBackAModulusInAnotherUnitAndSendsTheRest) {
-  auto run = runtime::RunFolder::create(folder_ / "logs", "unheard", game::Scenario{});
+  auto run = runtime::RunFolder::create(folder_ / "logs", "unheard", scenario_without_files());
   run.set_port(runtime::PortReservation(0).port());
   const std::string head = "specimen,pattern,test,modulus_pa\n";
   file("set/measurements.csv", head + "a,rigid,modulus,0.4\nb,rigid,modulus,2e9\n");
@@ -415,7 +422,7 @@ TEST_F(CommandLine, DoctorNamesEveryCheckWithAVerdict) {
 TEST_F(CommandLine, DoctorAndDashboardTakeARunAsTheOthersDo) {
   for (const char* command : {"doctor", "dashboard"})
     expect_refused(run_nacre({command, "--run", path("norun")}), {"norun", "manifest.json"});
-  const auto run = runtime::RunFolder::create(folder_ / "logs", "played", game::Scenario{});
+  const auto run = runtime::RunFolder::create(folder_ / "logs", "played", scenario_without_files());
   std::ofstream(run.path() / "run.db") << twenty("this is no database");
   const Outcome outcome = run_nacre({"doctor", "--run", run.path().string(), "--json"});
   EXPECT_EQ(outcome.status, 1);

@@ -126,7 +126,7 @@ TEST(ReviewProgram, ChangesNothingOfTheSetButTheJudgementAndShowsItsWarnings) {
   std::ofstream(set / "raw.csv") << curve;
   const Outcome shown = run_nacre({"review", "--set", set.string()});
   EXPECT_THAT(shown.err, HasSubstr("unknown column `colour`"));
-  EXPECT_THAT(shown.err, HasSubstr("line 3, test"));
+  EXPECT_THAT(shown.err, HasSubstr("measurements.csv:3: column test"));
   ASSERT_EQ(run_nacre({"review", "--set", set.string(), "A", "--invalid", "--why", "bubble", "--by", "me"}).status, 0);
   EXPECT_EQ(read_file(set / "measurements.csv"),
             "specimen,pattern,test,modulus_pa,curve,note,colour,valid\n"
