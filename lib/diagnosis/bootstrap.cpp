@@ -56,7 +56,7 @@ DataSource::DataSource(const Observations& observations)
   const Eigen::MatrixXd total = parts.fixed + parts.scatter;
   Eigen::Index next = 0;
   for (std::size_t k = 0; k < observations.scatter.size(); ++k) {
-    dof_.push_back(observations.scatter[k].dof);
+    dof_.emplace_back(observations.scatter[k].dof, observations.scatter[k].assumed_dof);
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i)
       if (observations.rows[static_cast<std::size_t>(i)].scatter == k) rows.push_back(i);
@@ -89,7 +89,8 @@ Anchor DataSource::combined(Anchor anchor) const {
 
 ScatterFactors DataSource::draw_factors(RandomStream& random) const {
   ScatterFactors factors;
-  for (const int dof : dof_) factors.push_back(dof > 0 ? chi_square(dof, random) / dof : 1.0);
+  for (const auto& [dof, assumed] : dof_)
+    factors.push_back(dof > 0 ? (chi_square(dof, random) + assumed) / (dof + assumed) : 1.0);
   return factors;
 }
 

@@ -60,10 +60,10 @@ class DataSource {
   /// What as many replicates may come to say of their scatter.
   ScatterFactors draw_factors(RandomStream& random) const;
 
-  Eigen::MatrixXd to_combinations_;   ///< makes the covariance the identity and every scatter diagonal
-  Eigen::VectorXd scatter_share_;     ///< of a combination's variance that is replicate scatter
-  std::vector<std::size_t> scatter_;  ///< of a combination: index in Observations::scatter
-  std::vector<int> dof_;              ///< of each scatter
+  Eigen::MatrixXd to_combinations_;       ///< makes the covariance the identity and every scatter diagonal
+  Eigen::VectorXd scatter_share_;         ///< of a combination's variance that is replicate scatter
+  std::vector<std::size_t> scatter_;      ///< of a combination: index in Observations::scatter
+  std::vector<std::pair<int, int>> dof_;  ///< of each scatter, and how many more are assumed
 };
 
 /// Statistics of data against the anchor, by linear refits.

@@ -73,6 +73,7 @@ class Whitener {
 struct ReplicateScatter {
   Eigen::MatrixXd covariance;  ///< features x features
   int dof = 0;                 ///< degrees of freedom behind it; 0: assumed
+  int assumed_dof = 0;         ///< further ones that are assumed
 };
 
 /// Factors on the replicate variances, in the order of Observations::scatter.

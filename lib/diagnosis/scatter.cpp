@@ -10,6 +10,8 @@ namespace {
 
 /// Without replicates a scatter must still be assumed to weigh specimens; every statement is then relative to the fit.
 constexpr double kAssumedSd = 0.02;
+/// Fewer degrees of freedom are made up to so many with the assumed scatter.
+constexpr int kEnoughDof = 8;
 /// Replicates that agree better than a testing machine reads say nothing about scatter; exactly equal ones would leave
 /// a singular covariance. A curve is as linear as load cell and extensometer are (a fifth of class 1 of ISO 7500-1 and
 /// ISO 9513). Strains: as a strain.
@@ -149,13 +151,26 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
     // The means of batches are everybody's: each bears its share of what they cost.
     scatter.dof = within > 0 ? static_cast<int>(deviations.size() - own_groups.size()) * scatter.dof / within : 0;
   }
-  if (scatter.dof <= 0) return {covariance_of(kAssumed), 0};
+  if (scatter.dof <= 0) return {covariance_of(kAssumed), 0, kEnoughDof};
   int features = 0;
   for (std::size_t f = 0; f < kFeatureCount; ++f)
     features += std::any_of(deviations.begin(), deviations.end(),
                             [f](const Deviation& d) { return d.from_mean[f].has_value(); });
   scatter.covariance = sums_of_products(deviations, scatter.dof) / scatter.dof;
-  const double keep = static_cast<double>(scatter.dof) / (scatter.dof + features);
+  const Eigen::MatrixXd assumed = covariance_of(kAssumed);
+  const auto agrees_too_well = [&](std::size_t f) {
+    const auto i = static_cast<Eigen::Index>(f);
+    const bool all_show_it = std::all_of(deviations.begin(), deviations.end(),
+                                         [f](const Deviation& d) { return d.from_mean[f].has_value(); });
+    return !all_show_it || scatter.covariance(i, i) <= assumed(i, i);
+  };
+  bool unbelievable = scatter.dof < kEnoughDof;
+  for (std::size_t f = 0; f < kFeatureCount; ++f) unbelievable = unbelievable && agrees_too_well(f);
+  if (unbelievable) {
+    scatter.assumed_dof = kEnoughDof - scatter.dof;
+    scatter.covariance = (scatter.dof * scatter.covariance + scatter.assumed_dof * assumed) / kEnoughDof;
+  }
+  const double dof = scatter.dof + scatter.assumed_dof, keep = dof / (dof + features);
   for (Eigen::Index f = 0; f < kFeatureCount; ++f) {
     for (Eigen::Index g = 0; g < kFeatureCount; ++g)
       if (f != g) scatter.covariance(f, g) *= keep;

@@ -33,8 +33,9 @@ Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
 
 /// Scatter of the replicates of one test, pooled over its groups: what batches have in common counts as history, not as
 /// scatter. Correlations are shrunk by p / (p + degrees of freedom), p features. Without replicates 2 % of everything
-/// is assumed, and so it is for features that only some of the groups show, as far as the others lack them.
-/// With a name of a design, only its groups are pooled.
+/// is assumed, and so it is for features that only some of the groups show, as far as the others lack them. Few
+/// replicates that agree better than that are not believed: up to eight degrees of freedom are made up with it. With a
+/// name of a design, only its groups are pooled.
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
                                 const std::string& design = "");
 

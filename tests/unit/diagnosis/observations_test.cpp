@@ -24,15 +24,33 @@ Observations observed(const std::vector<measurement::SpecimenRecord>& specimens,
   return observe(specimens, numerics_sd, {});
 }
 
+/// Upright specimens and turned ones, each kind of one modulus exactly.
+Observations exact_replicates(int of_each) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (int i = 0; i < of_each; ++i) {
+    specimens.push_back(pulled("a/" + std::to_string(i), 0, 2e8));
+    specimens.push_back(pulled("b/" + std::to_string(i), 90, 2.2e8));
+  }
+  return observed(specimens, 0.02);
+}
+
 TEST(Observations, ReplicatesThatAgreeExactlyLeaveAFiniteWeight) {
   // Rotated twins share what the numerics leave: nothing but scatter keeps their covariance from being singular.
-  const Observations observations = observed(
-      {pulled("a/1", 0, 2e8), pulled("a/2", 0, 2e8), pulled("b/1", 90, 2.2e8), pulled("b/2", 90, 2.2e8)}, 0.02);
-  ASSERT_EQ(observations.replicate_dof(tester::TestKind::modulus), 2);
+  const Observations observations = exact_replicates(5);
+  ASSERT_EQ(observations.replicate_dof(tester::TestKind::modulus), 8);
   const Whitener whitener(observations.covariance());
   const double chi2 = whitener.chi2(Eigen::Vector2d(0.0, 0.01));
   EXPECT_TRUE(std::isfinite(chi2));
   EXPECT_GT(chi2, 1.0) << "a percent is still far more than they scatter";
+}
+
+TEST(Observations, FewReplicatesThatAgreeExactlyAreNotBelieved) {
+  const auto sd = [](int of_each) {
+    return exact_replicates(of_each).replicate_sd(Feature::log_modulus, tester::TestKind::modulus);
+  };
+  EXPECT_NEAR(sd(2), 0.02 * std::sqrt(6.0 / 8.0), 1e-4) << "two degrees of freedom";
+  EXPECT_NEAR(sd(4), 0.02 * std::sqrt(2.0 / 8.0), 1e-4) << "six";
+  EXPECT_LT(sd(5), 0.001) << "eight are enough";
 }
 
 TEST(Observations, ScatterIsThatOfTheReplicates) {
@@ -181,7 +199,7 @@ TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForNumerics) {
 std::vector<measurement::SpecimenRecord> in_batches(double step) {
   std::vector<measurement::SpecimenRecord> specimens;
   for (int design = 0; design < 4; ++design) {
-    for (int batch = 0; batch < 3; ++batch) {
+    for (int batch = 0; batch < 4; ++batch) {
       // Scatter that is the same for every batch, so that the slope over batches is exact.
       specimens.push_back(
           pulled("s" + std::to_string(design) + std::to_string(batch), 0, 1e8 * std::exp(0.3 * design + step * batch)));
