@@ -9,8 +9,6 @@
 namespace nacre::diagnosis {
 namespace {
 
-/// Size of an effect, as a share of its range, at which it is asked whether these data could show it.
-
 bool holds(const std::vector<Fit>& fits, const std::string& effect) {
   return std::any_of(fits.begin(), fits.end(), [&](const Fit& f) {
     return std::find(f.effects.begin(), f.effects.end(), effect) != f.effects.end();

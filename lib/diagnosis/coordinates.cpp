@@ -1,10 +1,10 @@
 #include "diagnosis/coordinates.hpp"
-#include "sysid/eta.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
+
+#include "sysid/eta.hpp"
 
 namespace nacre::diagnosis {
 namespace {

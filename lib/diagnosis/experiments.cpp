@@ -122,13 +122,15 @@ std::vector<PossibleTest> possible_tests(const Observations& observations) {
     if (std::any_of(observations.groups.begin(), observations.groups.end(),
                     [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       tests.push_back(test);
-  std::map<TestKind, int> twins;
   const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
+  std::map<TestKind, tester::TestConditions> usual;
+  for (const TestKind test : tests) usual[test] = usual_conditions(layouts, test);
+  std::map<TestKind, int> twins;
   for (const Observation* g : layouts) {
     PossibleTest turned{g->design, g->test, g->conditions, "a twin printed turned by 90 degrees"};
     turned.conditions.orientation_deg = g->conditions.orientation_deg == 0.0 ? 90.0 : 0.0;
     offer(turned);
-    if (g->conditions != usual_conditions(layouts, g->test) || twins[g->test]++ >= kConditionTwins) continue;
+    if (g->conditions != usual[g->test] || twins[g->test]++ >= kConditionTwins) continue;
     PossibleTest faster{g->design, g->test, g->conditions, "a twin pulled ten times as fast"};
     faster.conditions.strain_rate_per_s *= kSecondRate;
     offer(faster);

@@ -95,6 +95,24 @@ Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int d
   return products;
 }
 
+/// Degrees of freedom within groups.
+int dof_within(const std::vector<Deviation>& deviations) {
+  std::set<int> groups;
+  for (const Deviation& d : deviations) groups.insert(d.group);
+  return static_cast<int>(deviations.size() - groups.size());
+}
+
+/// Whether every feature that all specimens show scatters less than is assumed.
+bool agree_too_well(const std::vector<Deviation>& deviations, const Eigen::MatrixXd& covariance,
+                    const Eigen::MatrixXd& assumed) {
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    const auto i = static_cast<Eigen::Index>(f);
+    const bool all_show_it = std::ranges::all_of(deviations, [f](const Deviation& d) { return bool(d.from_mean[f]); });
+    if (all_show_it && covariance(i, i) > assumed(i, i)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Eigen::MatrixXd covariance_of(const AssumedScatter& scatter) {
@@ -136,9 +154,7 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
                                 const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
-  std::set<int> group_numbers;
-  for (const Deviation& d : deviations) group_numbers.insert(d.group);
-  const int within = static_cast<int>(deviations.size() - group_numbers.size());
+  const int within = dof_within(deviations);
   // Means of batches come off where enough is left to tell scatter by.
   const bool by_batch = batches > 1 && within >= 4 * (batches - 1);
   if (by_batch) take_off_batches(deviations);
@@ -146,10 +162,8 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   scatter.dof = within - (by_batch ? batches - 1 : 0);
   if (!design.empty()) {
     std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
-    std::set<int> own_groups;
-    for (const Deviation& d : deviations) own_groups.insert(d.group);
     // The means of batches are everybody's: each bears its share of what they cost.
-    scatter.dof = within > 0 ? static_cast<int>(deviations.size() - own_groups.size()) * scatter.dof / within : 0;
+    scatter.dof = within > 0 ? dof_within(deviations) * scatter.dof / within : 0;
   }
   if (scatter.dof <= 0) return {covariance_of(kAssumed), 0, kEnoughDof};
   int features = 0;
@@ -158,15 +172,7 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
                             [f](const Deviation& d) { return d.from_mean[f].has_value(); });
   scatter.covariance = sums_of_products(deviations, scatter.dof) / scatter.dof;
   const Eigen::MatrixXd assumed = covariance_of(kAssumed);
-  const auto agrees_too_well = [&](std::size_t f) {
-    const auto i = static_cast<Eigen::Index>(f);
-    const bool all_show_it = std::all_of(deviations.begin(), deviations.end(),
-                                         [f](const Deviation& d) { return d.from_mean[f].has_value(); });
-    return !all_show_it || scatter.covariance(i, i) <= assumed(i, i);
-  };
-  bool unbelievable = scatter.dof < kEnoughDof;
-  for (std::size_t f = 0; f < kFeatureCount; ++f) unbelievable = unbelievable && agrees_too_well(f);
-  if (unbelievable) {
+  if (scatter.dof < kEnoughDof && agree_too_well(deviations, scatter.covariance, assumed)) {
     scatter.assumed_dof = kEnoughDof - scatter.dof;
     scatter.covariance = (scatter.dof * scatter.covariance + scatter.assumed_dof * assumed) / kEnoughDof;
   }

@@ -43,7 +43,7 @@ class Workbench {
 /// Shares of an effect's range at which its signature is computed: effects may start quadratically, so more than one is
 /// needed.
 inline constexpr double kSizes[] = {0.03, 0.1, 0.3, 0.6};
-/// The place of a typical size among them.
+/// The place of the typical size among them, at which it is asked whether data could show an effect.
 inline constexpr int kTypicalSize = 2;
 
 }  // namespace nacre::diagnosis

@@ -203,17 +203,16 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
     warnings.push_back(fmt::format("{}: a toe of {:.2f} % strain was taken off: was the specimen slack in its grips?",
                                    who, 100.0 * one.test.toe_strain));
   if (const std::string doubt = doubt_of_size(row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
-  constexpr double kLargestStrain = 3.0, kLargestPeakPa = 1e10;
-  if (one.test.failure_strain > kLargestStrain)
+  if (one.test.failure_strain > kMostUsualStrain)
     warnings.push_back(fmt::format("{}: failure strain {:.3g} is no usual one: are extension and gauge ({} mm) right?",
                                    who, one.test.failure_strain, row.gauge_mm));
-  if (one.test.peak_stress_pa > kLargestPeakPa)
+  if (one.test.peak_stress_pa > kUsualPeakPa.most)
     warnings.push_back(fmt::format("{}: peak stress {:.3g} Pa is no usual one: are force and size right?", who,
                                    one.test.peak_stress_pa));
   const double rate = one.record.conditions.strain_rate_per_s;
   if (rate < kSlowest || rate > kFastest)
     warnings.push_back(fmt::format("{}: strain rate {} 1/s: are the units of time and extension right?", who, rate));
-  if (one.test.modulus_pa < 1e4 || one.test.modulus_pa > 1e11) {
+  if (!kUsualModulusPa.hold(one.test.modulus_pa)) {
     warnings.push_back(
         fmt::format("{}: initial modulus {:.3g} Pa is no usual one: are the units of force and the size ({} x {} mm, "
                     "gauge {} mm) right?",

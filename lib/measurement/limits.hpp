@@ -22,6 +22,11 @@ inline constexpr Limits kStressPa{-1e13, 1e13};
 inline constexpr Limits kStrain{-100.0, 100.0};
 inline constexpr Limits kStrainRatePerS{1e-9, 1e5};
 inline constexpr Limits kThicknessMm{1e-3, 1e3};
+/// Beyond these a value is used but doubted: most likely a unit was not converted.
+inline constexpr Limits kUsualModulusPa{kModulusPa.least, 1e11};
+inline constexpr Limits kUsualPeakPa{1e3, 1e10};
+inline constexpr double kMostUsualStrain = 3.0;
+
 inline constexpr std::size_t kLongestName = 200;  ///< of a specimen, in bytes
 
 }  // namespace nacre::measurement

@@ -70,8 +70,7 @@ void require_columns(const Heading& heading, const std::string& table, int line,
 /// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
 void collect_curve_warnings(const SpecimenRecord& record, const std::string& place,
                             std::vector<std::string>& warnings) {
-  constexpr Limits kUsualPeakPa{1e3, 1e10};
-  constexpr double kMostUsualStrain = 3.0, kNotSeparated = 0.2;
+  constexpr double kNotSeparated = 0.2;
   if (record.curve.empty()) return;
   const auto doubt = [&](const std::string& sentence) {
     warnings.push_back(fmt::format("{}: column curve: {}", place, sentence));
@@ -88,7 +87,7 @@ void collect_curve_warnings(const SpecimenRecord& record, const std::string& pla
 
 /// Doubts about a usable row, each as a sentence that begins with its place.
 void collect_warnings(const SpecimenRecord& record, const std::string& place, std::vector<std::string>& warnings) {
-  constexpr double kAreaTolerance = 0.02, kMostUsualPa = 1e11;
+  constexpr double kAreaTolerance = 0.02;
   const bool notched = record.test == tester::TestKind::toughness;
   if (notched && record.toughness_pa && !record.curve.empty()) {
     const double area = tester::area_under(record.curve);
@@ -108,7 +107,7 @@ void collect_warnings(const SpecimenRecord& record, const std::string& place, st
   const std::optional<double> modulus = modulus_of(record);
   if (const auto doubt = implausible_value(record)) {
     warnings.push_back(fmt::format("{}: column {}: {}", place, doubt->column, doubt->reason));
-  } else if (modulus && *modulus > kMostUsualPa) {
+  } else if (modulus && *modulus > kUsualModulusPa.most) {
     warnings.push_back(
         fmt::format("{}: column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", place, *modulus));
   }

@@ -129,6 +129,12 @@ std::string status_words(const Candidate& c, Verdict verdict) {
   return "these tests cannot say";
 }
 
+constexpr const char* kColumnsOfRivals =
+    "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found; below {:.1f} it "
+    "cannot be told from nothing. Hidden by the base: share of its traces that other constants of the materials "
+    "imitate. Cosine 1: two causes look alike on these specimens. Chance: how often the best of all causes would look "
+    "as good by accident.";
+
 std::string rivals_section(const Diagnosis& d) {
   std::string rows;
   for (const Candidate& c : d.candidates) {
@@ -143,15 +149,7 @@ std::string rivals_section(const Diagnosis& d) {
                  table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "most like (cosine)",
                                    "drop of χ²", "chance"}),
                        rows, "words") +
-                     paragraph(fmt::format("Signal / noise: of the cause at its fitted size, or at a typical size "
-                                           "where nothing was found; below "
-                                           "{:.1f} it cannot be told from nothing. ",
-                                           diagnosis::kVisibleSignal) +
-                                   "Hidden by the base: share of its traces that other constants of the "
-                                   "materials imitate. Cosine 1: two causes look alike on these specimens. Chance: how "
-                                   "often the best of "
-                                   "all causes would look as good by accident.",
-                               "quiet"));
+                     paragraph(fmt::format(kColumnsOfRivals, diagnosis::kVisibleSignal), "quiet"));
 }
 
 std::string gain_section(const Diagnosis& d) {

@@ -74,8 +74,7 @@ std::vector<PrintedRow> read_printed(const RunAccess& run) {
 InputError another_specimen(const game::PrintedSpecimen& known) {
   return InputError::format(
       "{}: is printed already, as a specimen of {} ({} test); expected labels that the run does not know: make this "
-      "job "
-      "again with --batch NAME --replace, which changes its labels only, and write those on the specimens",
+      "job again with --batch NAME --replace, which changes its labels only, and write those on the specimens",
       known.label, known.design.name(), tester::to_string(known.test));
 }
 
