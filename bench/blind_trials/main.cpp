@@ -2,13 +2,16 @@
 // sees the measurements alone, the answers are opened for scoring. A folder per trial and a line in the study's table;
 // what has a line is not done again.
 
-#include <fmt/format.h>
 #include <chrono>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "runtime/process.hpp"
 #include "score.hpp"
 #include "study/study_command.hpp"
 #include "study/text_table.hpp"
+#include "true_gain.hpp"
 
 namespace {
 
@@ -18,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   TrialOptions trials;
-  std::string fidelity = "full", work = "blind_trials", table, only, commit, report;
+  std::string fidelity = "full", work = "blind_trials", table, only, commit, report, gains;
   double seconds = 1e9;
 };
 
@@ -39,6 +42,20 @@ Answer play(const Trial& trial, const Options& options) {
     }
   }
   return open_answer(trial, options.commit, folder);
+}
+
+/// Held-out gains of the trials that were named rightly, beside the true model's: a line in the table of gains each.
+void compare_gains(const Options& options, const std::vector<Score>& scores) {
+  study::TextTable table(options.gains, {"trial", "named", "truth", "named_features", "truth_features"});
+  for (const Score& s : scores) {
+    if (s.trial.kind != "effect" || !s.right_name || table.find(s.trial.name)) continue;
+    const TrueGain gain = true_gain(s.trial, options.trials, fs::path(options.work) / s.trial.name);
+    std::vector<std::string> cells;
+    for (const double value : {gain.named, gain.truth, gain.named_features, gain.truth_features})
+      cells.push_back(fmt::format("{:.4f}", value));
+    table.add(s.trial.name, cells);
+    fmt::print(stderr, "{}: {}\n", s.trial.name, fmt::join(cells, ", "));
+  }
 }
 
 void run(Options options) {
@@ -64,6 +81,7 @@ void run(Options options) {
   }
   if (waiting > 0) fmt::print(stderr, "{} trials are still waiting: run it again\n", waiting);
   fmt::print("{}", report_of(scores));
+  if (!options.gains.empty()) compare_gains(options, scores);
 }
 
 }  // namespace
@@ -93,6 +111,8 @@ int main(int argc, char** argv) {
   app.add_option("--report", options.report, "Commit under test, hexadecimal: a report, with seeds of its own")
       ->excludes("--first-seed");
   app.add_option("--only", options.only, "Trials whose name contains this");
+  app.add_option("--gains", options.gains,
+                 "CSV of held-out gains, of what is named and of the true model, for trials that were named rightly");
   app.add_option("--seconds", options.seconds, "Begins nothing new after so long");
   CLI11_PARSE(app, argc, argv);
   return study::exit_status_of([&] { run(options); });

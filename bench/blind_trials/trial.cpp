@@ -54,22 +54,6 @@ double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
   return kind.either_sign && random.index(2) == 1 ? -value : value;
 }
 
-lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
-  lab::Truth truth{.seed = trial.seed,
-                   .fidelity = options.fidelity,
-                   .replicates = kReplicates,
-                   .noise = noise_of(trial),
-                   .modulus = lab::draw_modulus_parameters(trial.seed),
-                   .toughness = lab::draw_toughness_parameters(trial.seed),
-                   .effects = {}};
-  for (const lab::EffectKind& kind : lab::effect_kinds()) {
-    if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) == trial.hidden.end()) continue;
-    truth.effects.*kind.value = hidden_value(trial, kind);
-    if (kind.second.value) truth.effects.*kind.second.value = lab::draw_second_value(trial.seed, kind);
-  }
-  return truth;
-}
-
 /// Replicates come from batches of their own.
 std::string batch_of(const Trial& trial, const lab::Question& question, int replicate) {
   return fmt::format("batch-{}", is_pair(trial) ? (question.conditions.strain_rate_per_s == kFast ? 2 : 1) : replicate);
@@ -178,6 +162,22 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
   add_turns("alike", options.alike, "droplet_mixing", "rigid_overprint");
   for (const char* kind : {"pair", "resolved"}) add_turns(kind, options.pairs, "batch_drift", "rate_dependence");
   return trials;
+}
+
+lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
+  lab::Truth truth{.seed = trial.seed,
+                   .fidelity = options.fidelity,
+                   .replicates = kReplicates,
+                   .noise = noise_of(trial),
+                   .modulus = lab::draw_modulus_parameters(trial.seed),
+                   .toughness = lab::draw_toughness_parameters(trial.seed),
+                   .effects = {}};
+  for (const lab::EffectKind& kind : lab::effect_kinds()) {
+    if (std::find(trial.hidden.begin(), trial.hidden.end(), kind.name) == trial.hidden.end()) continue;
+    truth.effects.*kind.value = hidden_value(trial, kind);
+    if (kind.second.value) truth.effects.*kind.second.value = lab::draw_second_value(trial.seed, kind);
+  }
+  return truth;
 }
 
 std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& options) {

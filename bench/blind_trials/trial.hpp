@@ -40,6 +40,9 @@ std::vector<Trial> all_trials(const TrialOptions& options);
 /// resolved, what the diagnosis orders is printed in a third batch.
 std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
 
+/// What the laboratory of a trial is.
+virtual_laboratory::Truth truth_of(const Trial& trial, const TrialOptions& options);
+
 /// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens
 /// could show what is hidden (signal-to-noise, nearest rival, chance that all rivals lose), computed before scatter is
 /// drawn.

@@ -150,14 +150,6 @@ std::vector<Fit> models_to_separate(const Evidence& evidence, const Decision& de
   return models;
 }
 
-/// Drop of chi2 that chance alone exceeds with the level of a name.
-double needed_drop(const Evidence& evidence) {
-  std::vector<double> drops;
-  for (const DrawStatistics& draw : evidence.base_draws) drops.push_back(draw.largest_drop());
-  std::sort(drops.begin(), drops.end());
-  return drops[static_cast<std::size_t>((1.0 - evidence.settings.name_level) * static_cast<double>(drops.size() - 1))];
-}
-
 /// What the data are like, and what was tried on them.
 void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& decision) {
   const Observations& observations = evidence.observations;
@@ -264,7 +256,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     std::vector<Fit> models = evidence.singles;
     // As it was decided, sizes free: folds must not know a size that all the data told.
     if (decided.effects.size() > 1) models.push_back(decided);
-    const Gain gain = held_out_gain(observations, evidence.base.fit, models, needed_drop(evidence), settings.seed);
+    const Gain gain = held_out_gain(observations, evidence.base.fit, models, drop_needed(evidence), settings.seed);
     // What the nearest effect gains where none is named is a partial gain, and said to be one.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }

@@ -58,7 +58,7 @@ struct HeldOut {
   Eigen::VectorXd before, after;
 };
 
-HeldOut hold_out(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double drop_needed,
+HeldOut hold_out(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double least_drop,
                  const std::vector<std::vector<Eigen::Index>>& designs) {
   const Eigen::VectorXd& y = observations.values;
   const Eigen::MatrixXd covariance = observations.covariance();
@@ -76,7 +76,7 @@ HeldOut hold_out(const Observations& observations, const Fit& base, const std::v
     Refit chosen_refit = plain;
     for (const Fit& model : models) {
       const Refit own = refit(model, train, y, whitener);
-      if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - drop_needed) chosen = &model, chosen_refit = own;
+      if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - least_drop) chosen = &model, chosen_refit = own;
     }
     const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train),
                           after = y - predicted_from(observations, *chosen, chosen_refit, train);
@@ -141,10 +141,17 @@ std::vector<FeatureGain> gain_by_feature(const Observations& observations, const
 
 }  // namespace
 
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
-                   double drop_needed, std::uint64_t seed) {
+double drop_needed(const Evidence& evidence) {
+  std::vector<double> drops;
+  for (const DrawStatistics& draw : evidence.base_draws) drops.push_back(draw.largest_drop());
+  std::sort(drops.begin(), drops.end());
+  return drops[static_cast<std::size_t>((1.0 - evidence.settings.name_level) * static_cast<double>(drops.size() - 1))];
+}
+
+Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double least_drop,
+                   std::uint64_t seed) {
   const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
-  const HeldOut held = hold_out(observations, base, models, drop_needed, designs);
+  const HeldOut held = hold_out(observations, base, models, least_drop, designs);
   Gain gain;
   int rows = 0;
   std::vector<DesignErrors> errors(designs.size());

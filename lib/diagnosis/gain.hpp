@@ -4,11 +4,15 @@
 
 namespace nacre::diagnosis {
 
+/// Drop of chi2 that chance alone exceeds with the level of a name: what a model must lower it by to be preferred to
+/// the base.
+double drop_needed(const Evidence& evidence);
+
 /// Mean absolute errors on held-out patterns, base against the model that would have been selected without them: five
 /// folds of whole designs (twins stay together), selection repeated in each fold among `models`, linear refits around
-/// the full fits. `drop_needed` is what a model must lower chi2 by to be preferred to the base. 90 % interval by
+/// the full fits. A model that lowers chi2 by less than `least_drop` is not preferred to the base. 90 % interval by
 /// bootstrap over designs.
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
-                   double drop_needed, std::uint64_t seed);
+Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double least_drop,
+                   std::uint64_t seed);
 
 }  // namespace nacre::diagnosis
