@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace nacre::diagnosis {
 namespace {
@@ -12,7 +13,9 @@ constexpr double kFirstShares[] = {1.2, 1.45, 0.83, 0.67};
 /// -2 log likelihood: sizes that are so much less likely than the best are of no interest; between sizes that differ by
 /// more than a step a further one is tried, so often. A fit that is worse by so much got caught.
 constexpr double kOfInterest = 8.0, kStep = 2.5, kCaught = 30.0;
-constexpr int kHalvings = 3;
+constexpr int kRounds = 4;
+/// By how much a size goes on beyond an end that is of interest.
+constexpr double kBeyond = 1.6;
 
 /// The model at one size, with its own numerics.
 struct Sized {
@@ -33,8 +36,14 @@ Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map
 
 Sized sized(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
             const std::vector<int>& held) {
-  const Observations observations = with_numerics_at(evidence, evidence.model.map(effects), start);
+  const CoordinateMap map = evidence.model.map(effects);
+  Observations observations = with_numerics_at(evidence, map, start);
   Sized at{.fit = fit_model(evidence.model, observations, effects, start, held)};
+  if (observations.has_shared_numerics()) {
+    // Constants that belong to another size have other numerics than those that were fitted to this one.
+    observations = with_numerics_at(evidence, map, at.fit.u);
+    at.fit = fit_model(evidence.model, observations, effects, at.fit.u, held);
+  }
   const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
   at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
   return at;
@@ -45,21 +54,30 @@ double least_deviance(const Profile& profile) {
       ->second.deviance;
 }
 
-/// Tries one more size of coordinate i, from the constants of the nearest size of those that are not far from the best:
-/// a fit that a hill has caught would catch its neighbours.
+/// Fits at one more size of coordinate i, begun at these constants; the better of this and of what is known there.
+void fit_at(const Evidence& evidence, Profile& profile, int i, double size, Eigen::VectorXd start) {
+  start[i] = size;
+  Sized at = sized(evidence, profile.begin()->second.fit.effects, start, {i});
+  const auto known = profile.find(size);
+  if (known == profile.end() || at.deviance < known->second.deviance) profile[size] = std::move(at);
+}
+
+/// Tries one more size of coordinate i, from the constants of the next smaller and of the next larger one of those that
+/// are not far from the best: a fit that a hill has caught would catch its neighbours, and a hill that catches from one
+/// side seldom does from the other.
 void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
   const Fit& any = profile.begin()->second.fit;
   size = std::clamp(size, any.lower[i], any.upper[i]);
   if (profile.contains(size)) return;
   const double least = least_deviance(profile);
-  const Fit* nearest = nullptr;
+  std::optional<Eigen::VectorXd> below, above;
   for (const auto& [known, at] : profile) {
-    if (at.deviance - least < kCaught && (!nearest || std::abs(known - size) < std::abs(nearest->u[i] - size)))
-      nearest = &at.fit;
+    if (at.deviance - least >= kCaught) continue;
+    if (known < size) below = at.fit.u;
+    if (known > size && !above) above = at.fit.u;
   }
-  Eigen::VectorXd start = nearest->u;
-  start[i] = size;
-  profile[size] = sized(evidence, nearest->effects, start, {i});
+  for (const auto& start : {below, above})
+    if (start) fit_at(evidence, profile, i, size, *start);
 }
 
 /// Middles between neighbours of interest that differ by more than a step, and what lies beyond ends that are of
@@ -69,8 +87,8 @@ std::vector<double> missing_sizes(const Profile& profile) {
   const auto& [first, first_at] = *profile.begin();
   const auto& [last, last_at] = *profile.rbegin();
   std::vector<double> missing;
-  if (first_at.deviance - least < kOfInterest) missing.push_back(first > 0.0 ? 0.6 * first : 1.4 * first);
-  if (last_at.deviance - least < kOfInterest) missing.push_back(last > 0.0 ? 1.4 * last : 0.6 * last);
+  if (first_at.deviance - least < kOfInterest) missing.push_back(first > 0.0 ? first / kBeyond : kBeyond * first);
+  if (last_at.deviance - least < kOfInterest) missing.push_back(last > 0.0 ? kBeyond * last : last / kBeyond);
   for (auto a = profile.begin(), b = std::next(a); b != profile.end(); ++a, ++b) {
     const auto [low, high] = std::minmax(a->second.deviance, b->second.deviance);
     if (low - least < kOfInterest && high - low > kStep) missing.push_back(0.5 * (a->first + b->first));
@@ -81,8 +99,15 @@ std::vector<double> missing_sizes(const Profile& profile) {
 Profile profile_of(const Evidence& evidence, const Fit& named, int i) {
   Profile profile;
   profile[named.u[i]] = sized(evidence, named.effects, named.u, {i});
+  // Far from the named size too, from where the search for the base began: other constants may hide another size.
+  const Eigen::VectorXd start = evidence.model.base_map().coordinates(evidence.settings.start);
+  for (const double size : kSizes) {
+    Eigen::VectorXd u = named.u;
+    u.head(start.size()) = start;
+    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), u);
+  }
   for (const double share : kFirstShares) try_size(evidence, profile, i, share * named.u[i]);
-  for (int halving = 0; halving < kHalvings; ++halving)
+  for (int round = 0; round < kRounds; ++round)
     for (const double size : missing_sizes(profile)) try_size(evidence, profile, i, size);
   return profile;
 }
