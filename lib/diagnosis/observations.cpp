@@ -118,6 +118,13 @@ Observation mean_of(const std::vector<Measured>& replicates) {
 
 double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
 
+/// Correlations of one covariance, variances of another. Few replicates tell how much one material scatters, not how
+/// its features go together: combinations of features that seem not to scatter would count for everything.
+Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::MatrixXd& own) {
+  const Eigen::VectorXd scale = (own.diagonal().array() / all.diagonal().array()).sqrt();
+  return scale.asDiagonal() * all * scale.asDiagonal();
+}
+
 /// Scatter of every test, and of each material's coupons where their replicates say enough of it.
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
   constexpr int kLeastDof = 5;
@@ -134,6 +141,7 @@ void put_scatter(Observations& observations, const std::vector<std::vector<Measu
       ReplicateScatter scatter = pooled_scatter(groups, row.test, observations.batches, material);
       if (scatter.dof >= kLeastDof) {
         place->second = observations.scatter.size();
+        scatter.covariance = with_correlations_of(observations.scatter[row.scatter].covariance, scatter.covariance);
         observations.scatter.push_back(std::move(scatter));
       }
     }
