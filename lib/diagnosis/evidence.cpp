@@ -23,32 +23,6 @@ std::vector<double> signed_sizes(bool one_sided) {
   return sizes;
 }
 
-/// Start for a joint fit: the size of the effect whose signature lowers the misfit most.
-Eigen::VectorXd best_start(const Evidence& evidence, std::size_t effect) {
-  const std::vector<std::string> names = {evidence.effects[effect]};
-  const CoordinateMap map = evidence.model.map(names);
-  const Whitener whitener(evidence.observations.covariance());
-  const int own = map.base_count();
-  Eigen::VectorXd best = widened_start(evidence.base.fit, map);
-  double least = evidence.base.fit.chi2;
-  const Signature& signature = evidence.base.signatures[effect];
-  const std::vector<double> sizes = signed_sizes(signature.one_sided);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    Fit shifted = evidence.base.fit;
-    shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
-    Eigen::VectorXd step;
-    const double chi2 = linear_refit(shifted, evidence.observations.values, whitener, &step);
-    if (chi2 >= least) continue;
-    least = chi2;
-    best = widened_start(evidence.base.fit, map);
-    best.head(own) += step.head(own);
-    best[own] = sizes[i];
-  }
-  // A start at exactly zero may be a stationary point of an effect that begins quadratically.
-  if (best[own] == 0.0) best[own] = kSizes[0];
-  return best;
-}
-
 /// Shares of the whole work between which a step lies.
 struct Stretch {
   double begin = 0.0, end = 1.0;
@@ -94,8 +68,10 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
     // An earlier fit that found something is where to go on, under another covariance or emulator.
     const bool found =
         k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
-    singles.push_back(fit_model(evidence.model, evidence.observations, {evidence.effects[k]},
-                                found ? evidence.singles[k].u : best_start(evidence, k)));
+    singles.push_back(fit_model(
+        evidence.model, evidence.observations, {evidence.effects[k]},
+        found ? evidence.singles[k].u
+              : best_start(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[k])));
   }
   evidence.singles = std::move(singles);
   start_again(evidence);
@@ -157,6 +133,32 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
     signatures.push_back(std::move(signature));
   }
   return signatures;
+}
+
+Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,
+                           const Signature& signature) {
+  std::vector<std::string> names = anchor.effects;
+  names.push_back(signature.effect);
+  const CoordinateMap map = model.map(names);
+  const Whitener whitener(observations.covariance());
+  const Eigen::Index own = anchor.u.size();
+  Eigen::VectorXd best = widened_start(anchor, map);
+  double least = anchor.chi2;
+  const std::vector<double> sizes = signed_sizes(signature.one_sided);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    Fit shifted = anchor;
+    shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
+    Eigen::VectorXd step;
+    const double chi2 = linear_refit(shifted, observations.values, whitener, &step);
+    if (chi2 >= least) continue;
+    least = chi2;
+    best = widened_start(anchor, map);
+    best.head(own) += step;
+    best[own] = sizes[i];
+  }
+  // A start at exactly zero may be a stationary point of an effect that begins quadratically.
+  if (best[own] == 0.0) best[own] = kSizes[0];
+  return best;
 }
 
 Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings) {

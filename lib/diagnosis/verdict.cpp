@@ -81,11 +81,8 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
       [](const DrawStatistics& d) { return d.largest_drop(); });
   std::vector<Fit> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    const std::vector<std::string> names = {single.effects.front(), others[k]};
-    const CoordinateMap map = evidence.model.map(names);
-    Eigen::VectorXd start = widened_start(single, map);
-    start[single.u.size()] = 0.1;
-    Fit pair = fit_model(evidence.model, evidence.observations, map.effects(), start);
+    Fit pair = fit_model(evidence.model, evidence.observations, {single.effects.front(), others[k]},
+                         best_start(evidence.model, evidence.observations, single, anchor.signatures[k]));
     if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
   }
   return pairs;

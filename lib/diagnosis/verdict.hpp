@@ -45,6 +45,10 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
 std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor,
                                      const std::vector<std::string>& effects);
 
+/// Start of a joint fit of a fitted model and one effect more: the size of its signature that lowers the misfit most.
+Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,
+                           const Signature& signature);
+
 /// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits. A single
 /// effect that fits better from where a pair ended is replaced in the evidence.
 Decision decide(Evidence& evidence);

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/random.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/observations.hpp"
 #include "pattern/coupons.hpp"
@@ -102,6 +104,44 @@ TEST(Observations, WhatOnlySomeCouponsShowScattersAsMuchAsWhatAllShow) {
     EXPECT_GE(sd(Feature::log_unloading), 0.99 * sd(Feature::log_tangent_30)) << unloaded;
     EXPECT_LT(sd(Feature::log_unloading), 2.0 * sd(Feature::log_tangent_30)) << unloaded;
   }
+}
+
+/// Coupons of five materials, two rates, four replicates: thickness scatters by 1 %, that of soft ones by 3 %, the
+/// extensometer by a fifth of a percent.
+Observations coupons_of_five_materials() {
+  RandomStream random(1, "coupons");
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const double fraction : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    for (int i = 0; i < 8; ++i) {
+      specimens.push_back(coupon(fmt::format("{}/{}", fraction, i), {0.0, 0.004, 0.008, 0.012, 0.016, 0.02}));
+      specimens.back().design = pattern::Mixture{fraction};
+      if (i >= 4) specimens.back().conditions.strain_rate_per_s *= 10.0;
+      const double thickness = std::exp((fraction == 0.0 ? 0.03 : 0.01) * random.normal());
+      for (double& stress : specimens.back().curve.stress_pa) stress *= thickness * std::exp(0.002 * random.normal());
+    }
+  }
+  return observed(specimens);
+}
+
+// Six degrees of freedom tell how much a material scatters, not how seven features go together.
+TEST(Observations, FourSlopesOfOneCouponAreNotFourCoupons) {
+  const Observations observations = coupons_of_five_materials();
+  const std::vector<Feature> stresses = {Feature::log_tangent_10, Feature::log_tangent_30, Feature::log_tangent_50,
+                                         Feature::log_peak};
+  std::map<std::string, double> sd;
+  for (const Row& row : observations.rows) {
+    if (row.group < 0) continue;
+    const Eigen::MatrixXd& c = observations.scatter[row.scatter].covariance;
+    ASSERT_GT(row.scatter, 2u) << "each material by its own replicates";
+    double together = 0.0, alone = 0.0;
+    for (const Feature a : stresses) {
+      alone += c(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a));
+      for (const Feature b : stresses) together += c(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+    }
+    EXPECT_GT(together / 16.0, 0.75 * alone / 4.0) << "what they have in common does not average out";
+    sd[observations.groups[static_cast<std::size_t>(row.group)].design.name()] = std::sqrt(alone / 4.0);
+  }
+  EXPECT_GT(sd.at("soft"), 1.5 * sd.at("rigid")) << "three times as much, known within a third each";
 }
 
 TEST(Observations, WithoutReplicatesStressesOfOneCouponGoTogether) {
