@@ -51,7 +51,7 @@ TrueGain true_gain(const Trial& trial, const TrialOptions& options, const fs::pa
   Workbench workbench(measurement::read_measurement_set(folder / "set").specimens, settings);
   const Evidence evidence = gather_evidence(workbench, settings);
   const auto gain_among = [&](const std::vector<Fit>& models, double drop_needed) {
-    return held_out_gain(evidence.observations, evidence.base.fit, models, drop_needed, settings.seed);
+    return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, drop_needed, settings.seed);
   };
   const Gain named = gain_among(evidence.singles, drop_needed(evidence)),
              truth = gain_among({true_model(evidence, truth_of(trial, options), trial.hidden)},

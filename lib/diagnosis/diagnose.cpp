@@ -210,18 +210,18 @@ std::string gain_in_words(const Gain& gain) {
                after = 100.0 * std::expm1(gain.held_out_error_after);
   const std::string interval =
       fmt::format("90 % interval {:.0f} to {:.0f} %", 100.0 * gain.interval_low, 100.0 * gain.interval_high);
+  const std::string_view designs =
+      gain.of_coupons ? "held-out coupons the mean error of slopes and stresses" : "held-out designs the mean error";
   if (gain.interval_low > 0.0)
-    return fmt::format("On held-out designs the mean error falls from {:.1f} to {:.1f} %, by {:.0f} % of itself ({}).",
-                       before, after, 100.0 * gain.relative_reduction, interval);
+    return fmt::format("On {} falls from {:.3g} to {:.3g} %, by {:.0f} % of itself ({}).", designs, before, after,
+                       100.0 * gain.relative_reduction, interval);
   if (gain.interval_high < 0.0)
     return fmt::format(
-        "Yet on held-out designs the mean error grows from {:.1f} to {:.1f} %: the cause is established, its use for "
-        "predictions is not.",
+        "Yet on {} grows from {:.3g} to {:.3g} %: the cause is established, its use for predictions is not.", designs,
         before, after);
   return fmt::format(
-      "What it gains on held-out designs is not established: their mean error is {:.1f} % without it and {:.1f} % with "
-      "it (reduction {:.0f} %, {}).",
-      before, after, 100.0 * gain.relative_reduction, interval);
+      "What it gains is not established: on {} is {:.3g} % without it and {:.3g} % with it (reduction {:.0f} %, {}).",
+      designs, before, after, 100.0 * gain.relative_reduction, interval);
 }
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
@@ -256,7 +256,8 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     std::vector<Fit> models = evidence.singles;
     // As it was decided, sizes free: folds must not know a size that all the data told.
     if (decided.effects.size() > 1) models.push_back(decided);
-    const Gain gain = held_out_gain(observations, evidence.base.fit, models, drop_needed(evidence), settings.seed);
+    const Gain gain =
+        held_out_gain(observations, evidence.base.fit, models, decided.effects, drop_needed(evidence), settings.seed);
     // What the nearest effect gains where none is named is a partial gain, and said to be one.
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }

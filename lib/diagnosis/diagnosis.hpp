@@ -67,12 +67,13 @@ struct FeatureGain {
 };
 
 /// Errors are mean absolute errors of log E and log T on patterns that were held out (of slopes and stresses where only
-/// coupons were tested).
+/// coupons show anything).
 struct Gain {
   double held_out_error_before = 0.0;
   double held_out_error_after = 0.0;
   double relative_reduction = 0.0;
   double interval_low = 0.0, interval_high = 0.0;  ///< 90 %, bootstrap over patterns
+  bool of_coupons = false;                         ///< what is named acts on coupons alone, or there is nothing else
   std::vector<FeatureGain> features;
 };
 /// What a named effect does for designs that the fit has not seen, in a sentence: errors as per cent of E and T, and a

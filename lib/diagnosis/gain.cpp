@@ -29,17 +29,29 @@ Eigen::VectorXd predicted_from(const Observations& observations, const Fit& fit,
   return model + observations.shared_numerics(residuals(rows), rows);
 }
 
-/// Rows whose errors count for the figure of the whole: moduli and toughness; slopes and stresses where there are
-/// coupons only.
-bool counts(const Observations& observations, const Row& row) {
-  const bool layouts = observations.has(tester::TestKind::toughness) ||
-                       std::any_of(observations.groups.begin(), observations.groups.end(),
-                                   [](const Observation& g) { return g.design.layout() != nullptr; });
-  if (layouts)
-    return row.test != tester::TestKind::tensile &&
-           (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
-  return row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 ||
-         row.feature == Feature::log_tangent_50 || row.feature == Feature::log_peak;
+/// Whether the figure of the whole is that of coupons: there are no layouts, or none of these effects acts on the tests
+/// of layouts that there are. Without effects layouts count where there are any.
+bool coupons_count(const Observations& observations, const std::vector<std::string>& effects) {
+  const auto tests_of_layouts = [&](tester::TestKind test) {
+    return std::any_of(observations.groups.begin(), observations.groups.end(),
+                       [test](const Observation& g) { return g.test == test && g.design.layout(); });
+  };
+  const bool modulus = tests_of_layouts(tester::TestKind::modulus),
+             toughness = tests_of_layouts(tester::TestKind::toughness);
+  const bool layouts_change =
+      effects.empty() || std::any_of(effects.begin(), effects.end(), [&](const std::string& name) {
+        const material::Effect& effect = *material::find_effect(name);
+        return (modulus && effect.acts_on_modulus) || (toughness && effect.acts_on_toughness);
+      });
+  return !((modulus || toughness) && layouts_change);
+}
+
+/// Rows whose errors count for the figure of the whole: moduli and toughness; of coupons slopes and stresses.
+bool counts(const Row& row, bool coupons) {
+  const bool tensile = row.test == tester::TestKind::tensile;
+  if (!coupons) return !tensile && (row.feature == Feature::log_modulus || row.feature == Feature::log_toughness);
+  return tensile && (row.feature == Feature::log_tangent_10 || row.feature == Feature::log_tangent_30 ||
+                     row.feature == Feature::log_tangent_50 || row.feature == Feature::log_peak);
 }
 
 /// Sums over the rows of one design.
@@ -86,12 +98,20 @@ HeldOut hold_out(const Observations& observations, const Fit& base, const std::v
   return result;
 }
 
-/// The designs' rows, dealt by a seeded shuffle.
+/// What is held out together: a layout with its twins, coupons of one material pulled at one rate. A whole material
+/// would take its own constants with it, which no other tells.
+std::string held_out_with(const Observation& group) {
+  const std::string name = group.design.name();
+  return group.test == tester::TestKind::tensile ? fmt::format("{} {}", name, group.conditions.strain_rate_per_s)
+                                                 : name;
+}
+
+/// The rows that are held out together, dealt by a seeded shuffle.
 std::vector<std::vector<Eigen::Index>> shuffled_designs(const Observations& observations, std::uint64_t seed) {
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
   for (int i = 0; i < observations.size(); ++i)
     if (observations.rows[static_cast<std::size_t>(i)].group >= 0)
-      rows_of[observations.group_of(i).design.name()].push_back(i);
+      rows_of[held_out_with(observations.group_of(i))].push_back(i);
   std::vector<std::vector<Eigen::Index>> designs;
   for (const auto& [name, rows] : rows_of) designs.push_back(rows);
   RandomStream random(seed, "gain/folds");
@@ -148,16 +168,17 @@ double drop_needed(const Evidence& evidence) {
   return drops[static_cast<std::size_t>((1.0 - evidence.settings.name_level) * static_cast<double>(drops.size() - 1))];
 }
 
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double least_drop,
-                   std::uint64_t seed) {
+Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
+                   const std::vector<std::string>& effects, double least_drop, std::uint64_t seed) {
   const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
   const HeldOut held = hold_out(observations, base, models, least_drop, designs);
   Gain gain;
+  gain.of_coupons = coupons_count(observations, effects);
   int rows = 0;
   std::vector<DesignErrors> errors(designs.size());
   for (std::size_t d = 0; d < designs.size(); ++d) {
     for (const Eigen::Index row : designs[d]) {
-      if (!counts(observations, observations.rows[static_cast<std::size_t>(row)])) continue;
+      if (!counts(observations.rows[static_cast<std::size_t>(row)], gain.of_coupons)) continue;
       errors[d].before += std::abs(held.before[row]);
       errors[d].after += std::abs(held.after[row]);
       ++rows;

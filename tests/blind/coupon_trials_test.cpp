@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "blind_trial.hpp"
 
@@ -60,6 +61,19 @@ TEST(BlindCouponTrials, BatchesThatHoldBothRatesShowTheirDrift) {
   ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "batch_drift");
   EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.08, 0.012);
+}
+
+// Alone neither explains the curves: slack lies before the specimen carries, flow at its end.
+TEST(BlindCouponTrials, SlackAndFlowAtOnceAreBothNamed) {
+  const Trial trial = run_trial(
+      laboratory(53, "rigid_yield", "4.8e7") + "[[effect]]\nname = \"toe_slack\"\nvalue = 0.007\n", coupons, "tiny");
+  ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+  std::map<std::string, double> sizes;
+  for (const auto& effect : trial.diagnosis["effects"]) sizes[effect["name"]] = effect["parameter"];
+  ASSERT_EQ(sizes.size(), 2u) << trial.diagnosis["summary"];
+  EXPECT_NEAR(sizes["rigid_yield"], 4.8e7, 0.05 * 4.8e7);
+  EXPECT_NEAR(sizes["toe_slack"], 0.007, 0.05 * 0.007);
+  EXPECT_GT(trial.diagnosis["gain"]["interval90"][0].get<double>(), 0.0) << "coupons are all there is";
 }
 
 }  // namespace
