@@ -28,22 +28,6 @@ struct Stretch {
   double begin = 0.0, end = 1.0;
 };
 
-Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
-
-/// Effects that explain much of a misfit are fitted once more from the constants where the search for the base began: a
-/// base that bent itself towards the data may stand behind a hill, with constants on their bounds.
-void start_again(Evidence& evidence) {
-  constexpr double kMuch = 60.0;
-  const CoordinateMap base = evidence.model.base_map();
-  const Eigen::VectorXd start = base.coordinates(evidence.settings.start);
-  for (Fit& single : evidence.singles) {
-    if (evidence.base.fit.chi2 - single.chi2 < kMuch) continue;
-    Eigen::VectorXd u = single.u;
-    u.head(start.size()) = start;
-    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, single.effects, u));
-  }
-}
-
 /// Base and every single effect, fitted to the observations of the evidence.
 void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
   const auto report = [&](double share, std::string_view phase) {
@@ -74,7 +58,7 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
               : best_start(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[k])));
   }
   evidence.singles = std::move(singles);
-  start_again(evidence);
+  for (Fit& single : evidence.singles) single = begun_again(evidence, std::move(single));
 }
 
 /// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the
@@ -133,6 +117,18 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
     signatures.push_back(std::move(signature));
   }
   return signatures;
+}
+
+Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
+
+Fit begun_again(const Evidence& evidence, Fit fit) {
+  constexpr double kMuch = 60.0;
+  if (evidence.base.fit.chi2 - fit.chi2 < kMuch) return fit;
+  const Eigen::VectorXd start = evidence.model.base_map().coordinates(evidence.settings.start);
+  Eigen::VectorXd u = fit.u;
+  u.head(start.size()) = start;
+  Fit again = fit_model(evidence.model, evidence.observations, fit.effects, u);
+  return better_of(std::move(fit), std::move(again));
 }
 
 Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,

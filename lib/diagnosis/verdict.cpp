@@ -81,8 +81,9 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
       [](const DrawStatistics& d) { return d.largest_drop(); });
   std::vector<Fit> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    Fit pair = fit_model(evidence.model, evidence.observations, {single.effects.front(), others[k]},
-                         best_start(evidence.model, evidence.observations, single, anchor.signatures[k]));
+    Fit pair = begun_again(evidence,
+                           fit_model(evidence.model, evidence.observations, {single.effects.front(), others[k]},
+                                     best_start(evidence.model, evidence.observations, single, anchor.signatures[k])));
     if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
   }
   return pairs;

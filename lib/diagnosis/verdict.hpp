@@ -49,6 +49,14 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
 Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,
                            const Signature& signature);
 
+/// The one that leaves less.
+Fit better_of(Fit a, Fit b);
+
+/// A model that explains much of the base's misfit is fitted once more from the constants where the search for the base
+/// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. The better
+/// of both.
+Fit begun_again(const Evidence& evidence, Fit fit);
+
 /// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits. A single
 /// effect that fits better from where a pair ended is replaced in the evidence.
 Decision decide(Evidence& evidence);
