@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -34,19 +35,23 @@ Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map
   return observations;
 }
 
-Sized sized(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
-            const std::vector<int>& held) {
-  const CoordinateMap map = evidence.model.map(effects);
-  Observations observations = with_numerics_at(evidence, map, start);
+/// Fits with the numerics of where it starts.
+Sized fitted_from(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
+                  const std::vector<int>& held) {
+  const Observations observations = with_numerics_at(evidence, evidence.model.map(effects), start);
   Sized at{.fit = fit_model(evidence.model, observations, effects, start, held)};
-  if (observations.has_shared_numerics()) {
-    // Constants that belong to another size have other numerics than those that were fitted to this one.
-    observations = with_numerics_at(evidence, map, at.fit.u);
-    at.fit = fit_model(evidence.model, observations, effects, at.fit.u, held);
-  }
   const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
   at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
   return at;
+}
+
+/// The same, and once more with the numerics of where that ended: constants that belonged to another size have other
+/// numerics. What is `hopeless` even so is left at that.
+Sized sized(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
+            const std::vector<int>& held, double hopeless = std::numeric_limits<double>::infinity()) {
+  const Sized first = fitted_from(evidence, effects, start, held);
+  if (!evidence.observations.has_shared_numerics() || first.deviance > hopeless) return first;
+  return fitted_from(evidence, effects, first.fit.u, held);
 }
 
 double least_deviance(const Profile& profile) {
@@ -57,27 +62,30 @@ double least_deviance(const Profile& profile) {
 /// Fits at one more size of coordinate i, begun at these constants; the better of this and of what is known there.
 void fit_at(const Evidence& evidence, Profile& profile, int i, double size, Eigen::VectorXd start) {
   start[i] = size;
-  Sized at = sized(evidence, profile.begin()->second.fit.effects, start, {i});
+  const double hopeless = least_deviance(profile) + 2.0 * kCaught;
+  Sized at = sized(evidence, profile.begin()->second.fit.effects, start, {i}, hopeless);
   const auto known = profile.find(size);
   if (known == profile.end() || at.deviance < known->second.deviance) profile[size] = std::move(at);
 }
 
-/// Tries one more size of coordinate i, from the constants of the next smaller and of the next larger one of those that
-/// are not far from the best: a fit that a hill has caught would catch its neighbours, and a hill that catches from one
-/// side seldom does from the other.
+/// Tries one more size of coordinate i, from the constants of the next smaller or the next larger one of those that are
+/// not far from the best, whichever is the better; from those of the other too where this is worse than both: a hill
+/// that catches from one side seldom does from the other.
 void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
   const Fit& any = profile.begin()->second.fit;
   size = std::clamp(size, any.lower[i], any.upper[i]);
   if (profile.contains(size)) return;
   const double least = least_deviance(profile);
-  std::optional<Eigen::VectorXd> below, above;
+  std::optional<Sized> below, above;
   for (const auto& [known, at] : profile) {
     if (at.deviance - least >= kCaught) continue;
-    if (known < size) below = at.fit.u;
-    if (known > size && !above) above = at.fit.u;
+    if (known < size) below = at;
+    if (known > size && !above) above = at;
   }
-  for (const auto& start : {below, above})
-    if (start) fit_at(evidence, profile, i, size, *start);
+  const bool from_above = !below || (above && above->deviance < below->deviance);
+  const std::optional<Sized>&better = from_above ? above : below, &other = from_above ? below : above;
+  fit_at(evidence, profile, i, size, better->fit.u);
+  if (other && profile[size].deviance > other->deviance) fit_at(evidence, profile, i, size, other->fit.u);
 }
 
 /// Middles between neighbours of interest that differ by more than a step, and what lies beyond ends that are of
