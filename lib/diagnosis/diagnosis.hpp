@@ -73,8 +73,8 @@ struct Gain {
   double held_out_error_after = 0.0;
   double relative_reduction = 0.0;
   double interval_low = 0.0, interval_high = 0.0;  ///< 90 %, bootstrap over patterns
-  bool of_coupons = false;                         ///< what is named acts on coupons alone, or there is nothing else
   std::vector<FeatureGain> features;
+  bool of_coupons = false;  ///< what is named acts on coupons alone, or there is nothing else
 };
 /// What a named effect does for designs that the fit has not seen, in a sentence: errors as per cent of E and T, and a
 /// gain (or a loss) only where the 90 % interval leaves no doubt of its sign. A cause may be sure and its gain not: the
