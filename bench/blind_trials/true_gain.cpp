@@ -14,8 +14,7 @@ using namespace diagnosis;
 Fit true_model(const Evidence& evidence, const virtual_laboratory::Truth& truth,
                const std::vector<std::string>& hidden) {
   const CoordinateMap map = evidence.model.map(hidden);
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(map.size());
-  start.head(evidence.base.fit.u.size()) = evidence.base.fit.u;
+  Eigen::VectorXd start = widened_start(evidence.base.fit, map);
   std::vector<int> held;
   for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
     const auto place = std::ranges::find(map.effects(), kind.name);
@@ -50,8 +49,8 @@ TrueGain true_gain(const Trial& trial, const TrialOptions& options, const fs::pa
   settings.fracture_numerics = read_fracture_numerics(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
   Workbench workbench(measurement::read_measurement_set(folder / "set").specimens, settings);
   const Evidence evidence = gather_evidence(workbench, settings);
-  const auto gain_among = [&](const std::vector<Fit>& models, double drop_needed) {
-    return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, drop_needed, settings.seed);
+  const auto gain_among = [&](const std::vector<Fit>& models, double least_drop) {
+    return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, least_drop, settings.seed);
   };
   const Gain named = gain_among(evidence.singles, drop_needed(evidence)),
              truth = gain_among({true_model(evidence, truth_of(trial, options), trial.hidden)},

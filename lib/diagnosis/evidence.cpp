@@ -121,13 +121,16 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
 
 Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
 
+Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) {
+  const Eigen::VectorXd first = evidence.model.base_map().coordinates(evidence.settings.start);
+  u.head(first.size()) = first;
+  return u;
+}
+
 Fit begun_again(const Evidence& evidence, Fit fit) {
   constexpr double kMuch = 60.0;
   if (evidence.base.fit.chi2 - fit.chi2 < kMuch) return fit;
-  const Eigen::VectorXd start = evidence.model.base_map().coordinates(evidence.settings.start);
-  Eigen::VectorXd u = fit.u;
-  u.head(start.size()) = start;
-  Fit again = fit_model(evidence.model, evidence.observations, fit.effects, u);
+  Fit again = fit_model(evidence.model, evidence.observations, fit.effects, at_first_constants(evidence, fit.u));
   return better_of(std::move(fit), std::move(again));
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 
 namespace nacre::diagnosis {
 namespace {
@@ -76,14 +75,14 @@ void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
   size = std::clamp(size, any.lower[i], any.upper[i]);
   if (profile.contains(size)) return;
   const double least = least_deviance(profile);
-  std::optional<Sized> below, above;
+  const Sized *below = nullptr, *above = nullptr;
   for (const auto& [known, at] : profile) {
     if (at.deviance - least >= kCaught) continue;
-    if (known < size) below = at;
-    if (known > size && !above) above = at;
+    if (known < size) below = &at;
+    if (known > size && !above) above = &at;
   }
   const bool from_above = !below || (above && above->deviance < below->deviance);
-  const std::optional<Sized>&better = from_above ? above : below, &other = from_above ? below : above;
+  const Sized *better = from_above ? above : below, *other = from_above ? below : above;
   fit_at(evidence, profile, i, size, better->fit.u);
   if (other && profile[size].deviance > other->deviance) fit_at(evidence, profile, i, size, other->fit.u);
 }
@@ -108,12 +107,8 @@ Profile profile_of(const Evidence& evidence, const Fit& named, int i) {
   Profile profile;
   profile[named.u[i]] = sized(evidence, named.effects, named.u, {i});
   // Far from the named size too, from where the search for the base began: other constants may hide another size.
-  const Eigen::VectorXd start = evidence.model.base_map().coordinates(evidence.settings.start);
-  for (const double size : kSizes) {
-    Eigen::VectorXd u = named.u;
-    u.head(start.size()) = start;
-    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), u);
-  }
+  for (const double size : kSizes)
+    fit_at(evidence, profile, i, std::copysign(size, named.u[i]), at_first_constants(evidence, named.u));
   for (const double share : kFirstShares) try_size(evidence, profile, i, share * named.u[i]);
   for (int round = 0; round < kRounds; ++round)
     for (const double size : missing_sizes(profile)) try_size(evidence, profile, i, size);

@@ -52,6 +52,9 @@ Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observ
 /// The one that leaves less.
 Fit better_of(Fit a, Fit b);
 
+/// These coordinates, base constants where the search for the base began.
+Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u);
+
 /// A model that explains much of the base's misfit is fitted once more from the constants where the search for the base
 /// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. The better
 /// of both.
