@@ -42,7 +42,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
       std::string text = "The simulation lacks ";
       for (std::size_t i = 0; i < d.effects.size(); ++i) text += (i ? " and " : "") + size_in_words(d.effects[i]);
       text += fmt::format(": {}.", decision.reason);
-      if (d.gain) text += " " + gain_in_words(*d.gain);
+      if (d.gain) text += " " + gain_in_words(*d.gain) + choice_in_words(*d.gain);
       return text;
     }
     case Verdict::ambiguous:
@@ -222,6 +222,22 @@ std::string gain_in_words(const Gain& gain) {
   return fmt::format(
       "What it gains is not established: on {} is {:.3g} % without it and {:.3g} % with it (reduction {:.0f} %, {}).",
       designs, before, after, 100.0 * gain.relative_reduction, interval);
+}
+
+std::string choice_in_words(const Gain& gain) {
+  std::string text;
+  if (gain.of_coupons) return text;
+  for (const FeatureGain& g : gain.features) {
+    const bool counts = g.feature == Feature::log_modulus || g.feature == Feature::log_toughness;
+    if (!counts || g.ranking.pairs == 0) continue;
+    text += fmt::format(" Of {} pairs of designs that the measurements tell apart by their {}, ", g.ranking.pairs,
+                        in_words(g.feature));
+    text += g.ranking.before == g.ranking.after
+                ? fmt::format("both models rank {} as measured.", g.ranking.after)
+                : fmt::format("the extended model ranks {} as measured, the base model {}.", g.ranking.after,
+                              g.ranking.before);
+  }
+  return text;
 }
 
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings) {

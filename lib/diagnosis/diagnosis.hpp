@@ -59,11 +59,20 @@ struct Contrast {
   double p_family_wise = 1.0;
 };
 
+/// Whether a designer would choose otherwise: pairs of layouts under one test and the same conditions that the
+/// measurements set apart (by three standard errors), and how many of them each model puts in the measured order,
+/// every design foretold by a fit without it.
+struct Ranking {
+  int pairs = 0;
+  int before = 0, after = 0;  ///< in the measured order by the base, by the extended model
+};
+
 /// Mean absolute error of one feature on designs that were held out.
 struct FeatureGain {
   Feature feature = Feature::log_modulus;
   double before = 0.0, after = 0.0;
   double noise = 0.0;  ///< what scatter and numerics alone would leave
+  Ranking ranking;     ///< of layouts by this feature
 };
 
 /// Errors are mean absolute errors of log E and log T on patterns that were held out (of slopes and stresses where only
@@ -80,6 +89,8 @@ struct Gain {
 /// gain (or a loss) only where the 90 % interval leaves no doubt of its sign. A cause may be sure and its gain not: the
 /// base imitates most of it there.
 std::string gain_in_words(const Gain& gain);
+/// Whether the choice of designs changes, in a sentence for each of E and T; empty where no two designs were set apart.
+std::string choice_in_words(const Gain& gain);
 
 struct NextExperiment {
   pattern::Design design;

@@ -137,6 +137,39 @@ void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uin
   gain.interval_high = reductions[kIntervalDraws - 1 - kIntervalDraws / 20];
 }
 
+/// Rows of one feature of layouts, under tests of one kind and the same conditions.
+bool same_contest(const Observations& observations, int a, int b) {
+  const Row &one = observations.rows[static_cast<std::size_t>(a)],
+            &other = observations.rows[static_cast<std::size_t>(b)];
+  if (one.group < 0 || other.group < 0 || one.feature != other.feature || one.test != other.test) return false;
+  const Observation &g = observations.group_of(a), &h = observations.group_of(b);
+  return g.design.layout() && h.design.layout() && g.conditions == h.conditions;
+}
+
+/// Pairs of layouts in the measured order, by this feature.
+Ranking ranking_by(Feature feature, const Observations& observations, const HeldOut& held) {
+  constexpr double kSetApart = 3.0;  // standard errors
+  Ranking ranking;
+  const Eigen::VectorXd& y = observations.values;
+  const auto ordered_by = [&](const Eigen::VectorXd& errors, int a, int b) {
+    return (y[a] > y[b]) == (y[a] - errors[a] > y[b] - errors[b]);
+  };
+  for (int b = 1; b < observations.size(); ++b) {
+    const Row& row = observations.rows[static_cast<std::size_t>(b)];
+    if (row.feature != feature) continue;
+    for (int a = 0; a < b; ++a) {
+      if (!same_contest(observations, a, b)) continue;
+      const double weight = observations.rows[static_cast<std::size_t>(a)].weight + row.weight;
+      const double error = observations.replicate_sd(feature, row.test) * std::sqrt(weight);
+      if (std::abs(y[a] - y[b]) < kSetApart * error) continue;
+      ++ranking.pairs;
+      ranking.before += ordered_by(held.before, a, b);
+      ranking.after += ordered_by(held.after, a, b);
+    }
+  }
+  return ranking;
+}
+
 std::vector<FeatureGain> gain_by_feature(const Observations& observations, const HeldOut& held) {
   // A normal error of deviation s is 0.8 s large on average.
   const Eigen::VectorXd deviation = observations.covariance().diagonal().cwiseSqrt();
@@ -154,7 +187,8 @@ std::vector<FeatureGain> gain_by_feature(const Observations& observations, const
   std::vector<FeatureGain> gains;
   for (auto& [feature, entry] : by_feature) {
     auto& [sums, count] = entry;
-    gains.push_back({feature, sums.before / count, sums.after / count, sums.noise / count});
+    gains.push_back({feature, sums.before / count, sums.after / count, sums.noise / count,
+                     ranking_by(feature, observations, held)});
   }
   return gains;
 }

@@ -46,7 +46,11 @@ ordered_json json_of(const NextExperiment& e);
 ordered_json json_of(const ResidualRow& r);
 
 ordered_json json_of(const FeatureGain& g) {
-  return {{"feature", to_string(g.feature)}, {"before", g.before}, {"after", g.after}, {"noise", g.noise}};
+  return {{"feature", to_string(g.feature)},
+          {"before", g.before},
+          {"after", g.after},
+          {"noise", g.noise},
+          {"ranking", {{"pairs", g.ranking.pairs}, {"before", g.ranking.before}, {"after", g.ranking.after}}}};
 }
 
 template <class T>
@@ -57,11 +61,9 @@ ordered_json array_of(const std::vector<T>& items) {
 }
 
 ordered_json json_of(const Gain& g) {
-  return {{"held_out_error_before", g.held_out_error_before},
-          {"held_out_error_after", g.held_out_error_after},
-          {"relative_reduction", g.relative_reduction},
-          {"interval90", {g.interval_low, g.interval_high}},
-          {"features", array_of(g.features)}};
+  return {{"held_out_error_before", g.held_out_error_before}, {"held_out_error_after", g.held_out_error_after},
+          {"relative_reduction", g.relative_reduction},       {"interval90", {g.interval_low, g.interval_high}},
+          {"of", g.of_coupons ? "coupons" : "designs"},       {"features", array_of(g.features)}};
 }
 
 ordered_json json_of(const NextExperiment& e) {

@@ -161,7 +161,7 @@ std::string gain_section(const Diagnosis& d) {
                        figure(shown(g.feature, g.noise))});
   return section(
       "gain", "What the extended model gains",
-      paragraph(escaped(gain_in_words(*d.gain))) +
+      paragraph(escaped(gain_in_words(*d.gain) + choice_in_words(*d.gain))) +
           table(header_row({"mean error on held-out designs", "unit", "base", "extended", "noise alone"}), rows));
 }
 

@@ -41,6 +41,15 @@ TEST(DiagnosisPage, GainIsTheSentenceOfTheSummary) {
   EXPECT_THAT(gain_section(gain), HasSubstr("from 22.1 to 10.5 %"));
 }
 
+TEST(DiagnosisPage, SaysWhetherTheChoiceOfDesignsChanges) {
+  Gain gain{0.2, 0.1, 0.5, 0.3, 0.7, {{Feature::log_modulus, 0.2, 0.1, 0.05, {120, 96, 119}}}};
+  EXPECT_THAT(gain_section(gain), HasSubstr("the extended model ranks 119 as measured, the base model 96"));
+  gain.features[0].ranking.before = 119;
+  EXPECT_THAT(gain_section(gain), HasSubstr("both models rank 119 as measured"));
+  gain.of_coupons = true;
+  EXPECT_THAT(gain_section(gain), Not(HasSubstr("as measured")));
+}
+
 TEST(DiagnosisPage, EveryFeatureHasItsOwnUnit) {
   const std::string gain = gain_section({0.2,
                                          0.1,
