@@ -109,15 +109,15 @@ constexpr std::array kDescribed = {Feature::log_modulus, Feature::log_toughness,
                                    Feature::log_peak};
 
 /// Appends the direction when it varies over the rows it is about: centred there, unit length.
-void add_if_varying(std::vector<ContrastDirection>& directions, const std::string& name, Eigen::VectorXd values,
-                    const std::vector<int>& rows) {
+void add_if_varying(std::vector<ContrastDirection>& directions, const std::string& name, const ContrastView& view,
+                    Eigen::VectorXd values, const std::vector<int>& rows) {
   double mean = 0.0;
   for (const int row : rows) mean += values[row] / static_cast<double>(rows.size());
   double largest = 0.0;
   for (const int row : rows) largest = std::max(largest, std::abs(values[row])), values[row] -= mean;
   const double length = values.norm();
   if (length < 1e-9 * (1.0 + largest) * static_cast<double>(rows.size() + 1)) return;
-  directions.push_back({name, values / length});
+  directions.push_back({name, view, values / length});
 }
 
 /// Rows of one feature, by test.
@@ -128,6 +128,16 @@ std::vector<int> rows_of(const Observations& observations, Feature feature, test
     if (row.probe == Probe::mean && row.feature == feature && row.test == test) rows.push_back(i);
   }
   return rows;
+}
+
+using Kinds = std::set<std::pair<Feature, tester::TestKind>>;
+
+/// The feature in words, and of which specimens where two kinds of test show it.
+std::string name_of(Feature feature, tester::TestKind test, const Kinds& kinds) {
+  const bool alone = std::ranges::count_if(kinds, [feature](const auto& kind) { return kind.first == feature; }) == 1;
+  if (alone) return std::string(in_words(feature));
+  return fmt::format("{} of {}", in_words(feature),
+                     test == tester::TestKind::tensile ? "coupons" : "notched specimens");
 }
 
 Eigen::VectorXd spread(const Observations& observations, const std::vector<int>& rows,
@@ -157,30 +167,34 @@ std::vector<Descriptor> descriptors() {
 
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted) {
   std::vector<ContrastDirection> directions;
-  std::set<std::pair<Feature, tester::TestKind>> kinds;
+  Kinds kinds;
   for (const Row& row : observations.rows)
     if (row.probe == Probe::mean) kinds.emplace(row.feature, row.test);
   for (const auto& [feature, test] : kinds) {
     const std::vector<int> rows = rows_of(observations, feature, test);
-    const std::string prefix = kinds.size() > 1 ? std::string(in_words(feature)) + " against " : "";
+    const std::string whole_name = name_of(feature, test, kinds);
+    const std::string prefix = kinds.size() > 1 ? whole_name + " against " : "";
     // One feature against the others: how far all specimens are off in it alone.
     if (kinds.size() > 1) {
       Eigen::VectorXd whole = Eigen::VectorXd::Zero(observations.size());
       for (const int row : rows) whole[row] = 1.0 / std::sqrt(static_cast<double>(rows.size()));
-      directions.push_back({std::string(in_words(feature)), whole});
+      directions.push_back({whole_name, {feature, test, ""}, whole});
     }
     if (std::find(kDescribed.begin(), kDescribed.end(), feature) == kDescribed.end()) continue;
     Eigen::VectorXd level = Eigen::VectorXd::Zero(observations.size());
     for (const int row : rows) level[row] = predicted[row];
-    add_if_varying(directions, prefix + (feature == Feature::log_modulus ? "stiffness level" : "level"), level, rows);
+    add_if_varying(directions, prefix + (feature == Feature::log_modulus ? "stiffness level" : "level"),
+                   {feature, test, std::string(kPredictedLevel)}, level, rows);
     for (const Descriptor& descriptor : descriptors())
-      add_if_varying(directions, prefix + descriptor.name, spread(observations, rows, descriptor.of), rows);
+      add_if_varying(directions, prefix + descriptor.name, {feature, test, descriptor.name},
+                     spread(observations, rows, descriptor.of), rows);
   }
   for (int i = 0; i < observations.size(); ++i) {
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
     if (row.probe == Probe::mean) continue;
     directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),
                                       row.probe == Probe::batch ? "one batch" : "one specimen printed"),
+                          {row.feature, row.test, ""},
                           Eigen::VectorXd::Unit(observations.size(), i)});
   }
   return directions;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/diagnosis.hpp"
 #include "diagnosis/observations.hpp"
 
 namespace nacre::diagnosis {
@@ -12,6 +13,7 @@ namespace nacre::diagnosis {
 /// A pre-declared direction of the data along which residuals may line up; one value per row, length 1.
 struct ContrastDirection {
   std::string name;
+  ContrastView view;
   Eigen::VectorXd values;
 };
 

@@ -52,9 +52,19 @@ struct Candidate {
   double distance = 0.0;  ///< signal_to_noise sqrt((1 - cosine) / 2): from 2.2 on the two are told apart with 5 % error
 };
 
+/// What a contrast looks at: one feature of one kind of test, as a whole or against something of the specimens.
+struct ContrastView {
+  Feature feature = Feature::log_modulus;
+  tester::TestKind test = tester::TestKind::modulus;
+  std::string against;  ///< a descriptor, kPredictedLevel, or empty: the whole feature, or a row of history
+};
+/// The base model's own prediction as what a contrast looks along.
+inline constexpr std::string_view kPredictedLevel = "level";
+
 /// A pre-declared direction in which residuals may line up.
 struct Contrast {
   std::string name;
+  ContrastView view;
   double statistic = 0.0;  ///< standard deviations, after projection off what the base can imitate
   double p_family_wise = 1.0;
 };
@@ -71,8 +81,8 @@ struct Ranking {
 struct FeatureGain {
   Feature feature = Feature::log_modulus;
   double before = 0.0, after = 0.0;
-  double noise = 0.0;  ///< what scatter and numerics alone would leave
-  Ranking ranking;     ///< of layouts by this feature
+  double noise = 0.0;    ///< what scatter and numerics alone would leave
+  Ranking ranking = {};  ///< of layouts by this feature
 };
 
 /// Errors are mean absolute errors of log E and log T on patterns that were held out (of slopes and stresses where only

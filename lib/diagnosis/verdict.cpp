@@ -26,7 +26,8 @@ std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
   std::vector<Contrast> contrasts;
   for (std::size_t i = 0; i < evidence.base.directions.size(); ++i) {
     const double statistic = evidence.base_statistics.contrasts[i];
-    contrasts.push_back({evidence.base.directions[i].name, statistic, exceedance(largest, statistic)});
+    const ContrastDirection& direction = evidence.base.directions[i];
+    contrasts.push_back({direction.name, direction.view, statistic, exceedance(largest, statistic)});
   }
   std::stable_sort(contrasts.begin(), contrasts.end(),
                    [](const Contrast& a, const Contrast& b) { return a.statistic > b.statistic; });

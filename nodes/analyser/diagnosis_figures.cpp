@@ -12,6 +12,7 @@
 namespace nacre::analyser {
 namespace {
 
+using diagnosis::ContrastView;
 using diagnosis::Diagnosis;
 using diagnosis::Feature;
 using diagnosis::ResidualRow;
@@ -26,32 +27,29 @@ std::string unit_of(Feature feature) {
   return fmt::format("measured {} predicted, {}", is_logarithm(feature) ? "over" : "less", shown_unit(feature));
 }
 
-/// How strongly residuals of one feature line up with one descriptor: |correlation| times their size in standard
-/// errors.
-struct View {
-  Feature feature;
-  std::size_t descriptor;
-  double strength;
-};
-
-std::vector<const ResidualRow*> rows_of(const Diagnosis& d, Feature feature) {
+std::vector<const ResidualRow*> rows_of(const Diagnosis& d, const ContrastView& view) {
   std::vector<const ResidualRow*> rows;
   for (const ResidualRow& row : d.residuals)
-    if (row.feature == feature) rows.push_back(&row);
+    if (row.feature == view.feature && row.test == view.test) rows.push_back(&row);
   return rows;
 }
 
-double strength_of(const std::vector<const ResidualRow*>& rows, std::size_t descriptor) {
-  double mx = 0.0, my = 0.0;
-  const double n = static_cast<double>(rows.size());
+/// What a contrast looks along, one number per row: a descriptor of the specimens, or what the base model predicts in
+/// MPa.
+std::vector<double> abscissae(const Diagnosis& d, const ContrastView& view,
+                              const std::vector<const ResidualRow*>& rows) {
+  const auto descriptor =
+      static_cast<std::size_t>(std::ranges::find(d.descriptors, view.against) - d.descriptors.begin());
+  std::vector<double> xs;
   for (const ResidualRow* row : rows)
-    mx += row->descriptors[descriptor] / n, my += (row->measured - row->base) / row->standard_error / n;
-  double xx = 0.0, xy = 0.0;
-  for (const ResidualRow* row : rows) {
-    const double x = row->descriptors[descriptor] - mx, y = (row->measured - row->base) / row->standard_error - my;
-    xx += x * x, xy += x * y;
-  }
-  return xx > 1e-12 * n ? std::abs(xy) / std::sqrt(xx) : -1.0;
+    xs.push_back(view.against == diagnosis::kPredictedLevel ? 1e-6 * std::exp(row->base)
+                                                            : row->descriptors.at(descriptor));
+  return xs;
+}
+
+std::string abscissa_label(const ContrastView& view) {
+  if (view.against == diagnosis::kPredictedLevel) return fmt::format("{} predicted, MPa", in_words(view.feature));
+  return view.against + (view.against == "strain rate" ? " (log of 1/s)" : "");
 }
 
 Range padded(std::vector<double> values) {
@@ -60,24 +58,25 @@ Range padded(std::vector<double> values) {
   return {*low - margin, *high + margin};
 }
 
-std::string residual_figure(const Diagnosis& d, const View& view) {
-  const std::vector<const ResidualRow*> rows = rows_of(d, view.feature);
+std::string residual_figure(const Diagnosis& d, const diagnosis::Contrast& contrast) {
+  const ContrastView& view = contrast.view;
+  const std::vector<const ResidualRow*> rows = rows_of(d, view);
+  const std::vector<double> xs = abscissae(d, view, rows);
   std::vector<Point> base, extended, bars;
   std::vector<std::string> hints;
-  std::vector<double> xs, ys = {0.0};
-  for (const ResidualRow* row : rows) {
-    const double x = row->descriptors[view.descriptor];
+  std::vector<double> ys = {0.0};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ResidualRow* row = rows[i];
+    const double x = xs[i];
     base.push_back({x, shown(view.feature, row->measured - row->base)});
     extended.push_back({x, shown(view.feature, row->measured - row->extended)});
     bars.push_back({0.0, 100.0 * row->standard_error});
     hints.push_back(row->design);
-    xs.push_back(x);
     for (const double sign : {-1.0, 1.0}) ys.push_back(base.back().y + sign * bars.back().y);
     ys.push_back(extended.back().y);
   }
-  Plot plot({.title = std::string(in_words(view.feature)),
-             .x_label = d.descriptors[view.descriptor] +
-                        (d.descriptors[view.descriptor] == "strain rate" ? " (log of 1/s)" : ""),
+  Plot plot({.title = fmt::format("{}: {:.3g} σ", in_words(view.feature), contrast.statistic),
+             .x_label = abscissa_label(view),
              .y_label = unit_of(view.feature),
              .x = padded(xs),
              .y = padded(ys)});
@@ -117,20 +116,10 @@ std::string_view shown_unit(Feature feature) {
 }
 
 std::vector<std::string> residual_figures(const Diagnosis& d, std::size_t most) {
-  std::vector<View> views;
-  for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak,
-                                Feature::log_tangent_30, Feature::toe_strain, Feature::toe_share}) {
-    const auto rows = rows_of(d, feature);
-    if (rows.size() < 3) continue;
-    for (std::size_t k = 0; k < d.descriptors.size(); ++k) {
-      if (const double strength = strength_of(rows, k); strength >= 0.0) views.push_back({feature, k, strength});
-    }
-  }
-  std::stable_sort(views.begin(), views.end(), [](const View& a, const View& b) { return a.strength > b.strength; });
   std::vector<std::string> figures;
-  for (const View& view : views) {
+  for (const diagnosis::Contrast& contrast : d.contrasts) {
     if (figures.size() == most) break;
-    figures.push_back(residual_figure(d, view));
+    if (!contrast.view.against.empty()) figures.push_back(residual_figure(d, contrast));
   }
   return figures;
 }

@@ -14,8 +14,8 @@ double shown(diagnosis::Feature feature, double difference);
 /// What that number counts: "%", "% strain", "x 100".
 std::string_view shown_unit(diagnosis::Feature feature);
 
-/// Measured over predicted of one feature against one descriptor of the specimens, base and extended: what varies and
-/// matters most first.
+/// The strongest contrasts as pictures: measured over predicted of one feature, base and extended, against what the
+/// contrast looks along.
 std::vector<std::string> residual_figures(const diagnosis::Diagnosis& diagnosis, std::size_t most);
 
 /// Root mean square residual of every feature in standard errors, base and extended: where in the curve the simulation

@@ -63,7 +63,8 @@ std::string where_section(const Diagnosis& d) {
   if (const std::string whole = feature_figure(d); !whole.empty()) pictures.push_back(whole);
   content += figures(pictures);
   content += paragraph(
-      "Each mark is one group of replicates; bars are one standard error, from the replicates and from what the "
+      "Pictures of the strongest trends, with their size in standard deviations (σ). Each mark is one group of "
+      "replicates; bars are one standard error, from the replicates and from what the "
       "simulation's own elements leave open.",
       "quiet");
   return section("where", "Where the simulation is off", content);

@@ -50,6 +50,31 @@ TEST(DiagnosisPage, SaysWhetherTheChoiceOfDesignsChanges) {
   EXPECT_THAT(gain_section(gain), Not(HasSubstr("as measured")));
 }
 
+TEST(DiagnosisPage, ShowsTheStrongestTrendsFirst) {
+  Diagnosis d = named_with({});
+  d.descriptors = {"rigid fraction"};
+  for (const double x : {0.5, 0.6, 0.7}) {
+    diagnosis::ResidualRow row;
+    row.measured = 20.0 + x;
+    row.base = 20.0;
+    row.standard_error = 0.01;
+    row.descriptors = {x};
+    d.residuals.push_back(row);
+  }
+  const diagnosis::ContrastView whole{Feature::log_modulus, tester::TestKind::modulus, ""};
+  auto level = whole, fraction = whole;
+  level.against = diagnosis::kPredictedLevel;
+  fraction.against = "rigid fraction";
+  d.contrasts = {{"whole", whole, 9.0, 0.0}, {"level", level, 8.0, 0.0}, {"fraction", fraction, 7.0, 0.0}};
+  const std::string page = render_diagnosis_page(d, "a-set", tester::Fidelity::full);
+  const auto first = page.find("8 σ"), second = page.find("7 σ");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(first, second);
+  EXPECT_EQ(page.find("9 σ"), std::string::npos) << "a whole feature has nothing to be drawn against";
+  EXPECT_THAT(page, HasSubstr("modulus predicted, MPa"));
+}
+
 TEST(DiagnosisPage, EveryFeatureHasItsOwnUnit) {
   const std::string gain = gain_section({0.2,
                                          0.1,
