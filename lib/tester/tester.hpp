@@ -20,7 +20,7 @@ inline constexpr int kKernelVersion = 7;
 
 /// Named sizes of the virtual specimens. Values of different fidelity are never compared with each other.
 enum class Fidelity {
-  tiny,     ///< one unit; for process and fault tests, refused in reports
+  tiny,     ///< one unit; for process and fault tests; reports say so
   preview,  ///< thesis geometry pulled twice as fast; for searches, demonstrations and early rounds
   full,     ///< thesis geometry: toughness 5 x 4 units (200 x 160 elements), modulus 2 x 1 units (80 x 40)
 };
