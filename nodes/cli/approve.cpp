@@ -150,7 +150,17 @@ void list_designs(const RunAccess& run, const wire::Proposal& proposal) {
   }
 }
 
+/// Throws InputError where it is not clear which designs are meant.
+void check_designs_meant(const ApproveOptions& options) {
+  if (options.add) return;
+  if (options.all && !options.designs.empty())
+    throw InputError("nacre approve: expected either designs or --all, not both");
+  if (options.reject && !options.all && options.designs.empty())
+    throw InputError("nacre approve --reject: expected designs to reject, or --all");
+}
+
 int approve(const ApproveOptions& options) {
+  check_designs_meant(options);
   const RunAccess run = open_run(options.run);
   if (options.add) return add_own(options, run);
   const auto proposal = newest_proposal(run);
