@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "measurement/measurement.hpp"
+
 namespace nacre::diagnosis {
 
 /// Rank correlation of log(measured / predicted) with one numeric column.
@@ -16,9 +18,15 @@ struct Trend {
   int rows = 0;                ///< rows with a number in all three columns
 };
 
-/// Trends of a CSV table, strongest first; the predicted values themselves are one of the columns. Rows without two
-/// positive numbers are left out. Throws InputError when a column is missing or fewer than five rows are usable.
-std::vector<Trend> table_trends(const std::filesystem::path& table, const std::string& measured,
-                                const std::string& predicted, std::uint64_t seed, int permutations = 2000);
+struct TableTrends {
+  std::vector<Trend> trends;  ///< strongest first
+  std::vector<measurement::RejectedRow> rejected;
+};
+
+/// Trends of a CSV table; the predicted values themselves are one of the columns. Left out, with the reason, are rows
+/// that are no CSV, that have another number of cells than the heading, without two positive numbers, or with a number
+/// that is not finite. Throws InputError when a column is missing or stands twice, or fewer than five rows are usable.
+TableTrends table_trends(const std::filesystem::path& table, const std::string& measured, const std::string& predicted,
+                         std::uint64_t seed, int permutations = 2000);
 
 }  // namespace nacre::diagnosis

@@ -49,8 +49,9 @@ void print_candidates(const diagnosis::Diagnosis& d) {
 }
 
 int diagnose_table(const Options& options) {
-  const std::vector<diagnosis::Trend> trends =
+  const auto [trends, rejected] =
       diagnosis::table_trends(options.table, options.measured, options.predicted, options.seed);
+  for (const auto& row : rejected) warn_about_table(row, options.table);
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const diagnosis::Trend& t : trends) {
     document.push_back(
@@ -59,7 +60,7 @@ int diagnose_table(const Options& options) {
       fmt::print("{:<32} rank correlation {:+.3f}  p {:.4f}  ({} rows)\n", t.column, t.spearman, t.p_family_wise,
                  t.rows);
   }
-  if (options.json) print_json({{"trends", document}});
+  if (options.json) print_json({{"trends", document}, {"rejected", rejected_json(rejected)}});
   return 0;
 }
 
@@ -138,7 +139,20 @@ int plan(const Options& options) {
   return 0;
 }
 
+/// Throws InputError where options do not go together: none is left without effect.
+void check_usage(const Options& options) {
+  const bool table = !options.table.empty();
+  if (table && options.plan) throw InputError("nacre diagnose: expected either --plan or --table, not both");
+  if (table && !options.set.empty())
+    throw InputError("nacre diagnose: expected either a measurement set or --table, not both");
+  if (!options.report.empty() && (table || options.plan))
+    throw InputError("nacre diagnose: expected no --report with --plan or --table: the page is of a diagnosis");
+  if (table && (options.measured.empty() || options.predicted.empty()))
+    throw InputError("nacre diagnose --table: expected --measured and --predicted with the names of columns");
+}
+
 int diagnose(const Options& options) {
+  check_usage(options);
   if (!options.report.empty()) prepare_output_file(options.report);
   if (options.plan) return plan(options);
   if (!options.table.empty()) return diagnose_table(options);

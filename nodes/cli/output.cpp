@@ -26,7 +26,10 @@ void warn_about(const measurement::MeasurementSet& set, const std::string& folde
 }
 
 void warn_about(const measurement::RejectedRow& row, const std::string& folder) {
-  const std::string table = (std::filesystem::path(folder) / measurement::kTableName).string();
+  warn_about_table(row, (std::filesystem::path(folder) / measurement::kTableName).string());
+}
+
+void warn_about_table(const measurement::RejectedRow& row, const std::string& table) {
   const std::string column = row.column.empty() ? "" : fmt::format("column {}: ", row.column);
   warn(fmt::format("{}:{}: {}{}", table, row.line, column, row.reason));
 }

@@ -29,6 +29,8 @@ void warn(const std::string& line);
 void warn_about(const measurement::MeasurementSet& set, const std::string& folder);
 /// `FOLDER/measurements.csv:LINE: column X: reason`, without column where the row as a whole is wrong.
 void warn_about(const measurement::RejectedRow& row, const std::string& folder);
+/// The same of any table: `TABLE:LINE: column X: reason`.
+void warn_about_table(const measurement::RejectedRow& row, const std::string& table);
 
 /// A row that could not be used as {line, column, reason}, and all of a set.
 nlohmann::ordered_json row_json(const measurement::RejectedRow& row);
