@@ -20,6 +20,14 @@ bool MeasurementBook::review(const std::string& specimen, const Review& review) 
   return true;
 }
 
+std::optional<Review> MeasurementBook::review_against(const std::string& specimen, const Review& review) const {
+  const auto held = reviews_.find(specimen);
+  if (held == reviews_.end() || held->second.revision < review.revision) return std::nullopt;
+  const bool loses_tie = review.valid && !held->second.valid;
+  if (held->second.revision == review.revision && !loses_tie) return std::nullopt;
+  return held->second;
+}
+
 bool MeasurementBook::valid(const Reported& reported) const {
   const auto review = reviews_.find(reported.record.specimen);
   if (review == reviews_.end()) return reported.record.valid;

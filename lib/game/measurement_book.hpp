@@ -3,6 +3,7 @@
 // the set of entries alone, never on their order.
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ class MeasurementBook {
 
   /// Reviews may come before the measurement they judge. Returns whether the specimen's validity may have changed.
   bool review(const std::string& specimen, const Review& review);
+
+  /// The judgement that stands against this one: of a higher revision, or "not valid" of the same. Nothing where this
+  /// one may stand.
+  std::optional<Review> review_against(const std::string& specimen, const Review& review) const;
 
   /// All specimens, sorted by name, with validity as reviewed.
   std::vector<measurement::SpecimenRecord> specimens() const;

@@ -1,6 +1,7 @@
 // nacre review: do the replicates agree, and a person's judgement on a specimen; in a run or in a measurement set.
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,9 +43,17 @@ struct Judgement {
   std::string why;
 };
 
-int judge_in_run(const Options& options, const Judgement& judgement) {
+/// A judgement that stands now; in a set it has no revision.
+struct Reviewed {
+  Judgement judgement;
+  std::optional<int> revision;
+};
+
+/// Nothing, said on standard error, where the judgement does not stand.
+std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& judgement) {
   const RunAccess run = open_run(options.run);
-  const auto specimens = view_laboratory(run).facts.book.specimens();
+  const game::MeasurementBook book = view_laboratory(run).facts.book;
+  const auto specimens = book.specimens();
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
                                      [&](const auto& each) { return each.specimen == judgement.specimen; });
   if (specimen == specimens.end()) {
@@ -55,21 +64,25 @@ int judge_in_run(const Options& options, const Judgement& judgement) {
     throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, implausible->column,
                              implausible->reason);
   }
+  const int revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
+  if (const auto held = book.review_against(judgement.specimen, {revision, judgement.valid, judgement.why})) {
+    remark(fmt::format("{}: revision {} stands: {}valid: {}", judgement.specimen, held->revision,
+                       held->valid ? "" : "not ", held->why));
+    return std::nullopt;
+  }
   review_t message{};
   message.specimen = judgement.specimen;
-  message.revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
+  message.revision = revision;
   message.valid = judgement.valid;
   message.by = options.by;
   message.why = judgement.why;
-  const int status = deliver(run, "review", {"REVIEW", wire::encode(message)}, options.timeout_s);
-  if (status == 0) {
-    fmt::print("{}: {} (revision {})\n", judgement.specimen, judgement.valid ? "valid" : "not valid", message.revision);
-  }
-  return status;
+  if (deliver(run, "review", {"REVIEW", wire::encode(message)}, options.timeout_s) != 0) return std::nullopt;
+  return Reviewed{judgement, revision};
 }
 
 /// Writes the judgements into the table of the set; its curves and everything else stay as they are.
-int judge_in_set(const Options& options, const std::vector<Judgement>& judgements) {
+std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<Judgement>& judgements) {
+  std::vector<Reviewed> reviewed;
   measurement::SetTable table(options.set);
   for (const Judgement& judgement : judgements) {
     if (!table.holds(judgement.specimen)) {
@@ -77,18 +90,43 @@ int judge_in_set(const Options& options, const std::vector<Judgement>& judgement
                                options.set, table.size());
     }
     table.judge(judgement.specimen, judgement.valid, fmt::format("{} ({})", judgement.why, options.by));
+    reviewed.push_back({judgement, std::nullopt});
   }
   table.write(options.set);
-  for (const Judgement& judgement : judgements)
-    fmt::print("{}: {}\n", judgement.specimen, judgement.valid ? "valid" : "not valid");
-  return 0;
+  return reviewed;
 }
 
+void print_reviewed(const Reviewed& reviewed) {
+  fmt::print("{}: {}{}\n", reviewed.judgement.specimen, reviewed.judgement.valid ? "valid" : "not valid",
+             reviewed.revision ? fmt::format(" (revision {})", *reviewed.revision) : "");
+}
+
+void print_reviewed_json(const std::vector<Reviewed>& reviewed) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const Reviewed& each : reviewed) {
+    nlohmann::ordered_json one{{"specimen", each.judgement.specimen}, {"valid", each.judgement.valid}};
+    if (each.revision) one["revision"] = *each.revision;
+    all.push_back(one);
+  }
+  print_json({{"reviewed", all}});
+}
+
+/// Status 1 where a judgement does not stand.
 int judge(const Options& options, const std::vector<Judgement>& judgements) {
-  if (!options.set.empty()) return judge_in_set(options, judgements);
-  int status = 0;
-  for (const Judgement& judgement : judgements) status = std::max(status, judge_in_run(options, judgement));
-  return status;
+  std::vector<Reviewed> reviewed;
+  if (!options.set.empty() && !judgements.empty()) {
+    reviewed = judge_in_set(options, judgements);
+  } else {
+    for (const Judgement& judgement : judgements) {
+      if (const auto one = judge_in_run(options, judgement)) reviewed.push_back(*one);
+    }
+  }
+  if (options.json) {
+    print_reviewed_json(reviewed);
+  } else {
+    for (const Reviewed& each : reviewed) print_reviewed(each);
+  }
+  return reviewed.size() == judgements.size() ? 0 : 1;
 }
 
 std::vector<SpecimenRecord> specimens_to_review(const Options& options) {
@@ -165,6 +203,8 @@ void print_review(const std::vector<ReplicateGroup>& groups, const std::vector<m
 }
 
 int review(const Options& options) {
+  if (!options.set.empty() && options.revision > 0)
+    throw InputError("nacre review: expected --revision in a run only: the judgements of a set are not numbered");
   if (!options.specimen.empty()) {
     if (options.valid == options.invalid) throw InputError("nacre review: expected either --valid or --invalid");
     if (options.accept) throw InputError("nacre review: expected either a specimen or --accept");
@@ -184,7 +224,7 @@ int review(const Options& options) {
       judgements.push_back({outlier.specimen, false, outlier.reasons.front().text});
   }
   if (judgements.empty()) remark("no specimen looks out of line");
-  return judgements.empty() ? 0 : judge(options, judgements);
+  return judge(options, judgements);
 }
 
 }  // namespace

@@ -153,6 +153,8 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
   EXPECT_EQ(person_->inject("most", specimens)["accepted"], specimens.size());
   const std::string judged = person_->decide({"review", outlier_name, "--invalid", "--why", "thirty times the other"});
   EXPECT_THAT(judged, HasSubstr(outlier_name + ": not valid (revision 1)"));
+  EXPECT_THAT(person_->decide({"review", outlier_name, "--valid", "--why", "late", "--revision", "1"}, 1),
+              HasSubstr("revision 1 stands"));
   ::kill(person_->game().process_of("validation_agent"), SIGKILL);
   person_->inject("last", {missing});
   person_->play_to_end();

@@ -113,6 +113,12 @@ TEST(ReviewProgram, ProposesTheOutlierOfTheExampleAndLeavesTheDecisionToAPerson)
     EXPECT_EQ(specimen.valid, specimen.specimen != "tutorial-19");
     EXPECT_EQ(specimen.note, specimen.valid ? "" : "bubble (me)");
   }
+  const Outcome judged = run_nacre({"review", "--set", set, "tutorial-18", "--invalid", "--why", "bent", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(judged.out),
+            nlohmann::json::parse(R"({"reviewed": [{"specimen": "tutorial-18", "valid": false}]})"));
+  const Outcome accepted = run_nacre({"review", "--set", set, "--accept", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(accepted.out), nlohmann::json::parse(R"({"reviewed": []})"));
+  EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-19", "--valid", "--why", "?", "--revision", "3"}).status, 2);
   EXPECT_EQ(run_nacre({"review", "--set", set, "nobody", "--invalid", "--why", "?"}).status, 2);
   EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-19", "--invalid"}).status, 2) << "a reason is wanted";
 }

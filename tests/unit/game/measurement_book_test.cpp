@@ -96,6 +96,19 @@ TEST(MeasurementBook, HighestRevisionOfAReviewWinsInWhateverOrder) {
                                  [](const auto& a, const auto& b) { return a.revision < b.revision; }));
 }
 
+TEST(MeasurementBook, AJudgementThatChangesNothingIsToldWhichOneStands) {
+  MeasurementBook book;
+  EXPECT_FALSE(book.review_against("a", {1, true, ""}));
+  book.review("a", {2, false, "bubble"});
+  for (const Review& late : {Review{1, true, ""}, Review{1, false, ""}, Review{2, true, ""}}) {
+    ASSERT_TRUE(book.review_against("a", late)) << late.revision;
+    EXPECT_EQ(book.review_against("a", late)->revision, 2);
+    EXPECT_FALSE(book.review("a", late));
+  }
+  EXPECT_FALSE(book.review_against("a", {2, false, "bubble"})) << "the same again";
+  EXPECT_FALSE(book.review_against("a", {3, true, ""}));
+}
+
 TEST(MeasurementBook, OrderOfArrivalDoesNotMatter) {
   std::vector<std::string> names = {"a", "b", "c", "d"};
   std::vector<SpecimenRecord> reference;
