@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
@@ -18,6 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSheetName = "build_sheet.json";
 constexpr const char* kPeoplesSheetName = "build_sheet.html";
 constexpr const char* kTableName = "specimens.csv";
+constexpr const char* kPreviewName = "preview.png";
 
 std::string slices_of(const WrittenModel& written) {
   return written.folder.empty() ? "slices" : written.folder + "/slices";
@@ -112,6 +114,55 @@ Json plan_of(Json sheet) {
   return sheet;
 }
 
+void take_away(const std::filesystem::path& file) {
+  std::error_code failure;
+  std::filesystem::remove(file, failure);
+  if (failure) throw InputError::format("{}: cannot be replaced: {}", file.string(), failure.message());
+}
+
+void take_away_when_empty(const std::filesystem::path& folder) {
+  std::error_code failure;
+  if (std::filesystem::is_empty(folder, failure) && !failure) take_away(folder);
+}
+
+/// Where a model of the job in `folder` was written; nothing where its name is no name of a folder in there, or the
+/// folder is a link: what lies behind it is not the job's.
+std::optional<std::filesystem::path> place_of(const Json& model, const std::filesystem::path& folder) {
+  const auto slices = model.at("slices").get<std::string>();
+  if (slices == "slices") return folder;
+  const auto name = model.at("name").get<std::string>();
+  const bool plain = name != "." && name != ".." && name.find('/') == std::string::npos;
+  if (!plain || slices != name + "/slices" || std::filesystem::is_symlink(folder / name)) return std::nullopt;
+  return folder / name;
+}
+
+/// The slices and the preview of one model.
+void forget_model(const Json& model, const std::filesystem::path& folder) {
+  constexpr int kMostSlices = 100'000;  // whatever a damaged sheet says
+  const auto place = place_of(model, folder);
+  if (!place) return;
+  const std::filesystem::path slices = *place / "slices";
+  if (!std::filesystem::is_symlink(slices)) {
+    const int count = std::min(model.at("slice_count").get<int>(), kMostSlices);
+    for (int layer = 0; layer < count; ++layer) take_away(slices / slice_name(layer));
+    take_away_when_empty(slices);
+  }
+  take_away(*place / kPreviewName);
+  if (*place != folder) take_away_when_empty(*place);
+}
+
+/// What the build sheet in `folder` lists; nothing without a sheet that can be read.
+void forget_models(const std::filesystem::path& folder) {
+  std::error_code unreadable;
+  if (!std::filesystem::exists(folder / kSheetName, unreadable)) return;
+  try {
+    const Json sheet = Json::parse(read_file(folder / kSheetName));
+    for (const Json& model : sheet.at("models")) forget_model(model, folder);
+  } catch (const Json::exception&) {
+    return;  // somebody else's file
+  }
+}
+
 }  // namespace
 
 std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
@@ -133,11 +184,8 @@ bool holds_another_job(const std::filesystem::path& folder, const Job& job) {
 }
 
 void forget_job(const std::filesystem::path& folder) {
-  for (const char* sheet : {kSheetName, kPeoplesSheetName, kTableName}) {
-    std::error_code failure;
-    std::filesystem::remove(folder / sheet, failure);
-    if (failure) throw InputError::format("{}: cannot be replaced: {}", (folder / sheet).string(), failure.message());
-  }
+  forget_models(folder);
+  for (const char* sheet : {kPeoplesSheetName, kTableName, kSheetName}) take_away(folder / sheet);
 }
 
 std::string specimen_table(const Job& job) {
@@ -170,7 +218,7 @@ std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path&
                  [&](int layers) { say(kWriting * layers / plan.layers(), model.name); });
     stack.count = count_slices(place / "slices");
     say(kCounting, model.name);
-    write_preview(plan, place / "preview.png");
+    write_preview(plan, place / kPreviewName);
     written.push_back(std::move(stack));
   }
   if (!std::filesystem::exists(folder / kTableName))  // people fill it in

@@ -30,7 +30,8 @@ std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path&
 /// Whether the sheets in `folder` are of another job than this, so that writing this one would lose them.
 bool holds_another_job(const std::filesystem::path& folder, const Job& job);
 
-/// Takes the sheets of a job away, what people filled in included, so that another can be written.
+/// Takes a job away so that another can be written: its slices and previews, as its build sheet lists them, folders
+/// that are empty then, and last its sheets, what people filled in included. Other files stay. Throws InputError.
 void forget_job(const std::filesystem::path& folder);
 
 /// The build sheet as JSON (docs/FORMATS.md).

@@ -174,5 +174,42 @@ TEST(BuildSheet, OfAnotherJobIsNoticedAndTheTableThatPeopleFillInIsKept) {
   fs::remove_all(folder);
 }
 
+TEST(BuildSheet, OfAForgottenJobLeavesNothingButWhatPeoplePutThere) {
+  const fs::path folder = fs::temp_directory_path() / ("nacre-forgotten-job-" + std::to_string(::getpid()));
+  JobRequest request{.name = "old",
+                     .wanted = {{.design = pattern::Mixture{0.65}, .thickness_mm = 0.1},
+                                {.design = pattern::Mixture{0.5}, .thickness_mm = 0.1}}};
+  const Job job = plan_job(request);
+  write_job(job, folder);
+  const fs::path kept = folder / job.models[0].name, emptied = folder / job.models[1].name;
+  write_file_atomically(kept / "slices/photo.png", "a person's");
+  write_file_atomically(folder / "notes.txt", "a person's");
+  forget_job(folder);
+  EXPECT_FALSE(fs::exists(kept / "slices/0000.png"));
+  EXPECT_FALSE(fs::exists(kept / "preview.png"));
+  EXPECT_TRUE(fs::exists(kept / "slices/photo.png"));
+  EXPECT_TRUE(fs::exists(folder / "notes.txt"));
+  EXPECT_FALSE(fs::exists(emptied));
+  fs::remove_all(folder);
+}
+
+TEST(BuildSheet, ThatIsDamagedTakesNothingAwayOutsideItsJob) {
+  const fs::path folder = fs::temp_directory_path() / ("nacre-damaged-job-" + std::to_string(::getpid()));
+  const fs::path job = folder / "job", neighbour = folder / "other/slices/0000.png";
+  fs::create_directories(job);
+  fs::create_directories(neighbour.parent_path());
+  for (const char* name : {"../other", "..", "link"}) {
+    write_file_atomically(neighbour, "another job's");
+    write_file_atomically(
+        job / "build_sheet.json",
+        nlohmann::json{{"models", {{{"name", name}, {"slices", std::string(name) + "/slices"}, {"slice_count", 1}}}}}
+            .dump());
+    if (!fs::exists(job / "link")) fs::create_directory_symlink(folder / "other", job / "link");
+    forget_job(job);
+    EXPECT_TRUE(fs::exists(neighbour)) << name;
+  }
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace nacre::fabricate
