@@ -174,6 +174,20 @@ TEST_F(ImportedSet, ASheetOfAGermanSpreadsheetIsRead) {
   EXPECT_NEAR(import.specimens[0].test.modulus_pa, 800e6 * 52 * 3.2 / 52.04 / 3.21, 4e6);
 }
 
+TEST_F(ImportedSet, ANotchedSpecimenThatWasUnloadedWholeIsKeptAsNotValid) {
+  std::vector<std::pair<double, double>> points;
+  for (int i = 0; i <= 40; ++i) {
+    const int left = 20 - std::abs(i - 20);
+    points.emplace_back(0.05 * left, (i <= 20 ? 50.0 : 40.0) * left);
+  }
+  write("a.csv", table(points, "time_s,extension_mm,force_n"));
+  const Import import =
+      this->import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid,52,3.2,54\n");
+  ASSERT_EQ(import.specimens.size(), 1U);
+  EXPECT_FALSE(import.specimens[0].record.valid);
+  EXPECT_THAT(import.specimens[0].record.note, HasSubstr("not separated: the strain goes back"));
+}
+
 TEST_F(ImportedSet, TheModulusOfABarComesFromTheColumnThatTheSheetNames) {
   // The extensometer sees 50 mm of a bar of 2 GPa; the grips travel three times as far.
   std::string text = "Time (s),Extension (mm),Load (N),Extensometer (mm)\n";
@@ -313,6 +327,38 @@ TEST(Reduction, KeepingTheToeKeepsTheCurve) {
   EXPECT_NEAR(compensated->toe_strain, 0.002, 1e-5);
   EXPECT_NEAR(compensated->curve.strain.back(), 0.008, 1e-5);
   EXPECT_NEAR(compensated->toughness_pa, kept->toughness_pa, 1e-3 * kept->toughness_pa);
+}
+
+/// 1 GPa up to 1 % strain and back along the same line.
+tester::Curve loaded_and_unloaded() {
+  tester::Curve curve;
+  for (int i = 0; i <= 200; ++i) {
+    curve.strain.push_back(1e-4 * (100 - std::abs(i - 100)));
+    curve.stress_pa.push_back(1e9 * curve.strain.back());
+  }
+  return curve;
+}
+
+TEST(Reduction, ASpecimenThatIsUnloadedWholeIsNotSeparated) {
+  const auto test = reduce(loaded_and_unloaded(), Toe::compensate);
+  ASSERT_TRUE(test);
+  EXPECT_FALSE(test->separated);
+  EXPECT_TRUE(test->unloaded);
+  EXPECT_NEAR(test->failure_strain, 0.01, 1e-9) << "as far as it went";
+}
+
+TEST(Reduction, ASpecimenThatSeparatesAfterAnUnloadingLoopIsSeparatedThoughTheGripsReturn) {
+  tester::Curve curve = loaded_and_unloaded();
+  for (const double strain : {0.005, 0.01, 0.012}) {
+    curve.strain.push_back(strain);
+    curve.stress_pa.push_back(std::min(1e9 * strain, 9e6));
+  }
+  curve.strain.insert(curve.strain.end(), {0.0121, 0.01, 0.0});
+  curve.stress_pa.insert(curve.stress_pa.end(), {0.0, 0.0, 0.0});
+  const auto test = reduce(curve, Toe::compensate);
+  ASSERT_TRUE(test);
+  EXPECT_TRUE(test->separated);
+  EXPECT_NEAR(test->failure_strain, 0.0121, 1e-9);
 }
 
 TEST(Reduction, ACurveThatNeverRisesIsRefused) {
