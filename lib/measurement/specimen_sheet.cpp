@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -34,17 +35,13 @@ bool contains(const Names& names, std::string_view name) {
 class SheetReader {
  public:
   SheetReader(const std::string& text, std::string file, std::filesystem::path folder)
-      : file_(std::move(file)), folder_(std::move(folder)), lines_(lines_of(text)) {}
+      : file_(std::move(file)), folder_(std::move(folder)), text_(text) {}
 
   SpecimenSheet read() {
-    std::size_t first = 0;
-    while (first < lines_.size() && trimmed(lines_[first]).empty()) ++first;
-    if (first == lines_.size()) throw InputError::format("{}: is empty, expected a heading and rows", file_);
-    read_heading(first);
-    for (std::size_t i = first + 1; i < lines_.size(); ++i) {
-      cells_ = cells_of(lines_[i], delimiter_);
-      if (std::all_of(cells_.begin(), cells_.end(), [](const auto& cell) { return cell.empty(); })) continue;
-      read_row(static_cast<int>(i) + 1);
+    read_heading();
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      cells_ = cells_of(rows_[i].text, delimiter_);
+      if (std::any_of(cells_.begin(), cells_.end(), [](const auto& cell) { return !cell.empty(); })) read_row(rows_[i]);
     }
     if (sheet_.rows.empty() && sheet_.rejected.empty())
       throw InputError::format("{}: has a heading only, expected one row per specimen", file_);
@@ -52,15 +49,23 @@ class SheetReader {
   }
 
  private:
-  void read_heading(std::size_t index) {
+  /// Cuts the text into rows, the heading first, with the delimiter that gives the heading the most names.
+  void cut() {
     for (const char delimiter : {'\t', ';', ','}) {
-      const std::vector<std::string> names = cells_of(lines_[index], delimiter);
-      if (names.size() > heading_.size()) {
-        heading_ = names;
-        delimiter_ = delimiter;
-      }
+      std::vector<TextRow> rows = rows_of(text_, delimiter);
+      while (!rows.empty() && trimmed(rows.front().text).empty()) rows.erase(rows.begin());
+      if (rows.empty()) throw InputError::format("{}: is empty, expected a heading and rows", file_);
+      std::vector<std::string> names = cells_of(rows.front().text, delimiter);
+      if (names.size() <= heading_.size()) continue;
+      heading_ = std::move(names);
+      rows_ = std::move(rows);
+      delimiter_ = delimiter;
     }
-    const int line = static_cast<int>(index) + 1;
+  }
+
+  void read_heading() {
+    cut();
+    const int line = rows_.front().line;
     for (const std::string_view name : kRequired) {
       if (!contains(heading_, name)) {
         throw InputError::format("{}:{}: column `{}` is missing, expected a heading with at least {}", file_, line,
@@ -98,6 +103,15 @@ class SheetReader {
     return std::nullopt;
   }
 
+  /// 0 when it is not given.
+  int integer_from_1(std::string_view column) {
+    constexpr double kMost = 1e9;
+    const double value = number(column, 1, kMost, "an integer from 1").value_or(0.0);
+    if (value == std::floor(value)) return static_cast<int>(value);
+    reject(column, fmt::format("`{}`, expected an integer from 1", text(column)));
+    return 0;
+  }
+
   double length_mm(std::string_view column) {
     if (text(column).empty()) reject(column, "is empty, expected a length in mm");
     return number(column, 1e-3, 1e4, "a length in mm, 0.001 to 10000").value_or(1.0);
@@ -129,11 +143,12 @@ class SheetReader {
     }
   }
 
-  void read_row(int line) {
-    line_ = line;
+  void read_row(const TextRow& from) {
+    line_ = from.line;
     fault_.reset();
     SheetRow row;
-    row.line = line;
+    row.line = from.line;
+    if (from.is_torn) reject("", "the quote that opens a cell is never closed, expected a closing double quote");
     if (cells_.size() > heading_.size() && std::any_of(cells_.begin() + static_cast<std::ptrdiff_t>(heading_.size()),
                                                        cells_.end(), [](const auto& cell) { return !cell.empty(); })) {
       reject("", fmt::format("has {} cells, expected {} as in the heading", cells_.size(), heading_.size()));
@@ -169,7 +184,7 @@ class SheetReader {
     } else {
       reject("test", fmt::format("`{}` is no test, expected modulus, toughness or tensile", test));
     }
-    row.part = static_cast<int>(number("part", 1, 1e6, "which test of the file, from 1").value_or(0.0));
+    row.part = integer_from_1("part");
     record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);
     if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
       reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
@@ -179,7 +194,7 @@ class SheetReader {
       row.rate_is_given = true;
     }
     record.batch = text("batch");
-    record.print_order = static_cast<int>(number("print_order", 1, 1e9, "an integer from 1").value_or(0.0));
+    record.print_order = integer_from_1("print_order");
     const std::string valid = plain_words(text("valid"));
     record.valid = valid != "0" && valid != "false";
     if (!valid.empty() && valid != "1" && valid != "true" && record.valid)
@@ -194,7 +209,8 @@ class SheetReader {
 
   std::string file_;
   std::filesystem::path folder_;
-  std::vector<std::string_view> lines_;
+  std::string_view text_;
+  std::vector<TextRow> rows_;  ///< the heading first
   char delimiter_ = ',';
   std::vector<std::string> heading_, cells_;
   std::set<std::string> names_;

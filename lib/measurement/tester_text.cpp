@@ -86,6 +86,39 @@ std::optional<bool> unmarked_utf16(std::string_view bytes) {
   return std::nullopt;
 }
 
+/// Where the quoted cell whose text begins at `begin` is closed; nothing when it never is, or when more of a cell
+/// follows: then another cell's quote was met.
+std::optional<std::size_t> closing_quote(std::string_view text, std::size_t begin, char delimiter) {
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    if (text[i] != '"') continue;
+    if (i + 1 < text.size() && text[i + 1] == '"') {
+      ++i;
+      continue;
+    }
+    std::size_t next = i + 1;
+    while (next < text.size() && text[next] == ' ') ++next;
+    const bool ends = next == text.size() || text[next] == delimiter || text[next] == '\r' || text[next] == '\n';
+    return ends ? std::optional(i) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// The row at the head of `text`.
+TextRow first_row(std::string_view text, char delimiter) {
+  bool at_start = true;  // of a cell
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' || text[i] == '\n') return {.line = 0, .text = text.substr(0, i)};
+    if (at_start && text[i] == '"') {
+      const auto close = closing_quote(text, i + 1, delimiter);
+      const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+      if (!close) return {.line = 0, .text = line, .is_torn = std::count(line.begin(), line.end(), '"') % 2 != 0};
+      i = *close;
+    }
+    at_start = text[i] == delimiter || (at_start && (text[i] == ' ' || text[i] == '\t'));
+  }
+  return {.line = 0, .text = text};
+}
+
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
 /// Digits in groups of three: `1,234` or `12.345.678` with `mark` between them.
@@ -129,6 +162,19 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     text.remove_prefix(end + (text.substr(end).starts_with("\r\n") ? 2 : 1));
   }
   return lines;
+}
+
+std::vector<TextRow> rows_of(std::string_view text, char delimiter) {
+  std::vector<TextRow> rows;
+  for (int line = 1; !text.empty();) {
+    TextRow row = first_row(text, delimiter);
+    row.line = line;
+    rows.push_back(row);
+    line += static_cast<int>(std::max<std::size_t>(lines_of(row.text).size(), 1));
+    text.remove_prefix(row.text.size());
+    text.remove_prefix(text.starts_with("\r\n") ? 2 : text.empty() ? 0 : 1);
+  }
+  return rows;
 }
 
 std::vector<std::string> cells_of(std::string_view line, char delimiter) {

@@ -22,6 +22,17 @@ std::vector<std::string_view> lines_of(std::string_view text);
 /// RFC 4180: header blocks of testing machines hold any text.
 std::vector<std::string> cells_of(std::string_view line, char delimiter);
 
+/// One row of a table and the line on which it begins, from 1.
+struct TextRow {
+  int line = 0;
+  std::string_view text;  ///< without the line end
+  bool is_torn = false;   ///< a cell's opening quote has no closing one; the row ends with its first line
+};
+
+/// The rows of a table for cells_of(): a cell in double quotes may hold line breaks. A quote without an end takes no
+/// other row with it.
+std::vector<TextRow> rows_of(std::string_view text, char delimiter);
+
 /// ASCII lower case with the letters of western European languages spelt out (ue for u umlaut, e for e acute) and
 /// blanks in one place made one: for comparing names.
 std::string plain_words(std::string_view text);

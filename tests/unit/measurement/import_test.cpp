@@ -270,6 +270,47 @@ TEST_F(ImportedSet, WhatNoMessageCouldHoldIsRejectedWithItsColumn) {
   EXPECT_EQ(sheet.rejected[2].column, "print_order");
 }
 
+TEST_F(ImportedSet, ACellInQuotesMayHoldALineBreak) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const Import sheet = import(
+      "file;specimen;pattern;width_mm;thickness_mm;gauge_mm;note\r\n"
+      "a.csv;A1;rigid;52;3.2;54;\"bubble;\r\nsaid \"\"large\"\"\"\r\n"
+      "b.csv;B1;rigid;52;3.2;54;5\" bar\r\n"
+      "c.csv;C1;rigid;52;3.2;54;\r\n");
+  ASSERT_EQ(sheet.specimens.size(), 2U);
+  EXPECT_EQ(sheet.specimens[0].record.note, "bubble;\r\nsaid \"large\"");
+  EXPECT_EQ(sheet.specimens[1].record.note, "5\" bar");
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 5);
+}
+
+TEST_F(ImportedSet, AQuoteThatIsNeverClosedLosesItsRowAlone) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,note\n"
+      "a.csv,\"A1,rigid,52,3.2,54,\n"
+      "b.csv,B1,rigid,52,3.2,54,\"a \"\"bubble\"\"\"\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  EXPECT_EQ(sheet.specimens[0].record.note, "a \"bubble\"");
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 2);
+  EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("never closed"));
+}
+
+TEST_F(ImportedSet, PartAndPrintOrderAreIntegers) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,part,print_order\n"
+      "a.csv,A1,rigid,52,3.2,54,1.5,\na.csv,A2,rigid,52,3.2,54,,2.7\na.csv,A3,rigid,52,3.2,54,1,2\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  EXPECT_EQ(sheet.specimens[0].record.print_order, 2);
+  ASSERT_EQ(sheet.rejected.size(), 2U);
+  EXPECT_EQ(to_string(sheet.rejected[0]),
+            (folder_ / "sheet.csv").string() + ":2: part: `1.5`, expected an integer from 1");
+  EXPECT_EQ(sheet.rejected[1].line, 3);
+  EXPECT_THAT(sheet.rejected[1].reason, HasSubstr("`2.7`, expected an integer from 1"));
+}
+
 TEST_F(ImportedSet, ASheetWithoutARequiredColumnIsRefused) {
   write("sheet.csv", "file,specimen,pattern,width_mm,gauge_mm\n");
   EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);
