@@ -23,6 +23,8 @@ constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",  
 constexpr std::array<std::string_view, 9> kOptional = {
     "part",        "test",  "orientation_deg",  "strain_rate_per_s", "batch",
     "print_order", "valid", "extension_column", "force_column"};
+constexpr std::array<std::string_view, 5> kMeasured = {"width_mm", "thickness_mm", "gauge_mm", "orientation_deg",
+                                                       "strain_rate_per_s"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
 
@@ -39,6 +41,7 @@ class SheetReader {
 
   SpecimenSheet read() {
     read_heading();
+    find_decimal_mark();
     for (std::size_t i = 1; i < rows_.size(); ++i) {
       cells_ = cells_of(rows_[i].text, delimiter_);
       if (std::any_of(cells_.begin(), cells_.end(), [](const auto& cell) { return !cell.empty(); })) read_row(rows_[i]);
@@ -83,6 +86,29 @@ class SheetReader {
     }
   }
 
+  /// One mark for the sheet, as `9,875` does not say which it is. Nothing when the cells contradict each other.
+  void find_decimal_mark() {
+    bool point = false, comma = false, any_point = false, any_comma = false;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      cells_ = cells_of(rows_[i].text, delimiter_);
+      for (const std::string_view column : kMeasured) {
+        const std::string cell = text(column);
+        if (!looks_like_number(cell)) continue;
+        const auto mark = decimal_evidence(cell);
+        point = point || mark == DecimalMark::point;
+        comma = comma || mark == DecimalMark::comma;
+        any_point = any_point || cell.find('.') != std::string::npos;
+        any_comma = any_comma || cell.find(',') != std::string::npos;
+      }
+    }
+    if (!point && !comma && delimiter_ != ',') {  // as spreadsheets of a language with decimal commas write
+      comma = any_comma;
+      point = any_point;
+    }
+    mark_ = comma ? DecimalMark::comma : DecimalMark::point;
+    if (comma && point) mark_.reset();
+  }
+
   std::string text(std::string_view column) const {
     const auto found = std::find(heading_.begin(), heading_.end(), column);
     const auto place = static_cast<std::size_t>(found - heading_.begin());
@@ -96,8 +122,14 @@ class SheetReader {
   std::optional<double> number(std::string_view column, double least, double most, std::string_view expected) {
     const std::string cell = text(column);
     if (cell.empty()) return std::nullopt;
-    const DecimalMark mark = decimal_evidence(cell).value_or(DecimalMark::point);
-    const auto value = instrument_number(cell, mark);
+    const auto own_mark = decimal_evidence(cell);
+    if (!own_mark && !mark_ && looks_like_number(cell) && cell.find_first_of(".,") != std::string::npos) {
+      reject(column, fmt::format("`{}` may have a decimal mark or grouped thousands: the sheet has decimal points and "
+                                 "decimal commas, expected one of them throughout",
+                                 cell));
+      return std::nullopt;
+    }
+    const auto value = instrument_number(cell, own_mark.value_or(mark_.value_or(DecimalMark::point)));
     if (value && *value >= least && *value <= most) return value;
     reject(column, fmt::format("`{}`, expected {}", cell, expected));
     return std::nullopt;
@@ -212,6 +244,7 @@ class SheetReader {
   std::string_view text_;
   std::vector<TextRow> rows_;  ///< the heading first
   char delimiter_ = ',';
+  std::optional<DecimalMark> mark_ = DecimalMark::point;
   std::vector<std::string> heading_, cells_;
   std::set<std::string> names_;
   int line_ = 0;

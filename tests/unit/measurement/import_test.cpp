@@ -270,6 +270,36 @@ TEST_F(ImportedSet, WhatNoMessageCouldHoldIsRejectedWithItsColumn) {
   EXPECT_EQ(sheet.rejected[2].column, "print_order");
 }
 
+TEST_F(ImportedSet, ASheetHasOneDecimalMark) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const auto thickness_mm = [&](const std::string& heading, const std::string& rows) {
+    std::vector<double> found;
+    for (const auto& one : import(heading + rows).specimens) found.push_back(one.record.conditions.thickness_mm);
+    return found;
+  };
+  const std::string semicolons = "file;specimen;pattern;width_mm;thickness_mm;gauge_mm\n",
+                    commas = "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\n";
+  using testing::ElementsAre;
+  EXPECT_THAT(thickness_mm(semicolons, "a.csv;A;rigid;51,950;9,875;54\nb.csv;B;rigid;52;3,21;54\n"),
+              ElementsAre(9.875, 3.21));
+  EXPECT_THAT(thickness_mm(semicolons, "a.csv;A;rigid;51,950;9,875;54\n"), ElementsAre(9.875));
+  EXPECT_THAT(thickness_mm(semicolons, "a.csv;A;rigid;51.950;9.875;54\n"), ElementsAre(9.875));
+  EXPECT_THAT(thickness_mm(commas, "a.csv,A,rigid,\"51,950\",\"3,21\",54\n"), ElementsAre(3.21));
+  EXPECT_THAT(thickness_mm(commas, "a.csv,A,rigid,\"1,013\",3.2,54\n"), ElementsAre(3.2));
+}
+
+TEST_F(ImportedSet, ANumberThatMayBeEitherIsRejectedWhereASheetHasBothDecimalMarks) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const Import sheet = import(
+      "file;specimen;pattern;width_mm;thickness_mm;gauge_mm\n"
+      "a.csv;A;rigid;52,04;3.21;54\nb.csv;B;rigid;52,04;9,875;54\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  EXPECT_EQ(sheet.specimens[0].record.conditions.thickness_mm, 3.21);
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 3);
+  EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("`9,875` may have a decimal mark or grouped thousands"));
+}
+
 TEST_F(ImportedSet, ACellInQuotesMayHoldALineBreak) {
   for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
   const Import sheet = import(
