@@ -40,7 +40,8 @@ std::string plain_words(std::string_view text);
 /// Which mark separates the decimals of a file.
 enum class DecimalMark { point, comma };
 
-/// Reads a number as an instrument writes it; the other mark, a blank or an apostrophe may group thousands.
+/// Reads a number as an instrument writes it; the other mark, a blank (a no-break space, too) or an apostrophe
+/// may group thousands.
 std::optional<double> instrument_number(std::string_view text, DecimalMark mark);
 
 /// What a cell says about the decimal mark by itself: `1,5` comma, `1.5` point, `1,234` or `12` nothing.
