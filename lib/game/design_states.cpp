@@ -60,6 +60,19 @@ std::vector<int> printed_for(std::span<const Order> orders, std::span<const Prin
   return counts;
 }
 
+std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, const StatedDecision& decision) {
+  const auto first = std::find_if(facts.decisions.begin(), facts.decisions.end(), [&](const StatedDecision& each) {
+    return each.proposal_round == decision.proposal_round && each.design == decision.design;
+  });
+  if (first == facts.decisions.end() || first->approved == decision.approved) return std::nullopt;
+  return *first;
+}
+
+bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design) {
+  return std::any_of(facts.orders.begin(), facts.orders.end(),
+                     [&](const Order& order) { return order.design == design && answers(order.conditions, {}); });
+}
+
 std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
   std::map<std::string, DesignState> states;
   const auto state_of = [&](const pattern::Design& design) -> DesignState& {

@@ -2,6 +2,7 @@
 // How far each design has got between proposal and measurement: what a laboratory works from. Nothing is kept here: the
 // states follow from what was said, ordered, printed and measured, so that they survive every restart.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,6 +66,13 @@ struct DesignState {
 
 /// Designs by name. Homogeneous ones, coupons and designs that a person brought are among them.
 std::vector<DesignState> design_states(const LaboratoryFacts& facts);
+
+/// The decision that counts in place of this one: the first on the same design of the same proposal, when it says the
+/// opposite. Nothing where this one may count.
+std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, const StatedDecision& decision);
+
+/// Whether an order asks for the design as a person's own would be ordered, so that adding it changes nothing.
+bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design);
 
 /// Printed specimens of each order: those that carry its id, then those that fit and carry none.
 std::vector<int> printed_for(std::span<const Order> orders, std::span<const PrintedSpecimen> printed);

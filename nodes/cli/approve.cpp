@@ -62,39 +62,78 @@ std::optional<wire::Proposal> newest_proposal(const RunAccess& run) {
   return variants ? variants : newest;
 }
 
-std::vector<std::string> designs_meant(const ApproveOptions& options, const wire::Proposal& proposal) {
-  std::vector<std::string> proposed;
-  for (const auto& design : proposal.designs) proposed.push_back(design.design.name());
+std::vector<pattern::Design> designs_meant(const ApproveOptions& options, const wire::Proposal& proposal) {
+  std::vector<pattern::Design> proposed;
+  for (const auto& design : proposal.designs) proposed.push_back(design.design);
   if (options.all) return proposed;
-  std::vector<std::string> meant;
+  std::vector<pattern::Design> meant;
   for (const std::string& argument : options.designs) {
-    const std::string name = pattern::design_from_argument(argument).name();
-    if (std::find(proposed.begin(), proposed.end(), name) == proposed.end()) {
+    const pattern::Design design = pattern::design_from_argument(argument);
+    if (std::find(proposed.begin(), proposed.end(), design) == proposed.end()) {
+      std::vector<std::string> names;
+      for (const pattern::Design& each : proposed) names.push_back(each.name());
       throw InputError::format("{}: not among the designs of proposal {}: expected one of {}", argument, proposal.round,
-                               fmt::join(proposed, ", "));
+                               fmt::join(names, ", "));
     }
-    meant.push_back(name);
+    meant.push_back(design);
   }
   return meant;
 }
 
-/// Designs that nobody proposed, to be measured with the rest.
+/// The word for a decision.
+std::string_view word(bool approved) { return approved ? "approved" : "rejected"; }
+
+/// Whether the validation agent has it now; its answer says no more than that.
+bool send(const ApproveOptions& options, const RunAccess& run, const game::StatedDecision& decision) {
+  approval_t message{};
+  message.round = decision.proposal_round;
+  message.design = decision.design.name();
+  message.approved = decision.approved;
+  message.by = decision.by;
+  message.why = decision.why;
+  return deliver(run, "approve", {"APPROVAL", wire::encode(message)}, options.timeout_s) == 0;
+}
+
+/// Designs that nobody proposed, to be measured with the rest. Status 1 when one of them is ordered already.
 int add_own(const ApproveOptions& options, const RunAccess& run) {
   if (options.designs.empty()) throw InputError("nacre approve --add: expected designs to add");
   if (options.reject || options.all) throw InputError("nacre approve: expected --add alone, without --reject or --all");
   std::vector<pattern::Design> designs;
   for (const std::string& argument : options.designs) designs.push_back(pattern::design_from_argument(argument));
+  const game::LaboratoryFacts facts = view_laboratory(run).facts;
+  int status = 0;
   for (const pattern::Design& design : designs) {
-    approval_t message{};
-    message.round = -1;
-    message.design = design.name();
-    message.approved = 1;
-    message.by = options.by;
-    message.why = options.why;
-    if (deliver(run, "approve", {"APPROVAL", wire::encode(message)}, options.timeout_s) != 0) return 1;
+    if (game::is_ordered(facts, design)) {
+      remark(fmt::format("{} was ordered before: that stands", design.name()));
+      status = 1;
+      continue;
+    }
+    if (!send(options, run, {-1, design, true, options.by, options.why})) return 1;
     fmt::print("{} added\n", design.name());
   }
-  return 0;
+  return status;
+}
+
+/// Says yes or no to designs of a proposal. Status 1 when one of them was decided on before, the other way.
+int decide(const ApproveOptions& options, const RunAccess& run, const wire::Proposal& proposal) {
+  const std::vector<pattern::Design> designs = designs_meant(options, proposal);
+  if (!run.scenario.validation.approval) {
+    remark("this game does not ask for approvals: what is proposed is ordered");
+    return 1;
+  }
+  const game::LaboratoryFacts facts = view_laboratory(run).facts;
+  int status = 0;
+  for (const pattern::Design& design : designs) {
+    const game::StatedDecision decision{proposal.round, design, !options.reject, options.by, options.why};
+    if (const auto first = game::decision_against(facts, decision)) {
+      remark(fmt::format("{} was {} before by {}: that stands", design.name(), word(first->approved), first->by));
+      status = 1;
+      continue;
+    }
+    if (!send(options, run, decision)) return 1;
+    fmt::print("{} {}\n", design.name(), word(decision.approved));
+  }
+  return status;
 }
 
 /// The designs, each with its state: what was decided needs no second yes.
@@ -111,7 +150,17 @@ void list_designs(const RunAccess& run, const wire::Proposal& proposal) {
   }
 }
 
+/// Throws InputError where it is not clear which designs are meant.
+void check_designs_meant(const ApproveOptions& options) {
+  if (options.add) return;
+  if (options.all && !options.designs.empty())
+    throw InputError("nacre approve: expected either designs or --all, not both");
+  if (options.reject && !options.all && options.designs.empty())
+    throw InputError("nacre approve --reject: expected designs to reject, or --all");
+}
+
 int approve(const ApproveOptions& options) {
+  check_designs_meant(options);
   const RunAccess run = open_run(options.run);
   if (options.add) return add_own(options, run);
   const auto proposal = newest_proposal(run);
@@ -123,17 +172,7 @@ int approve(const ApproveOptions& options) {
     list_designs(run, *proposal);
     return 0;
   }
-  for (const std::string& design : designs_meant(options, *proposal)) {
-    approval_t message{};
-    message.round = proposal->round;
-    message.design = design;
-    message.approved = !options.reject;
-    message.by = options.by;
-    message.why = options.why;
-    if (deliver(run, "approve", {"APPROVAL", wire::encode(message)}, options.timeout_s) != 0) return 1;
-    fmt::print("{} {}\n", design, options.reject ? "rejected" : "approved");
-  }
-  return 0;
+  return decide(options, run, *proposal);
 }
 
 }  // namespace

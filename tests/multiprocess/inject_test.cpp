@@ -131,7 +131,8 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
               AllOf(HasSubstr(approved_.design.name()), HasSubstr(refused_.design.name())));
   EXPECT_THAT(person_->decide({"approve", "00000000000000"}, 2), HasSubstr("not among the designs of proposal 0"));
   approve_and_refuse();
-  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}), HasSubstr("approved")) << "too late";
+  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}, 1), HasSubstr("was rejected before")) << "too late";
+  EXPECT_THAT(person_->decide({"approve", "--add", "rigid"}, 1), HasSubstr("rigid was ordered before"));
 
   // Everything but one specimen, with an outlier that is thrown out; then the agent dies; then the last specimen.
   std::vector<SpecimenRecord> specimens = person_->measured_in_laboratory();

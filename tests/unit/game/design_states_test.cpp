@@ -75,6 +75,27 @@ TEST(DesignStates, TheFirstDecisionCounts) {
   EXPECT_EQ(design_states(facts).front().why, "islands");
 }
 
+TEST(DesignStates, TheOppositeOfTheFirstDecisionOnAProposalDoesNotCount) {
+  LaboratoryFacts facts;
+  const StatedDecision yes{0, kDesign, true, "other", "go"};
+  EXPECT_FALSE(decision_against(facts, yes));
+  facts.decisions = {{0, kOther, false, "lab", ""}, {0, kDesign, false, "lab", "islands"}, yes};
+  ASSERT_TRUE(decision_against(facts, yes));
+  EXPECT_EQ(decision_against(facts, yes)->why, "islands");
+  EXPECT_FALSE(decision_against(facts, {0, kDesign, false, "other", "again"})) << "the same word";
+  EXPECT_FALSE(decision_against(facts, {1, kDesign, true, "other", "go"})) << "another proposal";
+}
+
+TEST(DesignStates, AnOrderOfATurnedSpecimenIsNoneOfTheDesignAsAPersonAddsIt) {
+  LaboratoryFacts facts;
+  facts.orders = {order_of(kDesign)};
+  facts.orders[0].conditions.orientation_deg = 90.0;
+  EXPECT_FALSE(is_ordered(facts, kDesign));
+  facts.orders.push_back(order_of(kDesign));
+  EXPECT_TRUE(is_ordered(facts, kDesign));
+  EXPECT_FALSE(is_ordered(facts, kOther));
+}
+
 TEST(DesignStates, WhatWasMeasuredWithoutAnOrderIsMeasured) {
   LaboratoryFacts facts;
   facts.book.enter(specimen_of("brought", kOther), "");
