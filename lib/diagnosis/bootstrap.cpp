@@ -49,6 +49,12 @@ double DrawStatistics::largest_contrast() const {
   return contrasts.empty() ? 0.0 : *std::max_element(contrasts.begin(), contrasts.end());
 }
 
+std::vector<std::size_t> scatter_of_rows(const Observations& observations) {
+  std::vector<std::size_t> scatter;
+  for (const Row& row : observations.rows) scatter.push_back(row.scatter);
+  return scatter;
+}
+
 DataSource::DataSource(const Observations& observations)
     : to_combinations_(Eigen::MatrixXd::Zero(observations.size(), observations.size())),
       scatter_share_(observations.size()) {
@@ -84,6 +90,7 @@ Anchor DataSource::combined(Anchor anchor) const {
   anchor.fit = combined(std::move(anchor.fit));
   for (Signature& signature : anchor.signatures) signature.changes = combined(signature.changes);
   for (ContrastDirection& direction : anchor.directions) direction.values = combined(Eigen::MatrixXd(direction.values));
+  anchor.scatter = scatter_;
   return anchor;
 }
 
@@ -112,6 +119,10 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   const Eigen::VectorXd residual = projector.residual(data.values);
   DrawStatistics statistics;
   statistics.chi2 = residual.squaredNorm();
+  for (std::size_t i = 0; i < anchor.scatter.size(); ++i) {
+    statistics.parts.resize(std::max(statistics.parts.size(), anchor.scatter[i] + 1));
+    statistics.parts[anchor.scatter[i]] += std::pow(residual[static_cast<Eigen::Index>(i)], 2);
+  }
   for (const Signature& signature : anchor.signatures) {
     const Eigen::MatrixXd g = projector.projected(signature.changes);
     double best = 0.0;
@@ -173,6 +184,27 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
 double exceedance(const std::vector<double>& draws, double observed) {
   const auto larger = std::count_if(draws.begin(), draws.end(), [&](double draw) { return draw >= observed; });
   return (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(draws.size()));
+}
+
+double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed) {
+  std::vector<double> least(draws.size(), 1.0);
+  double least_observed = 1.0;
+  const auto join = [&](const auto& value) {
+    std::vector<double> sorted;
+    for (const DrawStatistics& draw : draws) sorted.push_back(value(draw));
+    std::ranges::sort(sorted);
+    const auto share_above = [&](double x) {
+      return static_cast<double>(sorted.end() - std::ranges::lower_bound(sorted, x)) /
+             static_cast<double>(sorted.size());
+    };
+    for (std::size_t i = 0; i < draws.size(); ++i) least[i] = std::min(least[i], share_above(value(draws[i])));
+    least_observed = std::min(least_observed, share_above(value(observed)));
+  };
+  join([](const DrawStatistics& d) { return d.chi2; });
+  for (std::size_t k = 0; k < observed.parts.size(); ++k) join([k](const DrawStatistics& d) { return d.parts[k]; });
+  // The smaller, the rarer.
+  for (double& chance : least) chance = -chance;
+  return exceedance(least, -least_observed);
 }
 
 SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener) {

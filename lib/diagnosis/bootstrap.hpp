@@ -22,6 +22,7 @@ struct Signature {
 /// Statistics of one data set against an anchor model.
 struct DrawStatistics {
   double chi2 = 0.0;              ///< of the anchor, refitted
+  std::vector<double> parts;      ///< of chi2: rows of one scatter each (Anchor::scatter)
   std::vector<double> drops;      ///< by how much each signature lowers it
   std::vector<double> contrasts;  ///< projected residual along each direction, in standard deviations
   double largest_drop() const;
@@ -33,7 +34,10 @@ struct Anchor {
   Fit fit;
   std::vector<Signature> signatures;
   std::vector<ContrastDirection> directions;
+  std::vector<std::size_t> scatter;  ///< of each row (Row::scatter): a part of chi2 is that of rows of one scatter
 };
+/// Rows of one scatter each, as Anchor wants them.
+std::vector<std::size_t> scatter_of_rows(const Observations& observations);
 
 /// Data with their noise model: the values of the rows and the covariance that these data themselves suggest.
 struct NoisyData {
@@ -84,6 +88,10 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
 
 /// (1 + number of draws at least as large) / (1 + draws).
 double exceedance(const std::vector<double>& draws, double observed);
+
+/// Chance of a chi2 as large, of the whole or of the part that stands out most: a part that noise explains generously
+/// must not hide what another one shows. Family-wise over whole and parts.
+double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed);
 
 /// Norm of a signature after whitening, and after projection off what the anchor's coordinates can imitate.
 struct SignatureSize {

@@ -28,6 +28,23 @@ struct Stretch {
   double begin = 0.0, end = 1.0;
 };
 
+/// The base model with what is seen from it.
+void put_base(Evidence& evidence, Fit base) {
+  evidence.base.fit = std::move(base);
+  evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
+  evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
+}
+
+/// The base gets the start that the best extended fit ended with: a gain must not be better optimisation.
+void begin_base_again(Evidence& evidence) {
+  constexpr double kBetter = 0.1;
+  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
+                                     [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - 1.0) return;
+  Fit again = fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count));
+  if (again.chi2 < evidence.base.fit.chi2 - kBetter) put_base(evidence, std::move(again));
+}
+
 /// Base and every single effect, fitted to the observations of the evidence.
 void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretch) {
   const auto report = [&](double share, std::string_view phase) {
@@ -35,16 +52,9 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
       evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
   };
   report(0.0, "fitting the base model");
-  evidence.base.fit = fit_model(evidence.model, evidence.observations, {}, start);
-  // The base gets the start that the best extended fit ended with: a gain must not be better optimisation.
-  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
-                                     [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
-  if (best != evidence.singles.end() && best->chi2 < evidence.base.fit.chi2 - 1.0)
-    evidence.base.fit = better_of(std::move(evidence.base.fit),
-                                  fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count)));
+  Fit base = fit_model(evidence.model, evidence.observations, {}, start);
   report(0.3, "signatures of the effects");
-  evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
-  evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
+  put_base(evidence, std::move(base));
   std::vector<Fit> singles;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
@@ -59,6 +69,7 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
   }
   evidence.singles = std::move(singles);
   for (Fit& single : evidence.singles) single = begun_again(evidence, std::move(single));
+  begin_base_again(evidence);
 }
 
 /// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the
@@ -174,6 +185,7 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   }
   const Observations& observations = evidence.observations;
   if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
+  evidence.base.scatter = scatter_of_rows(observations);
   evidence.base_statistics =
       anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
   evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);

@@ -78,14 +78,37 @@ void put_rise(FeatureValues& values, const Rise& rise) {
   value_of(values, Feature::log_peak_strain) = std::log(rise.peak_strain);
 }
 
-/// The first unloading: from a local maximum of strain down.
+/// A stretch of a curve from where strain turns back to the least strain before it goes beyond that again.
+struct Unloading {
+  std::size_t turn = 0, end = 0;
+};
+
+std::optional<Unloading> first_unloading(const tester::Curve& curve) {
+  constexpr double kParted = 0.05;  // a break lets go of everything between two readings
+  for (std::size_t turn = 1; turn + 1 < curve.size(); ++turn) {
+    const double top = curve.stress_pa[turn];
+    if (curve.strain[turn + 1] >= curve.strain[turn] || top <= 0.0) continue;
+    std::size_t next = turn + 1;
+    while (next < curve.size() && curve.strain[next] <= curve.strain[turn]) ++next;
+    const auto at = [&](std::size_t k) { return curve.stress_pa.begin() + static_cast<std::ptrdiff_t>(k); };
+    const auto fallen = std::find_if(at(turn + 1), at(next), [&](double stress) { return stress < kShallowest * top; });
+    // Readings of strain waver: a turn without a fall of the stress is none.
+    if (fallen == at(next) || *fallen < kParted * top) continue;
+    const auto least = std::min_element(curve.strain.begin() + static_cast<std::ptrdiff_t>(turn),
+                                        curve.strain.begin() + static_cast<std::ptrdiff_t>(next));
+    return Unloading{turn, static_cast<std::size_t>(least - curve.strain.begin())};
+  }
+  return std::nullopt;
+}
+
+/// What the first unloading says.
 void put_unloading(FeatureValues& values, const tester::Curve& curve) {
-  std::size_t turn = 1;
-  while (turn + 1 < curve.size() && curve.strain[turn + 1] >= curve.strain[turn]) ++turn;
-  if (turn + 3 >= curve.size() || curve.stress_pa[turn] <= 0.0) return;
+  const auto unloading = first_unloading(curve);
+  if (!unloading) return;
+  const auto [turn, end] = *unloading;
   const double top = curve.stress_pa[turn];
   const auto strain_at = [&](double stress) -> std::optional<double> {
-    for (std::size_t k = turn; k + 1 < curve.size() && curve.strain[k + 1] <= curve.strain[k]; ++k) {
+    for (std::size_t k = turn; k < end; ++k) {
       if (curve.stress_pa[k] < stress || curve.stress_pa[k + 1] > stress) continue;
       const double fall = curve.stress_pa[k] - curve.stress_pa[k + 1];
       const double t = fall > 0.0 ? (curve.stress_pa[k] - stress) / fall : 0.0;
@@ -93,10 +116,7 @@ void put_unloading(FeatureValues& values, const tester::Curve& curve) {
     }
     return std::nullopt;
   };
-  std::size_t end = turn;
-  while (end + 1 < curve.size() && curve.strain[end + 1] <= curve.strain[end]) ++end;
   const double highest = 0.9 * top, lowest = std::max(0.5 * top, curve.stress_pa[end]);
-  if (lowest > kShallowest * top) return;
   const auto high = strain_at(highest), low = strain_at(lowest);
   if (!high || !low || *high <= *low) return;
   const double slope = (highest - lowest) / (*high - *low);
@@ -150,9 +170,7 @@ FeatureValues tensile_features(const tester::Curve& curve) {
   return values;
 }
 
-bool is_unloaded(const tester::Curve& curve) {
-  return std::adjacent_find(curve.strain.begin(), curve.strain.end(), std::greater<>()) != curve.strain.end();
-}
+bool is_unloaded(const tester::Curve& curve) { return first_unloading(curve).has_value(); }
 
 std::optional<double> carried_strain(const tester::Curve& curve) {
   if (curve.empty() || is_unloaded(curve)) return std::nullopt;

@@ -282,14 +282,16 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
 
 FeatureValues FractureSurface::batch_step(const material::ParameterSet& set) const {
   FeatureValues slopes;
+  std::array<int, kFeatureCount> count{};
   const FractureRun& run = runs_.runs().front();
   for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
     const FeatureValues before = shown_features(run.predictions[g], set.extensions, {.batch_step = 0.0}),
                         after = shown_features(run.predictions[g], set.extensions, {.batch_step = 1.0});
     for (std::size_t f = 0; f < kFeatureCount; ++f)
-      if (before[f] && after[f])
-        slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]) / static_cast<double>(runs_.groups().size());
+      if (before[f] && after[f]) slopes[f] = slopes[f].value_or(0.0) + (*after[f] - *before[f]), ++count[f];
   }
+  for (std::size_t f = 0; f < kFeatureCount; ++f)
+    if (slopes[f]) *slopes[f] /= count[f];
   return slopes;
 }
 

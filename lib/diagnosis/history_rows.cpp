@@ -13,33 +13,48 @@ struct Regression {
   int count = 0;
 };
 
+/// One number per specimen, or none where it is not known.
+using Regressor = std::vector<std::optional<double>>;
+
 /// Sum over groups of (x - mean x)(y - mean y).
-Regression regress(const std::vector<Deviation>& deviations, const std::vector<double>& x, Feature feature) {
-  std::map<int, std::pair<double, int>> means;
-  for (std::size_t i = 0; i < deviations.size(); ++i)
-    means[deviations[i].group].first += x[i], ++means[deviations[i].group].second;
+Regression regress(const std::vector<Deviation>& deviations, const Regressor& x, Feature feature) {
+  struct Sums {
+    double x = 0.0, y = 0.0;
+    int count = 0;
+  };
+  std::map<int, Sums> groups;
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    const auto& y = value_of(deviations[i].from_mean, feature);
+    if (!y || !x[i]) continue;
+    Sums& sums = groups[deviations[i].group];
+    sums.x += *x[i], sums.y += *y, ++sums.count;
+  }
   Regression sum;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const auto& y = value_of(deviations[i].from_mean, feature);
-    if (!y) continue;
-    const auto& [total, count] = means[deviations[i].group];
-    const double from_mean = x[i] - total / count;
+    if (!y || !x[i]) continue;
+    const Sums& sums = groups[deviations[i].group];
+    const double from_mean = *x[i] - sums.x / sums.count;
     sum.squares += from_mean * from_mean;
-    sum.products += from_mean * *y;
+    sum.products += from_mean * (*y - sums.y / sums.count);
     ++sum.count;
   }
   return sum;
 }
 
-/// Print order less its mean over the specimen's batch, which makes it nearly independent of the number of the batch.
-std::vector<double> order_in_batch(const std::vector<Deviation>& deviations) {
+/// Print order less its mean over the specimen's batch, which makes it nearly independent of the number of the batch;
+/// none where it is not known.
+Regressor order_in_batch(const std::vector<Deviation>& deviations) {
   std::map<double, std::pair<double, int>> means;
   for (const Deviation& d : deviations)
-    means[d.measured->batch_step].first += d.measured->specimen->print_order, ++means[d.measured->batch_step].second;
-  std::vector<double> order;
+    if (d.measured->specimen->print_order > 0)
+      means[d.measured->batch_step].first += d.measured->specimen->print_order, ++means[d.measured->batch_step].second;
+  Regressor order;
   for (const Deviation& d : deviations) {
+    order.emplace_back();
+    if (d.measured->specimen->print_order <= 0) continue;
     const auto& [total, count] = means[d.measured->batch_step];
-    order.push_back(d.measured->specimen->print_order - total / count);
+    order.back() = d.measured->specimen->print_order - total / count;
   }
   return order;
 }
@@ -50,9 +65,9 @@ std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& g
   std::vector<HistoryRow> rows;
   for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness, tester::TestKind::tensile}) {
     const std::vector<Deviation> deviations = deviations_of(groups, test);
-    std::vector<double> batch;
-    for (const Deviation& d : deviations) batch.push_back(d.measured->batch_step);
-    const std::vector<double> order = order_in_batch(deviations);
+    Regressor batch;
+    for (const Deviation& d : deviations) batch.emplace_back(d.measured->batch_step);
+    const Regressor order = order_in_batch(deviations);
     for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
       for (const Probe probe : {Probe::batch, Probe::print_order}) {
         const Regression sum = regress(deviations, probe == Probe::batch ? batch : order, feature);

@@ -151,7 +151,9 @@ int dof_behind(const Observations& observations, const Fit& fit, int coordinate)
   for (int i = 0; i < observations.size(); ++i)
     said[observations.rows[static_cast<std::size_t>(i)].scatter] +=
         std::pow(fit.jacobian(i, coordinate), 2) / variances[i];
-  return observations.scatter[static_cast<std::size_t>(std::ranges::max_element(said) - said.begin())].dof;
+  const ReplicateScatter& most =
+      observations.scatter[static_cast<std::size_t>(std::ranges::max_element(said) - said.begin())];
+  return most.dof > 0 ? most.dof + most.assumed_dof : 0;
 }
 
 Interval by_likelihood(const Evidence& evidence, const Fit& named, int i) {

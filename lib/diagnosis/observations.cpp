@@ -94,10 +94,15 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   group.conditions = first.conditions;
   group.unloaded = is_unloaded_coupon(first);
   group.replicates = static_cast<int>(replicates.size());
+  int with_order = 0;
   for (const Measured& each : replicates) {
-    group.print_order += static_cast<double>(each.specimen->print_order) / group.replicates;
+    if (each.specimen->print_order > 0) {
+      group.print_order += static_cast<double>(each.specimen->print_order);
+      ++with_order;
+    }
     group.batch_step += each.batch_step / group.replicates;
   }
+  if (with_order > 0) group.print_order /= with_order;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     // A feature that one replicate lacks says nothing of the group: groups of one kind are then alike.
     double sum = 0.0;
@@ -129,8 +134,7 @@ Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::Ma
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
   constexpr int kLeastDof = 5;
   for (int t = 0; t < 3; ++t)
-    observations.scatter[static_cast<std::size_t>(t)] =
-        pooled_scatter(groups, static_cast<TestKind>(t), observations.batches);
+    observations.scatter[static_cast<std::size_t>(t)] = pooled_scatter(groups, static_cast<TestKind>(t));
   std::map<std::string, std::size_t> own;
   for (Row& row : observations.rows) {
     row.scatter = static_cast<std::size_t>(row.test);
@@ -138,7 +142,7 @@ void put_scatter(Observations& observations, const std::vector<std::vector<Measu
     const std::string material = observations.groups[static_cast<std::size_t>(row.group)].material();
     const auto [place, unknown] = own.emplace(material, row.scatter);
     if (unknown) {
-      ReplicateScatter scatter = pooled_scatter(groups, row.test, observations.batches, material);
+      ReplicateScatter scatter = pooled_scatter(groups, row.test, material);
       if (scatter.dof >= kLeastDof) {
         place->second = observations.scatter.size();
         scatter.covariance = with_correlations_of(observations.scatter[row.scatter].covariance, scatter.covariance);
@@ -182,9 +186,10 @@ CovarianceParts Observations::covariance_parts() const {
     for (int j = 0; j <= i; ++j) {
       const Row& b = rows[static_cast<std::size_t>(j)];
       if (a.test != b.test || a.probe != b.probe) continue;
+      // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
       if (a.group == b.group)
         parts.scatter(i, j) = parts.scatter(j, i) =
-            a.weight *
+            std::min(a.weight, b.weight) *
             scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
       if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) continue;
       const bool same = group_of(i).design == group_of(j).design;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -46,19 +47,49 @@ bool is_stress(Feature f) {
          f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
 }
 
-/// What the specimens of a batch have in common comes off.
-void take_off_batches(std::vector<Deviation>& deviations) {
+/// The mean of all deviations of one kind comes off each of them.
+void take_off_means(std::vector<Deviation>& deviations, const std::function<double(const Deviation&)>& kind) {
   std::map<double, std::pair<FeatureValues, std::array<int, kFeatureCount>>> sums;
   for (const Deviation& d : deviations) {
-    auto& [sum, count] = sums[d.measured->batch_step];
+    auto& [sum, count] = sums[kind(d)];
     for (std::size_t f = 0; f < kFeatureCount; ++f)
       if (d.from_mean[f]) sum[f] = sum[f].value_or(0.0) + *d.from_mean[f], ++count[f];
   }
   for (Deviation& d : deviations) {
-    const auto& [sum, count] = sums[d.measured->batch_step];
+    const auto& [sum, count] = sums[kind(d)];
     for (std::size_t f = 0; f < kFeatureCount; ++f)
       if (d.from_mean[f]) *d.from_mean[f] -= *sum[f] / count[f];
   }
+}
+
+double batch_of(const Deviation& d) { return d.measured->batch_step; }
+
+/// What the specimens of a batch have in common comes off, and what that leaves in the means of groups, in turn.
+void take_off_batches(std::vector<Deviation>& deviations) {
+  constexpr int kTurns = 10;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    take_off_means(deviations, batch_of);
+    take_off_means(deviations, [](const Deviation& d) { return static_cast<double>(d.group); });
+  }
+}
+
+/// How many differences between batches these groups tell: batches less sets of batches that no group joins.
+int told_differences(const std::vector<Deviation>& deviations) {
+  std::map<int, std::set<double>> batches_of_group;
+  for (const Deviation& d : deviations) batches_of_group[d.group].insert(batch_of(d));
+  std::vector<std::set<double>> joined;
+  for (const auto& [group, batches] : batches_of_group) {
+    std::set<double> all = batches;
+    std::erase_if(joined, [&](const std::set<double>& other) {
+      const bool meets = std::ranges::any_of(other, [&](double batch) { return batches.contains(batch); });
+      if (meets) all.insert(other.begin(), other.end());
+      return meets;
+    });
+    joined.push_back(std::move(all));
+  }
+  int told = 0;
+  for (const std::set<double>& batches : joined) told += static_cast<int>(batches.size()) - 1;
+  return told;
 }
 
 /// Sums of squares and products of the deviations. What some groups do not show (an unloading slope, the peak of a
@@ -151,15 +182,16 @@ std::vector<Deviation> deviations_of(const std::vector<std::vector<Measured>>& g
   return deviations;
 }
 
-ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
+ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
                                 const std::string& design) {
   std::vector<Deviation> deviations = deviations_of(groups, test);
   const int within = dof_within(deviations);
   // Means of batches come off where enough is left to tell scatter by.
-  const bool by_batch = batches > 1 && within >= 4 * (batches - 1);
+  const int told = told_differences(deviations);
+  const bool by_batch = told > 0 && within >= 4 * told;
   if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
-  scatter.dof = within - (by_batch ? batches - 1 : 0);
+  scatter.dof = within - (by_batch ? told : 0);
   if (!design.empty()) {
     std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
     // The means of batches are everybody's: each bears its share of what they cost.

@@ -36,7 +36,7 @@ Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
 /// is assumed, and so it is for features that only some of the groups show, as far as the others lack them. Few
 /// replicates that agree better than that are not believed: up to eight degrees of freedom are made up with it. With a
 /// name of a design, only its groups are pooled.
-ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test, int batches,
+ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
                                 const std::string& design = "");
 
 }  // namespace nacre::diagnosis

@@ -37,15 +37,15 @@ std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
 /// Chance of a misfit as large as this model leaves when it is true: the smaller of the omnibus and the contrast test,
 /// doubled because there are two of them.
 double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
-  const Anchor anchor{fit, {}, contrast_directions(evidence.observations, fit.predicted)};
+  const Anchor anchor{
+      fit, {}, contrast_directions(evidence.observations, fit.predicted), scatter_of_rows(evidence.observations)};
   const std::vector<DrawStatistics> draws =
       bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
-  const double omnibus = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.chi2; }), fit.chi2);
   const DrawStatistics own =
       anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())});
   const double contrast = exceedance(over_draws(draws, [](const DrawStatistics& d) { return d.largest_contrast(); }),
                                      own.largest_contrast());
-  return std::min(1.0, 2.0 * std::min(omnibus, contrast));
+  return std::min(1.0, 2.0 * std::min(omnibus_chance(draws, own), contrast));
 }
 
 bool usable(const Fit& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
@@ -76,7 +76,7 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
   for (const std::string& effect : evidence.effects) {
     if (effect != single.effects.front()) others.push_back(effect);
   }
-  const Anchor anchor{single, signatures_on(evidence.model, single, others), {}};
+  const Anchor anchor{single, signatures_on(evidence.model, single, others), {}, {}};
   const std::vector<double> largest = over_draws(
       bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 3),
       [](const DrawStatistics& d) { return d.largest_drop(); });
@@ -157,8 +157,7 @@ Decision decide(Evidence& evidence) {
   decision.contrasts = judged_contrasts(evidence);
   const std::vector<double> largest_drops =
       over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.largest_drop(); });
-  const double omnibus = exceedance(over_draws(evidence.base_draws, [](const DrawStatistics& d) { return d.chi2; }),
-                                    evidence.base.fit.chi2);
+  const double omnibus = omnibus_chance(evidence.base_draws, evidence.base_statistics);
   const double contrast = decision.contrasts.empty() ? 1.0 : decision.contrasts.front().p_family_wise;
   decision.p_misfit = std::min(1.0, 2.0 * std::min(omnibus, contrast));
   for (const Fit& single : evidence.singles) {

@@ -111,7 +111,8 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
       fidelity_(settings.fidelity) {
   const auto layouts = std::count_if(observations_.groups.begin(), observations_.groups.end(),
                                      [](const Observation& g) { return g.design.layout() != nullptr; });
-  const auto coupons = static_cast<std::ptrdiff_t>(observations_.groups.size()) - layouts;
+  const auto coupons = std::count_if(observations_.groups.begin(), observations_.groups.end(),
+                                     [](const Observation& g) { return g.test == tester::TestKind::tensile; });
   if (layouts < kLeastGroups && coupons < kLeastCoupons) {
     throw TooFewSpecimens(fmt::format(
         "a diagnosis needs at least {} designs with a valid modulus or toughness, or {} coupons with a curve; there "
@@ -210,7 +211,10 @@ tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
     if (nearest == nullptr || distance < least) least = distance, nearest = &run;
   }
   const auto place = std::find(runs_->groups().begin(), runs_->groups().end(), group) - runs_->groups().begin();
-  return sysid::observed(nearest->predictions[static_cast<std::size_t>(place)], fit.parameters.extensions).curve;
+  const double batch_step = observations_.groups[static_cast<std::size_t>(group)].batch_step;
+  return sysid::observed(nearest->predictions[static_cast<std::size_t>(place)], fit.parameters.extensions,
+                         {.batch_step = batch_step})
+      .curve;
 }
 
 }  // namespace nacre::diagnosis

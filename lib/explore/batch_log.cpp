@@ -15,12 +15,12 @@ namespace nacre::explore {
 namespace {
 
 /// Everything that batches depend on, but for the budget: a finished search may be given more.
-std::string identity_of(const SearchSettings& settings) {
+std::string identity_of(const SearchSettings& settings, const std::string& model) {
   const LearnedSettings& learned = settings.learned;
   const std::string samples = content_hash(to_csv(settings.known) + to_csv(settings.former));
-  return fmt::format("batches of {} seed={} population={} batch={} samples={} learned={}", settings.algorithm,
+  return fmt::format("batches of {} seed={} population={} batch={} samples={} learned={}{}", settings.algorithm,
                      settings.seed, settings.population, settings.batch, samples,
-                     settings.algorithm == "learned" ? to_text(learned) : "-");
+                     settings.algorithm == "learned" ? to_text(learned) : "-", model.empty() ? "" : " model=" + model);
 }
 
 std::vector<pattern::Pattern> batch_from(const std::string& line, const std::filesystem::path& path,
@@ -37,6 +37,12 @@ std::vector<pattern::Pattern> batch_from(const std::string& line, const std::fil
   return batch;
 }
 
+std::string line_of(const std::vector<pattern::Pattern>& batch) {
+  std::string line;
+  for (const pattern::Pattern& pattern : batch) line += (line.empty() ? "" : " ") + pattern.key();
+  return line + "\n";
+}
+
 void append(const std::filesystem::path& path, const std::string& line) {
   std::ofstream file(path, std::ios::app);
   file << line << std::flush;
@@ -45,31 +51,41 @@ void append(const std::filesystem::path& path, const std::string& line) {
 
 }  // namespace
 
-BatchLog::BatchLog(std::filesystem::path path, const SearchSettings& settings) : path_(std::move(path)) {
-  const std::string identity = identity_of(settings);
+BatchLog::BatchLog(std::filesystem::path path, const SearchSettings& settings, const std::string& model)
+    : path_(std::move(path)), identity_(identity_of(settings, model)) {
   std::string text = std::filesystem::exists(path_) ? read_file(path_) : "";
   const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
   if (whole < text.size() || text.empty()) {
     text.resize(whole);
-    if (text.empty()) text = identity + "\n";
+    if (text.empty()) text = identity_ + "\n";
     write_file_atomically(path_, text);
   }
   std::istringstream lines(text);
   std::string line;
   std::getline(lines, line);
-  if (line != identity)
+  if (line != identity_)
     throw InputError::format("{}: line 1: it is \"{}\", expected \"{}\"; name another file", path_.string(), line,
-                             identity);
+                             identity_);
   for (std::size_t number = 2; std::getline(lines, line); ++number) batches_.push_back(batch_from(line, path_, number));
 }
 
 std::vector<pattern::Pattern> BatchLog::ask(Search& search) {
-  if (next_ < batches_.size()) return search.ask_with(batches_[next_++]);
-  const std::vector<pattern::Pattern> batch = search.ask();
-  std::string line;
-  for (const pattern::Pattern& pattern : batch) line += (line.empty() ? "" : " ") + pattern.key();
-  if (!batch.empty()) append(path_, line + "\n");
+  if (next_ == batches_.size()) {
+    const std::vector<pattern::Pattern> batch = search.ask();
+    if (!batch.empty()) append(path_, line_of(batch));
+    return batch;
+  }
+  const std::vector<pattern::Pattern> batch = search.ask_with(batches_[next_]);
+  if (batch.size() > batches_[next_].size()) fill_up(batch);
+  ++next_;
   return batch;
+}
+
+void BatchLog::fill_up(const std::vector<pattern::Pattern>& batch) {
+  batches_[next_] = batch;
+  std::string text = identity_ + "\n";
+  for (const auto& each : batches_) text += line_of(each);
+  write_file_atomically(path_, text);
 }
 
 }  // namespace nacre::explore

@@ -41,7 +41,9 @@ void check_settings(const SearchSettings& settings) {
 
 std::vector<pattern::Pattern> Search::ask_with(std::span<const pattern::Pattern> answer) {
   std::vector<pattern::Pattern> batch = ask();
-  if (!std::equal(batch.begin(), batch.end(), answer.begin(), answer.end()))
+  // One may be longer: the other was the last of a smaller budget.
+  const auto [own, given] = std::ranges::mismatch(batch, answer);
+  if (own != batch.end() && given != answer.end())
     throw InputError("search: a batch to go on with is that of another search");
   return batch;
 }

@@ -79,7 +79,8 @@ class Search {
   /// wait has answer_to() worked out elsewhere and asks with the answer.
   virtual std::optional<Question> question() const { return std::nullopt; }
   /// ask() with the answer to question(). Also for going on: batches that were asked for before an interruption need
-  /// not be thought about again. Throws InputError when a search that asks no questions would ask otherwise.
+  /// not be thought about again. A search that asks no questions throws InputError when it would ask otherwise, and
+  /// asks for as many as it would.
   virtual std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> answer);
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -77,28 +78,32 @@ void add_levels(const std::vector<Residual>& residuals, const std::string& facto
   }
 }
 
-/// The trend with print order, by least squares.
+/// The trend with print order, by least squares inside groups of the same design: designs printed one after another
+/// differ for reasons of their own.
 void add_trend(const std::vector<Residual>& residuals, tester::TestKind test, std::vector<HistoryEffect>& effects) {
-  std::vector<double> order, value;
+  struct Group {
+    std::vector<double> order, value;
+  };
+  std::map<std::size_t, Group> groups;
   for (const Residual& each : residuals) {
     if (each.specimen->print_order <= 0) continue;
-    order.push_back(each.specimen->print_order);
-    value.push_back(each.value);
+    groups[each.group].order.push_back(each.specimen->print_order);
+    groups[each.group].value.push_back(each.value);
   }
+  std::vector<double> order, value;
+  for (const auto& [number, group] : groups) {
+    for (const double x : group.order) order.push_back(x - mean(group.order));
+    for (const double y : group.value) value.push_back(y - mean(group.value));
+  }
+  const int lost = static_cast<int>(groups.size()) + 1;
   constexpr std::size_t kFewest = 4;
-  if (order.size() < kFewest) return;
-  const double mean_order = mean(order), mean_value = mean(value);
-  double squares = 0.0, products = 0.0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    squares += (order[i] - mean_order) * (order[i] - mean_order);
-    products += (order[i] - mean_order) * (value[i] - mean_value);
-  }
+  if (order.size() < kFewest || static_cast<int>(order.size()) <= lost) return;
+  const double squares = std::inner_product(order.begin(), order.end(), order.begin(), 0.0);
   if (squares <= 0.0) return;
-  const double slope = products / squares;
+  const double slope = std::inner_product(order.begin(), order.end(), value.begin(), 0.0) / squares;
   std::vector<double> left;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    left.push_back(value[i] - mean_value - slope * (order[i] - mean_order));
-  const double error = root_mean_square(left, 2) / std::sqrt(squares);
+  for (std::size_t i = 0; i < order.size(); ++i) left.push_back(value[i] - slope * order[i]);
+  const double error = root_mean_square(left, lost) / std::sqrt(squares);
   constexpr double kPer = 10.0;
   effects.push_back({"print_order", "per 10 specimens", test, std::expm1(kPer * slope), kPer * error,
                      static_cast<int>(order.size())});

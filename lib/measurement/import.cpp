@@ -145,8 +145,9 @@ void set_values(const ReducedTest& test, SpecimenRecord& record) {
   record.toughness_pa = rounded(test.toughness_pa, 6);
   if (test.separated) return;
   record.valid = false;
-  const std::string why =
-      fmt::format("not separated: the record ends at {:.0f} % of the peak force", 100.0 * test.residual_share);
+  const std::string why = test.unloaded ? "not separated: the strain goes back with the force"
+                                        : fmt::format("not separated: the record ends at {:.0f} % of the peak force",
+                                                      100.0 * test.residual_share);
   record.note += (record.note.empty() ? "" : "; ") + why;
 }
 

@@ -41,7 +41,8 @@ bool natural_less(const std::string& a, const std::string& b) {
     const std::string x = number(a, i), y = number(b, j);
     if (x != y) return x.size() != y.size() ? x.size() < y.size() : x < y;
   }
-  return a.size() - i < b.size() - j;
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;  // batch-01 and batch-1 are two names
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kWindow = 0.2, kHighestWindow = 0.6, kWindowStep = 0.02;  // of the peak stress
 constexpr double kAsSteep = 0.98;
-constexpr double kSeparated = 0.02;  // of the peak stress
+constexpr double kSeparated = 0.02;      // of the peak stress
+constexpr double kMostGivenBack = 0.05;  // of the largest strain: noise and recoil of the grips
 constexpr std::size_t kFewestPoints = 3, kEnoughPoints = 5;
 
 struct Line {
@@ -68,11 +69,20 @@ std::optional<Window> window_at(const tester::Curve& curve, const std::vector<st
 }
 
 /// First index after the peak from which the stress stays at or below 2 % of it; the curve's size when there is none.
-std::size_t separation(const tester::Curve& curve, std::size_t peak) {
+std::size_t release(const tester::Curve& curve, std::size_t peak) {
   const double limit_pa = kSeparated * curve.stress_pa[peak];
   std::size_t end = curve.size();
   while (end > peak + 1 && curve.stress_pa[end - 1] <= limit_pa) --end;
   return end;
+}
+
+double largest_strain(const tester::Curve& curve, std::size_t end) {
+  return *std::max_element(curve.strain.begin(), curve.strain.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+/// Whether the specimen gave its strain back on the way to the low stress at `end`: it was unloaded, not torn apart.
+bool is_unloaded(const tester::Curve& curve, std::size_t end) {
+  return curve.strain[end] < (1.0 - kMostGivenBack) * largest_strain(curve, end);
 }
 
 /// The curve from the linear part on, strain counted from where that part meets zero stress.
@@ -136,13 +146,14 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
   const auto peak = static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());
   test.peak_stress_pa = stress[peak];
   test.residual_share = stress.back() / stress[peak];
-  const std::size_t end = separation(test.curve, peak);
-  test.separated = end < test.curve.size();
+  const std::size_t end = release(test.curve, peak);
+  test.unloaded = end < test.curve.size() && is_unloaded(test.curve, end);
+  test.separated = end < test.curve.size() && !test.unloaded;
   if (test.separated) {
     test.curve.strain.resize(end + 1);
     test.curve.stress_pa.resize(end + 1);
   }
-  test.failure_strain = test.curve.strain.back();
+  test.failure_strain = test.separated ? test.curve.strain.back() : largest_strain(test.curve, test.curve.size());
   test.toughness_pa = tester::area_under(test.curve);
   return test;
 }

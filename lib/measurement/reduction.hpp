@@ -39,9 +39,10 @@ struct ReducedTest {
   double modulus_pa = 0.0;
   double toe_strain = 0.0;  ///< what compensation took off; 0 when the toe is kept
   double peak_stress_pa = 0.0;
-  double failure_strain = 0.0;  ///< at separation, else at the end of the record
+  double failure_strain = 0.0;  ///< at separation, else the largest of the record
   double toughness_pa = 0.0;    ///< area under the curve (Eq. 2.6)
-  bool separated = false;       ///< the stress fell to 2 % of its peak and stayed there
+  bool separated = false;       ///< the stress fell to 2 % of its peak and stayed there, the strain did not go back
+  bool unloaded = false;        ///< the strain went back with the stress: the specimen is whole
   double residual_share = 0.0;  ///< stress at the end of the record over the peak
 };
 

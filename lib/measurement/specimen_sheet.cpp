@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -22,6 +23,8 @@ constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",  
 constexpr std::array<std::string_view, 9> kOptional = {
     "part",        "test",  "orientation_deg",  "strain_rate_per_s", "batch",
     "print_order", "valid", "extension_column", "force_column"};
+constexpr std::array<std::string_view, 5> kMeasured = {"width_mm", "thickness_mm", "gauge_mm", "orientation_deg",
+                                                       "strain_rate_per_s"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
 
@@ -34,17 +37,14 @@ bool contains(const Names& names, std::string_view name) {
 class SheetReader {
  public:
   SheetReader(const std::string& text, std::string file, std::filesystem::path folder)
-      : file_(std::move(file)), folder_(std::move(folder)), lines_(lines_of(text)) {}
+      : file_(std::move(file)), folder_(std::move(folder)), text_(text) {}
 
   SpecimenSheet read() {
-    std::size_t first = 0;
-    while (first < lines_.size() && trimmed(lines_[first]).empty()) ++first;
-    if (first == lines_.size()) throw InputError::format("{}: is empty, expected a heading and rows", file_);
-    read_heading(first);
-    for (std::size_t i = first + 1; i < lines_.size(); ++i) {
-      cells_ = cells_of(lines_[i], delimiter_);
-      if (std::all_of(cells_.begin(), cells_.end(), [](const auto& cell) { return cell.empty(); })) continue;
-      read_row(static_cast<int>(i) + 1);
+    read_heading();
+    find_decimal_mark();
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      cells_ = cells_of(rows_[i].text, delimiter_);
+      if (std::any_of(cells_.begin(), cells_.end(), [](const auto& cell) { return !cell.empty(); })) read_row(rows_[i]);
     }
     if (sheet_.rows.empty() && sheet_.rejected.empty())
       throw InputError::format("{}: has a heading only, expected one row per specimen", file_);
@@ -52,15 +52,23 @@ class SheetReader {
   }
 
  private:
-  void read_heading(std::size_t index) {
+  /// Cuts the text into rows, the heading first, with the delimiter that gives the heading the most names.
+  void cut() {
     for (const char delimiter : {'\t', ';', ','}) {
-      const std::vector<std::string> names = cells_of(lines_[index], delimiter);
-      if (names.size() > heading_.size()) {
-        heading_ = names;
-        delimiter_ = delimiter;
-      }
+      std::vector<TextRow> rows = rows_of(text_, delimiter);
+      while (!rows.empty() && trimmed(rows.front().text).empty()) rows.erase(rows.begin());
+      if (rows.empty()) throw InputError::format("{}: is empty, expected a heading and rows", file_);
+      std::vector<std::string> names = cells_of(rows.front().text, delimiter);
+      if (names.size() <= heading_.size()) continue;
+      heading_ = std::move(names);
+      rows_ = std::move(rows);
+      delimiter_ = delimiter;
     }
-    const int line = static_cast<int>(index) + 1;
+  }
+
+  void read_heading() {
+    cut();
+    const int line = rows_.front().line;
     for (const std::string_view name : kRequired) {
       if (!contains(heading_, name)) {
         throw InputError::format("{}:{}: column `{}` is missing, expected a heading with at least {}", file_, line,
@@ -78,6 +86,29 @@ class SheetReader {
     }
   }
 
+  /// One mark for the sheet, as `9,875` does not say which it is. Nothing when the cells contradict each other.
+  void find_decimal_mark() {
+    bool point = false, comma = false, any_point = false, any_comma = false;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      cells_ = cells_of(rows_[i].text, delimiter_);
+      for (const std::string_view column : kMeasured) {
+        const std::string cell = text(column);
+        if (!looks_like_number(cell)) continue;
+        const auto mark = decimal_evidence(cell);
+        point = point || mark == DecimalMark::point;
+        comma = comma || mark == DecimalMark::comma;
+        any_point = any_point || cell.find('.') != std::string::npos;
+        any_comma = any_comma || cell.find(',') != std::string::npos;
+      }
+    }
+    if (!point && !comma && delimiter_ != ',') {  // as spreadsheets of a language with decimal commas write
+      comma = any_comma;
+      point = any_point;
+    }
+    mark_ = comma ? DecimalMark::comma : DecimalMark::point;
+    if (comma && point) mark_.reset();
+  }
+
   std::string text(std::string_view column) const {
     const auto found = std::find(heading_.begin(), heading_.end(), column);
     const auto place = static_cast<std::size_t>(found - heading_.begin());
@@ -91,11 +122,26 @@ class SheetReader {
   std::optional<double> number(std::string_view column, double least, double most, std::string_view expected) {
     const std::string cell = text(column);
     if (cell.empty()) return std::nullopt;
-    const DecimalMark mark = decimal_evidence(cell).value_or(DecimalMark::point);
-    const auto value = instrument_number(cell, mark);
+    const auto own_mark = decimal_evidence(cell);
+    if (!own_mark && !mark_ && looks_like_number(cell) && cell.find_first_of(".,") != std::string::npos) {
+      reject(column, fmt::format("`{}` may have a decimal mark or grouped thousands: the sheet has decimal points and "
+                                 "decimal commas, expected one of them throughout",
+                                 cell));
+      return std::nullopt;
+    }
+    const auto value = instrument_number(cell, own_mark.value_or(mark_.value_or(DecimalMark::point)));
     if (value && *value >= least && *value <= most) return value;
     reject(column, fmt::format("`{}`, expected {}", cell, expected));
     return std::nullopt;
+  }
+
+  /// 0 when it is not given.
+  int integer_from_1(std::string_view column) {
+    constexpr double kMost = 1e9;
+    const double value = number(column, 1, kMost, "an integer from 1").value_or(0.0);
+    if (value == std::floor(value)) return static_cast<int>(value);
+    reject(column, fmt::format("`{}`, expected an integer from 1", text(column)));
+    return 0;
   }
 
   double length_mm(std::string_view column) {
@@ -129,11 +175,12 @@ class SheetReader {
     }
   }
 
-  void read_row(int line) {
-    line_ = line;
+  void read_row(const TextRow& from) {
+    line_ = from.line;
     fault_.reset();
     SheetRow row;
-    row.line = line;
+    row.line = from.line;
+    if (from.is_torn) reject("", "the quote that opens a cell is never closed, expected a closing double quote");
     if (cells_.size() > heading_.size() && std::any_of(cells_.begin() + static_cast<std::ptrdiff_t>(heading_.size()),
                                                        cells_.end(), [](const auto& cell) { return !cell.empty(); })) {
       reject("", fmt::format("has {} cells, expected {} as in the heading", cells_.size(), heading_.size()));
@@ -169,7 +216,7 @@ class SheetReader {
     } else {
       reject("test", fmt::format("`{}` is no test, expected modulus, toughness or tensile", test));
     }
-    row.part = static_cast<int>(number("part", 1, 1e6, "which test of the file, from 1").value_or(0.0));
+    row.part = integer_from_1("part");
     record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);
     if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
       reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
@@ -179,7 +226,7 @@ class SheetReader {
       row.rate_is_given = true;
     }
     record.batch = text("batch");
-    record.print_order = static_cast<int>(number("print_order", 1, 1e9, "an integer from 1").value_or(0.0));
+    record.print_order = integer_from_1("print_order");
     const std::string valid = plain_words(text("valid"));
     record.valid = valid != "0" && valid != "false";
     if (!valid.empty() && valid != "1" && valid != "true" && record.valid)
@@ -194,8 +241,10 @@ class SheetReader {
 
   std::string file_;
   std::filesystem::path folder_;
-  std::vector<std::string_view> lines_;
+  std::string_view text_;
+  std::vector<TextRow> rows_;  ///< the heading first
   char delimiter_ = ',';
+  std::optional<DecimalMark> mark_ = DecimalMark::point;
   std::vector<std::string> heading_, cells_;
   std::set<std::string> names_;
   int line_ = 0;

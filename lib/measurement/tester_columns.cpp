@@ -163,6 +163,17 @@ std::string take_unit(std::string& name) {
   return "";
 }
 
+/// The unit at the end of a heading as it is written, in its brackets if it has some.
+std::string unit_as_written(std::string_view heading) {
+  heading = trimmed(heading);
+  const bool is_bracketed = heading.ends_with(')') || heading.ends_with(']');
+  // The last byte of a no-break space ends a blank, too; no unit holds it.
+  const std::size_t at =
+      is_bracketed ? heading.rfind(heading.back() == ')' ? '(' : '[') : heading.find_last_of(" \t_/,\xA0");
+  if (at == std::string_view::npos) return std::string(heading);
+  return std::string(heading.substr(is_bracketed ? at : at + 1));
+}
+
 }  // namespace
 
 std::string_view to_string(Quantity quantity) {
@@ -197,11 +208,7 @@ ColumnName recognise_column(std::string_view heading) {
   std::string name = plain_words(heading);
   if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); })) return column;
   const std::string unit = take_unit(name);
-  // The unit as written, for its case and for messages.
-  const std::size_t open = heading.find_last_of("([");
-  column.unit = unit.empty()                                 ? ""
-                : open != std::string_view::npos && open > 0 ? std::string(heading.substr(open))
-                                                             : unit;
+  if (!unit.empty()) column.unit = unit_as_written(heading);  // its case tells mega from milli
   int best = 100;
   std::size_t longest = 0;
   for (const Word& word : kWords) {

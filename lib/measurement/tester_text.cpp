@@ -86,6 +86,54 @@ std::optional<bool> unmarked_utf16(std::string_view bytes) {
   return std::nullopt;
 }
 
+/// Where the quoted cell whose text begins at `begin` is closed; nothing when it never is, or when more of a cell
+/// follows: then another cell's quote was met.
+std::optional<std::size_t> closing_quote(std::string_view text, std::size_t begin, char delimiter) {
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    if (text[i] != '"') continue;
+    if (i + 1 < text.size() && text[i + 1] == '"') {
+      ++i;
+      continue;
+    }
+    std::size_t next = i + 1;
+    while (next < text.size() && text[next] == ' ') ++next;
+    const bool ends = next == text.size() || text[next] == delimiter || text[next] == '\r' || text[next] == '\n';
+    return ends ? std::optional(i) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// The row at the head of `text`.
+TextRow first_row(std::string_view text, char delimiter) {
+  bool at_start = true;  // of a cell
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' || text[i] == '\n') return {.line = 0, .text = text.substr(0, i)};
+    if (at_start && text[i] == '"') {
+      const auto close = closing_quote(text, i + 1, delimiter);
+      const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+      if (!close) return {.line = 0, .text = line, .is_torn = std::count(line.begin(), line.end(), '"') % 2 != 0};
+      i = *close;
+    }
+    at_start = text[i] == delimiter || (at_start && (text[i] == ' ' || text[i] == '\t'));
+  }
+  return {.line = 0, .text = text};
+}
+
+constexpr std::string_view kNoBreakSpace = "\xC2\xA0", kNarrowNoBreakSpace = "\xE2\x80\xAF";
+
+/// `text` with each no-break space as a blank, and none around it.
+std::string with_plain_blanks(std::string_view text) {
+  std::string plain;
+  while (!text.empty()) {
+    const std::size_t blank = text.starts_with(kNoBreakSpace)         ? kNoBreakSpace.size()
+                              : text.starts_with(kNarrowNoBreakSpace) ? kNarrowNoBreakSpace.size()
+                                                                      : 0;
+    plain += blank > 0 ? ' ' : text.front();
+    text.remove_prefix(std::max<std::size_t>(blank, 1));
+  }
+  return std::string(trimmed(plain));
+}
+
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
 /// Digits in groups of three: `1,234` or `12.345.678` with `mark` between them.
@@ -131,6 +179,19 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
+std::vector<TextRow> rows_of(std::string_view text, char delimiter) {
+  std::vector<TextRow> rows;
+  for (int line = 1; !text.empty();) {
+    TextRow row = first_row(text, delimiter);
+    row.line = line;
+    rows.push_back(row);
+    line += static_cast<int>(std::max<std::size_t>(lines_of(row.text).size(), 1));
+    text.remove_prefix(row.text.size());
+    text.remove_prefix(text.starts_with("\r\n") ? 2 : text.empty() ? 0 : 1);
+  }
+  return rows;
+}
+
 std::vector<std::string> cells_of(std::string_view line, char delimiter) {
   std::vector<std::string> cells;
   std::string cell;
@@ -160,13 +221,14 @@ std::vector<std::string> cells_of(std::string_view line, char delimiter) {
 }
 
 std::string plain_words(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 30> kSpelt = {{
-      {"\xC3\xA4", "ae"}, {"\xC3\xB6", "oe"}, {"\xC3\xBC", "ue"},   {"\xC3\x84", "ae"}, {"\xC3\x96", "oe"},
-      {"\xC3\x9C", "ue"}, {"\xC3\x9F", "ss"}, {"\xC3\xA9", "e"},    {"\xC3\xA8", "e"},  {"\xC3\xAA", "e"},
-      {"\xC3\x89", "e"},  {"\xC3\xA0", "a"},  {"\xC3\xA2", "a"},    {"\xC3\xA1", "a"},  {"\xC3\xA7", "c"},
-      {"\xC3\xAD", "i"},  {"\xC3\xAE", "i"},  {"\xC3\xB3", "o"},    {"\xC3\xB4", "o"},  {"\xC3\xBA", "u"},
-      {"\xC3\xBB", "u"},  {"\xC3\xB1", "n"},  {"\xC2\xB5", "u"},    {"\xCE\xBC", "u"},  {"\xC2\xA0", " "},
-      {"\xC2\xB2", "2"},  {"\xCE\x94", "d"},  {"\xE2\x82\x82", ""}, {"\xC2\xB0", ""},   {"\xCE\xB5", "strain"},
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 31> kSpelt = {{
+      {"\xC3\xA4", "ae"},         {"\xC3\xB6", "oe"}, {"\xC3\xBC", "ue"},   {"\xC3\x84", "ae"}, {"\xC3\x96", "oe"},
+      {"\xC3\x9C", "ue"},         {"\xC3\x9F", "ss"}, {"\xC3\xA9", "e"},    {"\xC3\xA8", "e"},  {"\xC3\xAA", "e"},
+      {"\xC3\x89", "e"},          {"\xC3\xA0", "a"},  {"\xC3\xA2", "a"},    {"\xC3\xA1", "a"},  {"\xC3\xA7", "c"},
+      {"\xC3\xAD", "i"},          {"\xC3\xAE", "i"},  {"\xC3\xB3", "o"},    {"\xC3\xB4", "o"},  {"\xC3\xBA", "u"},
+      {"\xC3\xBB", "u"},          {"\xC3\xB1", "n"},  {"\xC2\xB5", "u"},    {"\xCE\xBC", "u"},  {kNoBreakSpace, " "},
+      {"\xC2\xB2", "2"},          {"\xCE\x94", "d"},  {"\xE2\x82\x82", ""}, {"\xC2\xB0", ""},   {"\xCE\xB5", "strain"},
+      {kNarrowNoBreakSpace, " "},
   }};
   std::string plain;
   while (!text.empty()) {
@@ -205,9 +267,15 @@ std::optional<double> instrument_number(std::string_view text, DecimalMark mark)
   const char decimal = mark == DecimalMark::point ? '.' : ',', grouping = mark == DecimalMark::point ? ',' : '.';
   std::string digits;
   bool seen_decimal = false;
-  const std::string_view number = trimmed(text);
-  const std::string_view whole = number.substr(0, number.find_first_of(mark == DecimalMark::point ? ".eE" : ",eE"));
-  if (whole.find(grouping) != std::string_view::npos && !is_grouped(whole, grouping)) return std::nullopt;
+  std::string number = with_plain_blanks(text);
+  const std::size_t whole_size =
+      std::min(number.find_first_of(mark == DecimalMark::point ? ".eE" : ",eE"), number.size());
+  const std::string_view whole = std::string_view(number).substr(0, whole_size);
+  for (const char group : {grouping, ' '}) {
+    if (whole.find(group) != std::string_view::npos && !is_grouped(whole, group)) return std::nullopt;
+  }
+  number.erase(std::remove(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(whole_size), ' '),
+               number.begin() + static_cast<std::ptrdiff_t>(whole_size));
   for (const char letter : number) {
     if (letter == grouping && seen_decimal) return std::nullopt;
     if (letter == grouping || letter == '\'') continue;

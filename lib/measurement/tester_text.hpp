@@ -22,6 +22,17 @@ std::vector<std::string_view> lines_of(std::string_view text);
 /// RFC 4180: header blocks of testing machines hold any text.
 std::vector<std::string> cells_of(std::string_view line, char delimiter);
 
+/// One row of a table and the line on which it begins, from 1.
+struct TextRow {
+  int line = 0;
+  std::string_view text;  ///< without the line end
+  bool is_torn = false;   ///< a cell's opening quote has no closing one; the row ends with its first line
+};
+
+/// The rows of a table for cells_of(): a cell in double quotes may hold line breaks. A quote without an end takes no
+/// other row with it.
+std::vector<TextRow> rows_of(std::string_view text, char delimiter);
+
 /// ASCII lower case with the letters of western European languages spelt out (ue for u umlaut, e for e acute) and
 /// blanks in one place made one: for comparing names.
 std::string plain_words(std::string_view text);
@@ -29,7 +40,8 @@ std::string plain_words(std::string_view text);
 /// Which mark separates the decimals of a file.
 enum class DecimalMark { point, comma };
 
-/// Reads a number as an instrument writes it; the other mark, a blank or an apostrophe may group thousands.
+/// Reads a number as an instrument writes it; the other mark, a blank (a no-break space, too) or an apostrophe
+/// may group thousands.
 std::optional<double> instrument_number(std::string_view text, DecimalMark mark);
 
 /// What a cell says about the decimal mark by itself: `1,5` comma, `1.5` point, `1,234` or `12` nothing.

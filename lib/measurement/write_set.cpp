@@ -54,10 +54,19 @@ void create_folders(const std::filesystem::path& folder) {
   if (failure) throw InputError::format("{}: cannot be created: {}", folder.string(), failure.message());
 }
 
+/// Names of what lies among the curves: raw exports may be kept there too, and nothing is written over.
+std::set<std::string> names_taken(const std::filesystem::path& folder) {
+  std::set<std::string> taken;
+  std::error_code none;  // a set need not have curves
+  for (const auto& file : std::filesystem::directory_iterator(folder / "curves", none))
+    taken.insert(file.path().stem().string());
+  return taken;
+}
+
 /// Writes the specimens' curves and puts their rows at the end of the table.
-void add_specimens(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens,
-                   std::set<std::string>& taken, SetTable& table) {
+void add_specimens(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens, SetTable& table) {
   create_folders(folder / "curves");
+  std::set<std::string> taken = names_taken(folder);
   for (const SpecimenRecord& record : specimens) {
     const std::string curve = record.curve.empty() ? "" : curve_name(record.specimen, taken);
     if (!curve.empty()) write_file_atomically(folder / curve, to_csv(record.curve));
@@ -70,17 +79,12 @@ void add_specimens(const std::filesystem::path& folder, const std::vector<Specim
 
 void write_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens) {
   SetTable table;
-  std::set<std::string> taken;
-  add_specimens(folder, specimens, taken, table);
+  add_specimens(folder, specimens, table);
 }
 
 void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens) {
   SetTable table(folder);
-  std::set<std::string> taken;
-  std::error_code none;  // a set need not have curves
-  for (const auto& file : std::filesystem::directory_iterator(folder / "curves", none))
-    taken.insert(file.path().stem().string());
-  add_specimens(folder, specimens, taken, table);
+  add_specimens(folder, specimens, table);
 }
 
 }  // namespace nacre::measurement

@@ -132,7 +132,19 @@ PortReservation::~PortReservation() {
   if (claim_ >= 0) ::close(claim_);
 }
 
+namespace {
+
+/// A run's name is a folder's name and stands in every message.
+void check_name(const std::string& name) {
+  const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
+  if (!std::ranges::all_of(name, allowed) || name.starts_with('.'))
+    throw InputError::format("run name \"{}\", expected letters, digits, '-', '_' and '.', not '.' first", name);
+}
+
+}  // namespace
+
 RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const game::Scenario& scenario) {
+  check_name(name);
   make_folder(logs);
   const std::string base = name.empty() ? formatted_time("%Y%m%d-%H%M%S-", false) + scenario.name : name;
   RunFolder run;

@@ -217,7 +217,7 @@ void add_calibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command.add_option("--begin-at", options->begin_at,
                      "Cheaper fidelity to calibrate at first; the calibration then begins where that one ended");
-  command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();
+  add_seed(command, options->seed, "Of every random choice")->capture_default_str();
   command.add_option("--out", options->out, "Parameter file to write")->required();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }

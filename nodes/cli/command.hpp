@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 namespace nacre::cli {
@@ -20,6 +22,20 @@ CLI::App& add_command(CLI::App& app, Action& action, const std::string& name, co
   CLI::App& command = *app.add_subcommand(name, description);
   command.callback([&action, options, run] { action = [options, run] { return run(*options); }; });
   return command;
+}
+
+/// `--seed` into a std::uint64_t, or an optional one: from 0 to 2^63 - 1, as scenarios and messages hold it.
+template <class Seed>
+CLI::Option* add_seed(CLI::App& command, Seed& seed, const std::string& words) {
+  const CLI::Validator range(
+      [](const std::string& text) {
+        const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        constexpr std::string_view kLargest = "9223372036854775807";
+        const bool small = text.size() < kLargest.size() || (text.size() == kLargest.size() && text <= kLargest);
+        return whole && small ? "" : fmt::format("{}: expected a whole number from 0 to {}", text, kLargest);
+      },
+      "", "seed");
+  return command.add_option("--seed", seed, words)->check(range);
 }
 
 void add_simulate(CLI::App& app, Action& action);

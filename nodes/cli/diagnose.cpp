@@ -207,7 +207,7 @@ void add_diagnose(CLI::App& app, Action& action) {
   command.add_option("--bootstraps", options->bootstraps, "Resamplings behind the thresholds")
       ->check(CLI::Range(1000, 1'000'000))
       ->capture_default_str();
-  command.add_option("--seed", options->seed, "Of the resampling")->capture_default_str();
+  add_seed(command, options->seed, "Of the resampling")->capture_default_str();
   command.add_option("--table", options->table, "A table without patterns: trends of its residuals only");
   command.add_option("--measured", options->measured, "Column of measured values in --table")->needs("--table");
   command.add_option("--predicted", options->predicted, "Column of predicted values in --table")->needs("--table");

@@ -8,6 +8,7 @@
 
 #include <fmt/ranges.h>
 
+#include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
@@ -78,13 +79,13 @@ int explore_gamut(const Options& options) {
   std::optional<explore::BatchLog> log;
   if (!options.cache.empty()) {
     cache = std::make_unique<store::SimulationCache>(options.cache);
-    log.emplace(options.out + ".batches", settings);
+    log.emplace(options.out + ".batches", settings, content_hash(options.fidelity + material::to_toml(parameters)));
   }
   const auto ask = [&] { return log ? log->ask(*search) : search->ask(); };
   const runtime::Interrupts interrupts;
   Progress progress("explore: patterns", options.budget);
   constexpr auto kSaveEvery = std::chrono::seconds(5);
-  auto saved = std::chrono::steady_clock::time_point{};  // long ago: the first batch is kept already
+  auto saved = std::chrono::steady_clock::now();
   int failed = 0;
   for (auto batch = ask(); !batch.empty(); batch = ask()) {
     std::vector<std::optional<optimize::Performance>> performances(batch.size());
@@ -100,6 +101,10 @@ int explore_gamut(const Options& options) {
     if (std::chrono::steady_clock::now() - saved < kSaveEvery) continue;
     explore::write_gamut_csv(options.out, search->evaluated());
     saved = std::chrono::steady_clock::now();
+  }
+  if (interrupts.any() && search->evaluated().size() == settings.known.size()) {
+    remark(fmt::format("stopped before anything was found; {} is as it was", options.out));
+    return 1;
   }
   explore::write_gamut_csv(options.out, search->evaluated());
   if (interrupts.any()) remark("stopped; the gamut found so far is kept");
@@ -126,7 +131,7 @@ void add_explore(CLI::App& app, Action& action) {
                      "gamut.csv of other parameters or another fidelity, for `learned` to begin with");
   command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
       ->capture_default_str();
-  command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();
+  add_seed(command, options->seed, "Of every random choice")->capture_default_str();
   command.add_option("--population", options->population, "Population")
       ->check(CLI::Range(2, 100'000))
       ->capture_default_str();

@@ -233,7 +233,7 @@ void add_fabricate(CLI::App& app, Action& action) {
       ->expected(2)
       ->capture_default_str();
   command.add_option("--gap-mm", options->gap_mm, "Between specimens")->capture_default_str();
-  command.add_option("--seed", options->seed, "Of the mixtures' droplets and the print order")->capture_default_str();
+  add_seed(command, options->seed, "Of the mixtures' droplets and the print order")->capture_default_str();
   command.add_flag("--replace", options->replace,
                    "Take the place of another job in the folder, filled-in sheets included");
   command.add_flag("--json", options->json, "The build sheet on standard output");

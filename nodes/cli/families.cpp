@@ -418,7 +418,7 @@ void add_families(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor, "Default: data/numerics_floor.toml");
-  command.add_option("--seed", options->seed, "Of every random choice")->capture_default_str();
+  add_seed(command, options->seed, "Of every random choice")->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -78,7 +78,7 @@ void add_launch(CLI::App& app, Action& action) {
   command.add_option("--port", options->port, "UDP port of the run instead of the scenario's; 0: any free one")
       ->check(CLI::Range(0, 65535));
   command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: beside nacre");
-  command.add_option("--seed", options->seed, "Seed instead of the scenario's");
+  add_seed(command, options->seed, "Seed instead of the scenario's");
   command.add_option("--elsewhere", options->elsewhere,
                      "Node that another machine starts (hosts = \"lan\"); repeatable");
   command.add_option("--only", options->only,

@@ -89,9 +89,13 @@ std::filesystem::path truth_file(std::filesystem::path folder) {
 /// A set is not measured over: judgements, and the truth beside it, belong to the specimens that it holds.
 void require_new(const std::filesystem::path& folder) {
   std::error_code unreadable;
-  if (!std::filesystem::exists(folder / measurement::kTableName, unreadable)) return;
-  throw InputError::format("{}: holds {} specimens; expected a new folder", folder.string(),
-                           measurement::SetTable(folder).size());
+  if (std::filesystem::exists(folder / measurement::kTableName, unreadable)) {
+    throw InputError::format("{}: holds {} specimens; expected a new folder", folder.string(),
+                             measurement::SetTable(folder).size());
+  }
+  const std::filesystem::path truth = truth_file(folder);
+  if (!std::filesystem::exists(truth, unreadable)) return;
+  throw InputError::format("{}: is the truth of a set that was measured before; expected a new folder", truth.string());
 }
 
 }  // namespace

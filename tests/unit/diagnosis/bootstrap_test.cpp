@@ -69,5 +69,42 @@ TEST(DataSource, DrawsScatterAsTheVariancesOfADrawSayOnAverage) {
   EXPECT_LT((squares.array() - 1.0).abs().maxCoeff(), 0.15);  // sd of one entry 0.022
 }
 
+/// Sums of squares of 25 and of 50 residuals of unit variance.
+DrawStatistics drawn(RandomStream& random) {
+  DrawStatistics draw;
+  draw.parts = {0.0, 0.0};
+  for (int i = 0; i < 75; ++i) draw.parts[i < 25 ? 0 : 1] += std::pow(random.normal(), 2);
+  draw.chi2 = draw.parts[0] + draw.parts[1];
+  return draw;
+}
+
+std::vector<DrawStatistics> drawn(int count, RandomStream& random) {
+  std::vector<DrawStatistics> draws;
+  for (int i = 0; i < count; ++i) draws.push_back(drawn(random));
+  return draws;
+}
+
+TEST(OmnibusChance, APartThatScattersLessDoesNotHideTheOther) {
+  RandomStream random(1, "omnibus");
+  const std::vector<DrawStatistics> draws = drawn(2000, random);
+  DrawStatistics observed;
+  observed.parts = {65.0, 15.0};  // residuals of 1.6 and of 0.5
+  observed.chi2 = 80.0;
+  EXPECT_LT(omnibus_chance(draws, observed), 0.002);
+  observed.parts = {25.0, 15.0};
+  observed.chi2 = 40.0;
+  EXPECT_GT(omnibus_chance(draws, observed), 0.3);
+}
+
+TEST(OmnibusChance, IsAChance) {
+  RandomStream random(2, "omnibus");
+  const std::vector<DrawStatistics> draws = drawn(2000, random), data = drawn(600, random);
+  for (const double level : {0.01, 0.05, 0.2}) {
+    const auto below =
+        std::ranges::count_if(data, [&](const DrawStatistics& each) { return omnibus_chance(draws, each) <= level; });
+    EXPECT_NEAR(static_cast<double>(below) / 600.0, level, 3.0 * std::sqrt(level / 600.0));
+  }
+}
+
 }  // namespace
 }  // namespace nacre::diagnosis

@@ -135,6 +135,22 @@ TEST(CouponDiagnosis, AYieldPointIsNamedFromCurvesAlone) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 2.5e7, 2e6);
 }
 
+// Four moduli fit six constants whatever is wrong with them.
+TEST(Diagnosis, ModuliOfCouponsAreNoCurves) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const double fraction : {0.0, 0.3, 0.5, 1.0}) {
+    measurement::SpecimenRecord record;
+    record.specimen = std::to_string(fraction);
+    record.design = pattern::Mixture{fraction};
+    record.modulus_pa = 1e8 * (1.0 + fraction);
+    specimens.push_back(record);
+  }
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.fidelity = tester::Fidelity::tiny;
+  EXPECT_THROW(diagnose(specimens, settings), TooFewSpecimens);
+}
+
 TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {
   SyntheticSet set;
   set.patterns = 3;

@@ -99,6 +99,20 @@ TEST(Features, ACouponUnloadedOnTheWayIsReadWhole) {
   EXPECT_FALSE(carried_strain({{0.0, 0.01, 0.005, 0.02}, {0.0, 1e6, 4e5, 2e6}}).has_value());
 }
 
+// Readings of strain waver by a millionth, and a machine springs back when the specimen parts.
+TEST(Features, OnlyAFallOfTheStressIsAnUnloading) {
+  tester::Curve wavering{{0.0, 0.005, 0.01, 0.01 - 1e-9, 0.015, 0.02}, {0.0, 5e6, 1e7, 1e7, 1.5e7, 2e7}};
+  EXPECT_FALSE(is_unloaded(wavering));
+  EXPECT_TRUE(carried_strain(wavering).has_value());
+  tester::Curve parting = wavering;
+  parting.strain.push_back(0.0195), parting.stress_pa.push_back(1e5);
+  EXPECT_FALSE(is_unloaded(parting));
+  tester::Curve unloaded = wavering;
+  for (const double share : {0.9, 0.7, 0.5, 0.3})
+    unloaded.strain.push_back(0.02 * share), unloaded.stress_pa.push_back(2e7 * share);
+  EXPECT_NEAR(at(tensile_features(unloaded), Feature::log_unloading), std::log(1e9), 1e-6);
+}
+
 TEST(Features, ACurveThatNeverRisesSaysNothing) {
   const FeatureValues values = fracture_features({{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, 0.0, 0.0, 0.0, 0.0}});
   for (const auto& value : values) EXPECT_FALSE(value.has_value());

@@ -260,5 +260,52 @@ TEST(Observations, BatchesThatDifferShowInARowOfTheirOwnAndNotInTheScatter) {
   EXPECT_LT(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus), 1e-3);
 }
 
+/// Ten designs of three replicates each, printed one after another, stiffer by `drift` from specimen to specimen.
+std::vector<measurement::SpecimenRecord> printed_in_turn(double drift) {
+  std::vector<measurement::SpecimenRecord> specimens;
+  int order = 0;
+  for (const double angle : {0.0, 90.0}) {
+    for (const int period : {1, 2, 5, 10}) {
+      for (int i = 0; i < 3; ++i) {
+        ++order;
+        specimens.push_back(pulled("s" + std::to_string(order), angle, 1e8 * std::exp(drift * order)));
+        specimens.back().design = pattern::checkerboard(period);
+        specimens.back().print_order = order;
+      }
+    }
+  }
+  return specimens;
+}
+
+TEST(Observations, APrintOrderThatIsNotKnownTakesNoPart) {
+  std::vector<measurement::SpecimenRecord> specimens = printed_in_turn(0.01);
+  specimens[13].print_order = 0;
+  const Observations observations = observed(specimens);
+  const auto row = std::ranges::find(observations.rows, Probe::print_order, &Row::probe);
+  ASSERT_NE(row, observations.rows.end());
+  EXPECT_NEAR(observations.values[row - observations.rows.begin()], 0.01, 1e-9);
+  for (const Observation& group : observations.groups) EXPECT_GT(group.print_order, 0.9);
+}
+
+// Batches cost degrees of freedom only where groups hold several of them.
+TEST(Observations, ABatchOfItsOwnCostsAGroupNothing) {
+  std::vector<measurement::SpecimenRecord> specimens = printed_in_turn(0.01);
+  for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].batch = std::to_string(i / 3);
+  EXPECT_EQ(observed(specimens).replicate_dof(tester::TestKind::modulus), 16);
+  for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].batch = std::to_string(i % 3);
+  EXPECT_EQ(observed(specimens).replicate_dof(tester::TestKind::modulus), 14);
+}
+
+// What batches leave in groups of unequal shares is no scatter.
+TEST(Observations, BatchesComeOffOfUnbalancedGroups) {
+  std::vector<measurement::SpecimenRecord> specimens = printed_in_turn(0.0);
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    const bool second = i % 3 < 1 + i / 3 % 2;
+    specimens[i].batch = second ? "b" : "a";
+    if (second) *specimens[i].modulus_pa *= 1.05;
+  }
+  EXPECT_LT(observed(specimens).replicate_sd(Feature::log_modulus, tester::TestKind::modulus), 1e-3);
+}
+
 }  // namespace
 }  // namespace nacre::diagnosis

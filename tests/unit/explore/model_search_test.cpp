@@ -166,6 +166,41 @@ TEST_P(EveryModelSearch, AnInterruptedSearchGoesOnWithoutThinkingTwice) {
 INSTANTIATE_TEST_SUITE_P(Algorithms, EveryModelSearch, ::testing::Values("learned", "tsemo", "dgemo"),
                          [](const auto& algorithm) { return algorithm.param; });
 
+// The last batch of a small budget is shorter than the one that a larger budget asks for.
+TEST(BatchLog, ASearchGoesOnWithALargerBudget) {
+  const std::string path = ::testing::TempDir() + "/nacre_larger_budget.txt";
+  for (const char* algorithm : {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random"}) {
+    std::filesystem::remove(path);
+    const auto play = [&](int budget) {
+      const SearchSettings wanted = settings(algorithm, 3, budget);
+      const auto search = make_search(wanted);
+      BatchLog log(path, wanted);
+      for (auto batch = log.ask(*search); !batch.empty(); batch = log.ask(*search)) {
+        std::vector<std::optional<optimize::Performance>> answers;
+        for (const pattern::Pattern& pattern : batch) answers.push_back(synthetic_performance(pattern));
+        search->tell(answers);
+      }
+      return search->evaluated();
+    };
+    play(27);
+    const auto uninterrupted = make_search(settings(algorithm, 3, 45));
+    run(*uninterrupted);
+    EXPECT_EQ(play(45), uninterrupted->evaluated()) << algorithm;
+    EXPECT_EQ(play(45), uninterrupted->evaluated()) << algorithm;
+    EXPECT_EQ(play(13).size(), 13u) << algorithm;
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(BatchLog, RefusesTheBatchesOfAnotherModel) {
+  const std::string path = ::testing::TempDir() + "/nacre_other_model.txt";
+  std::filesystem::remove(path);
+  BatchLog(path, settings("nsga2", 1, 40), "stiff");
+  EXPECT_NO_THROW(BatchLog(path, settings("nsga2", 1, 40), "stiff"));
+  EXPECT_THROW(BatchLog(path, settings("nsga2", 1, 40), "soft"), InputError);
+  std::filesystem::remove(path);
+}
+
 TEST(BatchLog, RefusesTheBatchesOfAnotherSearch) {
   const std::string path = ::testing::TempDir() + "/nacre_other_batches.txt";
   std::filesystem::remove(path);

@@ -209,5 +209,17 @@ TEST(History, ADriftWithPrintOrderIsFound) {
   EXPECT_NEAR(effects[0].relative, std::expm1(0.1), 0.005);
 }
 
+TEST(History, ADriftIsAsLargeWhereReplicatesArePrintedOneAfterAnother) {
+  std::vector<SpecimenRecord> specimens;
+  for (int order = 1; order <= 30; ++order) {
+    const int design = (order - 1) / 3;
+    specimens.push_back(bar("S" + std::to_string(order), "mix:0." + std::to_string(50 + design),
+                            1e9 * (1.0 + design) * std::exp(0.01 * order + 1e-4 * (order % 2)), "a", order));
+  }
+  const auto effects = history_effects(specimens);
+  ASSERT_EQ(effects.size(), 1U);
+  EXPECT_NEAR(effects[0].relative, std::expm1(0.1), 0.005);
+}
+
 }  // namespace
 }  // namespace nacre::measurement

@@ -174,6 +174,20 @@ TEST_F(ImportedSet, ASheetOfAGermanSpreadsheetIsRead) {
   EXPECT_NEAR(import.specimens[0].test.modulus_pa, 800e6 * 52 * 3.2 / 52.04 / 3.21, 4e6);
 }
 
+TEST_F(ImportedSet, ANotchedSpecimenThatWasUnloadedWholeIsKeptAsNotValid) {
+  std::vector<std::pair<double, double>> points;
+  for (int i = 0; i <= 40; ++i) {
+    const int left = 20 - std::abs(i - 20);
+    points.emplace_back(0.05 * left, (i <= 20 ? 50.0 : 40.0) * left);
+  }
+  write("a.csv", table(points, "time_s,extension_mm,force_n"));
+  const Import import =
+      this->import("file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A1,rigid,52,3.2,54\n");
+  ASSERT_EQ(import.specimens.size(), 1U);
+  EXPECT_FALSE(import.specimens[0].record.valid);
+  EXPECT_THAT(import.specimens[0].record.note, HasSubstr("not separated: the strain goes back"));
+}
+
 TEST_F(ImportedSet, TheModulusOfABarComesFromTheColumnThatTheSheetNames) {
   // The extensometer sees 50 mm of a bar of 2 GPa; the grips travel three times as far.
   std::string text = "Time (s),Extension (mm),Load (N),Extensometer (mm)\n";
@@ -256,6 +270,77 @@ TEST_F(ImportedSet, WhatNoMessageCouldHoldIsRejectedWithItsColumn) {
   EXPECT_EQ(sheet.rejected[2].column, "print_order");
 }
 
+TEST_F(ImportedSet, ASheetHasOneDecimalMark) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const auto thickness_mm = [&](const std::string& heading, const std::string& rows) {
+    std::vector<double> found;
+    for (const auto& one : import(heading + rows).specimens) found.push_back(one.record.conditions.thickness_mm);
+    return found;
+  };
+  const std::string semicolons = "file;specimen;pattern;width_mm;thickness_mm;gauge_mm\n",
+                    commas = "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\n";
+  using testing::ElementsAre;
+  EXPECT_THAT(thickness_mm(semicolons, "a.csv;A;rigid;51,950;9,875;54\nb.csv;B;rigid;52;3,21;54\n"),
+              ElementsAre(9.875, 3.21));
+  EXPECT_THAT(thickness_mm(semicolons, "a.csv;A;rigid;51,950;9,875;54\n"), ElementsAre(9.875));
+  EXPECT_THAT(thickness_mm(semicolons, "a.csv;A;rigid;51.950;9.875;54\n"), ElementsAre(9.875));
+  EXPECT_THAT(thickness_mm(commas, "a.csv,A,rigid,\"51,950\",\"3,21\",54\n"), ElementsAre(3.21));
+  EXPECT_THAT(thickness_mm(commas, "a.csv,A,rigid,\"1,013\",3.2,54\n"), ElementsAre(3.2));
+}
+
+TEST_F(ImportedSet, ANumberThatMayBeEitherIsRejectedWhereASheetHasBothDecimalMarks) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const Import sheet = import(
+      "file;specimen;pattern;width_mm;thickness_mm;gauge_mm\n"
+      "a.csv;A;rigid;52,04;3.21;54\nb.csv;B;rigid;52,04;9,875;54\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  EXPECT_EQ(sheet.specimens[0].record.conditions.thickness_mm, 3.21);
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 3);
+  EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("`9,875` may have a decimal mark or grouped thousands"));
+}
+
+TEST_F(ImportedSet, ACellInQuotesMayHoldALineBreak) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const Import sheet = import(
+      "file;specimen;pattern;width_mm;thickness_mm;gauge_mm;note\r\n"
+      "a.csv;A1;rigid;52;3.2;54;\"bubble;\r\nsaid \"\"large\"\"\"\r\n"
+      "b.csv;B1;rigid;52;3.2;54;5\" bar\r\n"
+      "c.csv;C1;rigid;52;3.2;54;\r\n");
+  ASSERT_EQ(sheet.specimens.size(), 2U);
+  EXPECT_EQ(sheet.specimens[0].record.note, "bubble;\r\nsaid \"large\"");
+  EXPECT_EQ(sheet.specimens[1].record.note, "5\" bar");
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 5);
+}
+
+TEST_F(ImportedSet, AQuoteThatIsNeverClosedLosesItsRowAlone) {
+  for (const char* name : {"a.csv", "b.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,note\n"
+      "a.csv,\"A1,rigid,52,3.2,54,\n"
+      "b.csv,B1,rigid,52,3.2,54,\"a \"\"bubble\"\"\"\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  EXPECT_EQ(sheet.specimens[0].record.note, "a \"bubble\"");
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 2);
+  EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("never closed"));
+}
+
+TEST_F(ImportedSet, PartAndPrintOrderAreIntegers) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,part,print_order\n"
+      "a.csv,A1,rigid,52,3.2,54,1.5,\na.csv,A2,rigid,52,3.2,54,,2.7\na.csv,A3,rigid,52,3.2,54,1,2\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  EXPECT_EQ(sheet.specimens[0].record.print_order, 2);
+  ASSERT_EQ(sheet.rejected.size(), 2U);
+  EXPECT_EQ(to_string(sheet.rejected[0]),
+            (folder_ / "sheet.csv").string() + ":2: part: `1.5`, expected an integer from 1");
+  EXPECT_EQ(sheet.rejected[1].line, 3);
+  EXPECT_THAT(sheet.rejected[1].reason, HasSubstr("`2.7`, expected an integer from 1"));
+}
+
 TEST_F(ImportedSet, ASheetWithoutARequiredColumnIsRefused) {
   write("sheet.csv", "file,specimen,pattern,width_mm,gauge_mm\n");
   EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);
@@ -313,6 +398,38 @@ TEST(Reduction, KeepingTheToeKeepsTheCurve) {
   EXPECT_NEAR(compensated->toe_strain, 0.002, 1e-5);
   EXPECT_NEAR(compensated->curve.strain.back(), 0.008, 1e-5);
   EXPECT_NEAR(compensated->toughness_pa, kept->toughness_pa, 1e-3 * kept->toughness_pa);
+}
+
+/// 1 GPa up to 1 % strain and back along the same line.
+tester::Curve loaded_and_unloaded() {
+  tester::Curve curve;
+  for (int i = 0; i <= 200; ++i) {
+    curve.strain.push_back(1e-4 * (100 - std::abs(i - 100)));
+    curve.stress_pa.push_back(1e9 * curve.strain.back());
+  }
+  return curve;
+}
+
+TEST(Reduction, ASpecimenThatIsUnloadedWholeIsNotSeparated) {
+  const auto test = reduce(loaded_and_unloaded(), Toe::compensate);
+  ASSERT_TRUE(test);
+  EXPECT_FALSE(test->separated);
+  EXPECT_TRUE(test->unloaded);
+  EXPECT_NEAR(test->failure_strain, 0.01, 1e-9) << "as far as it went";
+}
+
+TEST(Reduction, ASpecimenThatSeparatesAfterAnUnloadingLoopIsSeparatedThoughTheGripsReturn) {
+  tester::Curve curve = loaded_and_unloaded();
+  for (const double strain : {0.005, 0.01, 0.012}) {
+    curve.strain.push_back(strain);
+    curve.stress_pa.push_back(std::min(1e9 * strain, 9e6));
+  }
+  curve.strain.insert(curve.strain.end(), {0.0121, 0.01, 0.0});
+  curve.stress_pa.insert(curve.stress_pa.end(), {0.0, 0.0, 0.0});
+  const auto test = reduce(curve, Toe::compensate);
+  ASSERT_TRUE(test);
+  EXPECT_TRUE(test->separated);
+  EXPECT_NEAR(test->failure_strain, 0.0121, 1e-9);
 }
 
 TEST(Reduction, ACurveThatNeverRisesIsRefused) {

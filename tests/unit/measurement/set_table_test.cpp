@@ -110,5 +110,20 @@ TEST_F(RepeatedImport, GivesANewSpecimenNoCurveFileOfAnother) {
   EXPECT_NE(set[0].curve, set[1].curve);
 }
 
+TEST_F(RepeatedImport, WritesOverNoRawExportThatLiesAmongTheCurves) {
+  fs::create_directories(folder_ / "curves");
+  fs::rename(folder_ / "a.csv", folder_ / "curves/t1.csv");
+  const std::string raw = text("curves/t1.csv");
+  write("sheet.csv",
+        "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\n"
+        "curves/t1.csv,t1,rigid,52,3.2,54\n");
+  Import import = import_exports({}, folder_ / "sheet.csv");
+  write_import(folder_, "sheet.csv", import);
+  EXPECT_EQ(text("curves/t1.csv"), raw);
+  const auto set = read_measurement_set(folder_).specimens;
+  ASSERT_EQ(set.size(), 1U);
+  EXPECT_EQ(set[0].curve, import.specimens[0].test.curve);
+}
+
 }  // namespace
 }  // namespace nacre::measurement

@@ -169,6 +169,19 @@ TEST(PrintContexts, CountBatchesInTheirNaturalOrder) {
   EXPECT_EQ(steps, (std::vector<double>{2.0, 1.0, 0.0, 1.0, 0.0}));
 }
 
+TEST(PrintContexts, DoNotDependOnTheOrderOfRows) {
+  std::vector<std::string> batches = {"batch-01", "batch-1", "batch-2"};
+  std::vector<double> steps_of_last;
+  do {
+    std::vector<SpecimenRecord> specimens(7);
+    for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].batch = batches[i % 3];
+    const std::vector<PrintContext> contexts = print_contexts(specimens);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (batches[i] == "batch-2") steps_of_last.push_back(contexts[i].batch_step);
+  } while (std::ranges::next_permutation(batches).found);
+  EXPECT_EQ(steps_of_last, std::vector<double>(6, 2.0));
+}
+
 TEST(Observe, EveryMeasurementEffectAtZeroShowsTheTruthToTheBit) {
   const tester::Curve curve{.strain = {0.0, 0.013, 0.027}, .stress_pa = {0.0, 2.3e6, 1.1e6}};
   for (const material::Effect& effect : material::effect_library()) {

@@ -18,6 +18,21 @@ TEST(InstrumentNumber, ReadsBothDecimalMarksAndGroups) {
     EXPECT_FALSE(instrument_number(wrong, DecimalMark::point)) << wrong;
 }
 
+TEST(InstrumentNumber, BlanksMayGroupThousands) {
+  for (const char* text : {"1 013,11",
+                           "1\xC2\xA0"
+                           "013,11",
+                           "1\xE2\x80\xAF"
+                           "013,11"}) {
+    EXPECT_EQ(instrument_number(text, DecimalMark::comma), 1013.11) << text;
+    EXPECT_EQ(decimal_evidence(text), DecimalMark::comma) << text;
+  }
+  EXPECT_EQ(instrument_number("-12 345 678.5", DecimalMark::point), -12345678.5);
+  EXPECT_EQ(decimal_evidence("1 013,110"), DecimalMark::comma);
+  for (const char* wrong : {"1 2", "10 20", "0 013", "1 013 11", "1 013,1 1", "1e5 000", "1 234.567,8", "1  013"})
+    EXPECT_FALSE(instrument_number(wrong, DecimalMark::comma)) << wrong;
+}
+
 TEST(DecimalEvidence, OnlyUnambiguousNumbersSpeak) {
   EXPECT_EQ(decimal_evidence("0,123"), DecimalMark::comma);
   EXPECT_EQ(decimal_evidence("12,5"), DecimalMark::comma);
@@ -60,20 +75,31 @@ TEST(Columns, AreRecognisedByNameInAnyLanguageWithTheirUnit) {
     Quantity quantity;
     double factor;
   };
-  for (const Case& each :
-       {Case{"Load (N)", Quantity::force, 1.0}, Case{"Standardkraft [kN]", Quantity::force, 1e3},
-        Case{"Kraft in N", Quantity::force, 1.0}, Case{"Force / lbf", Quantity::force, 4.4482216152605},
-        Case{"force_n", Quantity::force, 1.0}, Case{"Axial Force (kN)", Quantity::force, 1e3},
-        Case{"Force (MN)", Quantity::force, 1e6}, Case{"Force (mN)", Quantity::force, 1e-3},
-        Case{"Extension (in)", Quantity::extension, 25.4}, Case{"Tensile extension (mm)", Quantity::extension, 1.0},
-        Case{"Crosshead (mm)", Quantity::extension, 1.0},
-        Case{"Position(Linear:Digital Position) (mm)", Quantity::extension, 1.0},
-        Case{"D\xC3\xA9placement [mm]", Quantity::extension, 1.0},
-        Case{"Verl\xC3\xA4ngerung in mm", Quantity::extension, 1.0},
-        Case{"Extension (\xC2\xB5m)", Quantity::extension, 1e-3}, Case{"time_s", Quantity::time, 1.0},
-        Case{"Pr\xC3\xBC"
-             "fzeit [min]",
-             Quantity::time, 60.0}}) {
+  for (const Case& each : {Case{"Load (N)", Quantity::force, 1.0},
+                           Case{"Standardkraft [kN]", Quantity::force, 1e3},
+                           Case{"Kraft in N", Quantity::force, 1.0},
+                           Case{"Force / lbf", Quantity::force, 4.4482216152605},
+                           Case{"force_n", Quantity::force, 1.0},
+                           Case{"Axial Force (kN)", Quantity::force, 1e3},
+                           Case{"Force (MN)", Quantity::force, 1e6},
+                           Case{"Force (mN)", Quantity::force, 1e-3},
+                           Case{"Force MN", Quantity::force, 1e6},
+                           Case{"Force mN", Quantity::force, 1e-3},
+                           Case{"Force/MN", Quantity::force, 1e6},
+                           Case{"Force\xC2\xA0MN", Quantity::force, 1e6},
+                           Case{"Displacement (Crosshead) mm", Quantity::extension, 1.0},
+                           Case{"Extension \xC2\xB5m", Quantity::extension, 1e-3},
+                           Case{"Extension (in)", Quantity::extension, 25.4},
+                           Case{"Tensile extension (mm)", Quantity::extension, 1.0},
+                           Case{"Crosshead (mm)", Quantity::extension, 1.0},
+                           Case{"Position(Linear:Digital Position) (mm)", Quantity::extension, 1.0},
+                           Case{"D\xC3\xA9placement [mm]", Quantity::extension, 1.0},
+                           Case{"Verl\xC3\xA4ngerung in mm", Quantity::extension, 1.0},
+                           Case{"Extension (\xC2\xB5m)", Quantity::extension, 1e-3},
+                           Case{"time_s", Quantity::time, 1.0},
+                           Case{"Pr\xC3\xBC"
+                                "fzeit [min]",
+                                Quantity::time, 60.0}}) {
     const ColumnName column = recognise_column(each.heading);
     ASSERT_TRUE(column.quantity) << each.heading;
     EXPECT_EQ(*column.quantity, each.quantity) << each.heading;

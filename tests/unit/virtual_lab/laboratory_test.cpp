@@ -182,6 +182,7 @@ TEST(RecordSpecimen, AFailedSimulationIsAnInvalidSpecimenWithANoteAndNoNumber) {
 TEST(MeasureSet, WritesASetThatReadsBackAndSealsItsTruthBesideIt) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "virtual_lab_set";
   std::filesystem::remove_all(folder);
+  std::filesystem::remove(folder.string() + ".truth.toml");
   write_file_atomically(
       folder.string() + ".lab.toml",
       "seed = 3\nfidelity = \"tiny\"\nreplicates = 3\n[[effect]]\nname = \"droplet_mixing\"\nvalue = 0.5\n");
@@ -218,6 +219,16 @@ TEST(MeasureSet, RefusesAFolderThatHoldsASetBeforeAnythingIsSimulated) {
   }
   EXPECT_EQ(simulated, 0);
   EXPECT_EQ(read_file(folder / "measurements.csv"), table);
+}
+
+TEST(MeasureSet, KeepsTheTruthOfASetThatWasMovedAway) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "virtual_lab_moved_set";
+  const std::string laboratory = folder.string() + ".lab.toml", truth = folder.string() + ".truth.toml";
+  write_file_atomically(laboratory, "seed = 3\nfidelity = \"tiny\"\n");
+  write_file_atomically(truth, "seed = 7\n");
+  EXPECT_THROW(measure_set(laboratory, folder, {{pattern::Mixture{0.65}}, {TestKind::modulus}}), InputError);
+  EXPECT_EQ(read_file(truth), "seed = 7\n");
+  EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
 TEST(Campaign, TurnedTwinsAreMeasuredAcrossAndHomogeneousCouponsOnce) {
