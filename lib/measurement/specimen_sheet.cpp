@@ -27,6 +27,9 @@ constexpr std::array<std::string_view, 5> kMeasured = {"width_mm", "thickness_mm
                                                        "strain_rate_per_s"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
+/// What the set works out from the export: a sheet's own column of that name has no place beside it.
+constexpr std::array<std::string_view, 7> kWorkedOut = {
+    "modulus_pa", "toughness_pa", "curve", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};
 
 template <class Names>
 bool contains(const Names& names, std::string_view name) {
@@ -81,8 +84,12 @@ class SheetReader {
         throw InputError::format("{}:{}: column `{}` stands twice, expected once", file_, line, name);
       const bool known = contains(kRequired, name) || contains(kOptional, name) || contains(kKept, name) ||
                          name == "note" || name.empty();
-      if (!known)
+      if (contains(kWorkedOut, name)) {
+        sheet_.warnings.push_back(
+            fmt::format("{}:{}: column `{}` is dropped: the measurement set has its own", file_, line, name));
+      } else if (!known) {
         sheet_.warnings.push_back(fmt::format("{}:{}: unknown column `{}` is kept but not used", file_, line, name));
+      }
     }
   }
 
@@ -234,7 +241,9 @@ class SheetReader {
     record.note = text("note");
     row.columns = {text("extension_column"), text("force_column")};
     for (const std::string& name : heading_) {
-      if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || name == "note") continue;
+      if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || contains(kWorkedOut, name) ||
+          name == "note")
+        continue;
       if (!text(name).empty()) record.other_columns[name] = text(name);
     }
   }

@@ -327,6 +327,22 @@ TEST_F(ImportedSet, AQuoteThatIsNeverClosedLosesItsRowAlone) {
   EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("never closed"));
 }
 
+TEST_F(ImportedSet, WhatTheSetWorksOutItselfIsNotTakenFromTheSheet) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,modulus_pa,curve,peak_stress_pa,colour\n"
+      "a.csv,A1,rigid,52,3.2,54,5,mine.csv,7,red\n");
+  ASSERT_EQ(sheet.specimens.size(), 1U);
+  const auto& kept = sheet.specimens[0].record.other_columns;
+  EXPECT_EQ(kept.at("colour"), "red");
+  EXPECT_FALSE(kept.contains("modulus_pa") || kept.contains("curve"));
+  EXPECT_NE(kept.at("peak_stress_pa"), "7");
+  ASSERT_EQ(sheet.warnings.size(), 4U);
+  for (const std::size_t i : {0, 1, 2})
+    EXPECT_THAT(sheet.warnings[i], HasSubstr("is dropped: the measurement set has"));
+  EXPECT_THAT(sheet.warnings[3], HasSubstr("`colour` is kept but not used"));
+}
+
 TEST_F(ImportedSet, PartAndPrintOrderAreIntegers) {
   fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
   const Import sheet = import(
