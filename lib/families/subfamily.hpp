@@ -21,6 +21,11 @@ struct Subfamily {
   double growth() const { return static_cast<double>(members.size() - sampled) / static_cast<double>(sampled); }
 };
 
+/// The seed and all of `family` within the radius of it. Throws InputError when there are fewer than four, which no map
+/// can be made of.
+std::vector<pattern::Pattern> members_near(const pattern::Pattern& seed, std::span<const pattern::Pattern> family,
+                                           int radius_pixels = InterpolationSettings{}.radius_pixels);
+
 /// All of `family` (its seeds among them) within the radius of the seed, mapped, interpolated and mapped again. Throws
 /// InputError when fewer than four patterns lie there. `progress` is told the share done, 0..1.
 Subfamily subfamily_of(const pattern::Pattern& seed, std::span<const pattern::Pattern> family,

@@ -1,6 +1,7 @@
 #include "runtime/launcher.hpp"
 
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -70,6 +71,28 @@ void expect_nodes(const LaunchOptions& options, const game::Scenario& scenario) 
   }
 }
 
+bool is_started_here(const LaunchOptions& options, const std::string& node) {
+  const auto names = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), node) != list.end();
+  };
+  return options.only.empty() ? !names(options.elsewhere) : names(options.only);
+}
+
+fs::path program_of(const LaunchOptions& options, const std::string& node) {
+  const fs::path folder = options.program_folder.empty() ? this_program().parent_path() : options.program_folder;
+  return folder / ("nacre_" + node);
+}
+
+/// Before a run is made that could only fail.
+void expect_programs(const LaunchOptions& options, const game::Scenario& scenario) {
+  for (const std::string& node : scenario.nodes()) {
+    if (!is_started_here(options, node)) continue;
+    const fs::path program = program_of(options, node);
+    if (::access(program.c_str(), X_OK) != 0 || fs::is_directory(program))
+      throw InputError::format("{}: no program that can be started: expected the one of {}", program.string(), node);
+  }
+}
+
 class Launch {
  public:
   Launch(const LaunchOptions& options, RunFolder run, std::unique_ptr<PortReservation> port)
@@ -86,7 +109,6 @@ class Launch {
  private:
   /// Takes part in a run that another launcher, on another machine, has begun and will sum up.
   bool is_guest() const { return !options_.only.empty(); }
-  bool is_started_here(const std::string& node) const;
   void start_recorder();
   void open_endpoint();
   void start_nodes();
@@ -140,24 +162,16 @@ void Launch::open_endpoint() {
   endpoint_ = std::move(*endpoint);
 }
 
-bool Launch::is_started_here(const std::string& node) const {
-  const auto names = [&](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), node) != list.end();
-  };
-  return is_guest() ? names(options_.only) : !names(options_.elsewhere);
-}
-
 void Launch::start_nodes() {
-  const fs::path folder = options_.program_folder.empty() ? this_program().parent_path() : options_.program_folder;
   for (const std::string& name : run_.scenario().nodes()) {
-    if (!is_started_here(name)) {
+    if (!is_started_here(options_, name)) {
       nodes_.push_back(std::make_unique<SupervisedNode>(
           SupervisedNode::Settings{.name = name, .command = {}, .log_file = {}, .restarts = {}}));
       continue;
     }
     nodes_.push_back(std::make_unique<SupervisedNode>(SupervisedNode::Settings{
         .name = name,
-        .command = {(folder / ("nacre_" + name)).string(), "--run-dir", run_.path().string(), "--scenario",
+        .command = {program_of(options_, name).string(), "--run-dir", run_.path().string(), "--scenario",
                     run_.scenario_file().string(), "--port", std::to_string(port_->port())},
         .log_file = run_.node_folder(name) / "output.log",
         .restarts = options_.restarts}));
@@ -253,7 +267,7 @@ bool Launch::game_is_over() {
       std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->state() == State::finished; });
   if (!all_finished || Clock::now() - looked_for_end_ < std::chrono::milliseconds(500)) return false;
   looked_for_end_ = Clock::now();
-  if (!is_started_here("validation_agent")) return heard_last_round_;
+  if (!is_started_here(options_, "validation_agent")) return heard_last_round_;
   const std::vector<round_summary_t> rounds = read_rounds(run_.path());
   return !rounds.empty() && rounds.back().last;
 }
@@ -325,6 +339,7 @@ int launch(const LaunchOptions& options) {
   const int old_port = scenario ? 0 : read_manifest(options.resume).port;
   const game::Scenario& read = scenario ? *scenario : game::read_scenario(options.resume / "scenario.toml");
   expect_nodes(options, read);
+  expect_programs(options, read);
   auto port = reserve_port(options, read, old_port);
   if (const auto route = check_multicast_route(port->port(), read.hosts == "lan"); !route) {
     throw InputError(route.error().message + "; `nacre doctor` says more");

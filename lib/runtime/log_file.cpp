@@ -79,6 +79,12 @@ LogReader::LogReader(const std::filesystem::path& path) : state_(std::make_uniqu
   ::close(fd);
   if (mapped == MAP_FAILED) throw InputError::format("{}: cannot be read: {}", path.string(), std::strerror(reason));
   if (mapped) state_->bytes = {static_cast<const char*>(mapped), size};
+  // Bytes that begin as no record does and hold none are no log that was torn: nobody may take them for one and cut
+  // them off. Zeros are what some file systems leave after a power failure.
+  const bool begins_as_log = kMagic.starts_with(state_->bytes.substr(0, kMagic.size()));
+  const bool is_blank = state_->bytes.find_first_not_of('\0') == std::string_view::npos;
+  if (!begins_as_log && !is_blank && !state_->next_sound(0))
+    throw InputError::format("{}: no LCM log: it holds no record", path.string());
 }
 
 LogReader::~LogReader() = default;

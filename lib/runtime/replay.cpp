@@ -34,6 +34,10 @@ Result<void> compare_work(const std::map<std::string, WorkFunction>& work, const
               content_difference(recorded, *now));
 }
 
+InputError nothing_to_replay(const std::filesystem::path& log) {
+  return InputError::format("{}: holds no whole record: there is nothing to replay", log.string());
+}
+
 /// What is played from a bus log: the core's side of the game.
 class BusReplay {
  public:
@@ -114,10 +118,12 @@ ReplayReport replay_journal(const std::filesystem::path& journal, NodeCore& core
   }
   LogReader reader(journal);
   Result<void> agreed;
-  while (const auto record = reader.next()) {
+  std::int64_t records = 0;
+  for (; const auto record = reader.next(); ++records) {
     agreed = fold.feed(*record);
     if (!agreed) break;
   }
+  if (records == 0) throw nothing_to_replay(journal);
   const Outputs unfinished = fold.take_unfinished();
   report.inputs = fold.inputs;
   report.outputs = fold.outputs;
@@ -143,7 +149,9 @@ ReplayReport replay_bus_log(const std::filesystem::path& log, const std::string&
       "work is done at once. The node's own journal gives the exact answer";
   BusReplay replay(node, core, work, report);
   LogReader reader(log);
-  while (const auto record = reader.next()) replay.feed(*record);
+  std::int64_t records = 0;
+  for (; const auto record = reader.next(); ++records) replay.feed(*record);
+  if (records == 0) throw nothing_to_replay(log);
   replay.compare();
   return report;
 }

@@ -86,7 +86,7 @@ struct BaseCalibration::State {
     if (material.item) return;  // measured under several conditions: the first ones count
     material.item = item;
     const measurement::Replicates& base = measured[item];
-    if (base.modulus_count > 0) {
+    if (base.modulus_count > 0 && settings.modulus_budget > 0) {
       const ParameterRange& range = theta_ranges()[at(kE0, m)];
       material.modulus.emplace(RatioSearch::Settings{
           .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
@@ -108,7 +108,7 @@ struct BaseCalibration::State {
     const material::ToughnessVector eta = to_vector(centred_start().toughness);
     for (int m = 0; m < kMaterials; ++m) {
       Material& material = materials[at(0, m)];
-      if (!material.item || measured[*material.item].toughness_count == 0) continue;
+      if (!material.item || measured[*material.item].toughness_count == 0 || settings.toughness_budget == 0) continue;
       const measurement::Replicates& base = measured[*material.item];
       const MaterialRanges ranges = {eta_ranges()[at(kE0, m)], eta_ranges()[at(kW0, m)], eta_ranges()[at(kGamma, 0)]};
       const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE0, m)];
@@ -118,7 +118,8 @@ struct BaseCalibration::State {
     }
   }
 
-  /// The start within the ranges, Poisson's ratios in the middle of theirs: nothing measured here tells them.
+  /// The start within the ranges, Poisson's ratios in the middle of theirs: nothing measured here tells them. What has
+  /// no budget stays as it is.
   ParameterSet centred_start() const {
     material::ModulusVector theta = to_vector(settings.start.modulus);
     material::ToughnessVector eta = to_vector(settings.start.toughness);
@@ -128,7 +129,9 @@ struct BaseCalibration::State {
       theta[at(kNu0, m)] = middle_of(theta_ranges()[at(kNu0, m)]);
       eta[at(kNu0, m)] = middle_of(eta_ranges()[at(kNu0, m)]);
     }
-    return {material::modulus_from_vector(theta), material::toughness_from_vector(eta), settings.start.extensions};
+    return {settings.modulus_budget > 0 ? material::modulus_from_vector(theta) : settings.start.modulus,
+            settings.toughness_budget > 0 ? material::toughness_from_vector(eta) : settings.start.toughness,
+            settings.start.extensions};
   }
 
   void ask() {
@@ -213,7 +216,7 @@ struct BaseCalibration::State {
     const ParameterSet base = centred_start();
     for (int m = 0; m < kMaterials; ++m) {
       Material& material = materials[at(0, m)];
-      if (material.modulus && material.modulus_evaluations < std::max(1, settings.modulus_budget)) {
+      if (material.modulus && material.modulus_evaluations < settings.modulus_budget) {
         for (const double modulus_pa : material.modulus->ask(settings.batch)) want(base, true, {m, modulus_pa, {}});
       }
       if (material.toughness.empty()) continue;
@@ -340,6 +343,10 @@ struct BaseCalibration::State {
     return count == 0 ? 0.0 : (static_cast<double>(damping) + sum / count) / static_cast<double>(damping + 1);
   }
 };
+
+bool is_base_material(const pattern::Design& design) {
+  return design.mixture() != nullptr && std::ranges::count(kRigidFractions, design.mixture()->rigid_fraction) > 0;
+}
 
 BaseCalibration::BaseCalibration(std::vector<measurement::Replicates> base_materials,
                                  const CalibrationSettings& settings)

@@ -182,6 +182,9 @@ class Calibration {
   std::unique_ptr<State> state_;
 };
 
+/// Whether a design is soft, rigid or interface alone: what BaseCalibration fits.
+bool is_base_material(const pattern::Design& design);
+
 /// Round 0 (thesis 3.2): each of soft, rigid and interface is fitted by itself, to the parameters that it depends on,
 /// at a damping that suits all three; when there is none, the one at which the worst of them misses least. (The thesis
 /// keeps the median of three separate estimates; thresholds fitted at another damping then miss.) Same protocol as

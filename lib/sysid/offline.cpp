@@ -16,7 +16,7 @@ namespace {
 using measurement::Replicates;
 
 struct Split {
-  std::vector<Replicates> fitted, held_out;
+  std::vector<Replicates> fitted, held_out, left_out;
   bool base_materials = false;
 };
 
@@ -41,14 +41,16 @@ std::set<std::string> draw(std::vector<std::string> names, int count, std::uint6
 Split split_set(const measurement::MeasurementSet& set, const OfflineSettings& settings) {
   Split split;
   const std::vector<Replicates> all = measurement::summarise(measurement::at_nominal_conditions(set.specimens));
-  std::vector<Replicates> patterns;
-  for (const Replicates& design : all) {
-    if (design.design.layout() != nullptr) patterns.push_back(design);
-  }
-  split.base_materials = patterns.empty();
-  const std::vector<Replicates>& usable = split.base_materials ? all : patterns;
+  const auto is_pattern = [](const Replicates& each) { return each.design.layout() != nullptr; };
+  split.base_materials = std::ranges::none_of(all, is_pattern);
+  std::vector<Replicates> usable;
+  for (const Replicates& each : all)
+    (is_pattern(each) || (split.base_materials && is_base_material(each.design)) ? usable : split.left_out)
+        .push_back(each);
   if (usable.empty())
-    throw InputError("the measurement set holds no valid modulus or toughness specimen, expected at least one");
+    throw InputError(
+        "the measurement set holds no valid modulus or toughness specimen of a pattern, of soft, rigid or interface, "
+        "expected at least one");
   const std::vector<std::string> names = names_of(usable);
   if (settings.hold_out < 0 || settings.hold_out >= static_cast<int>(names.size())) {
     throw InputError::format("cannot hold out {} of {} designs, expected at least one left to fit", settings.hold_out,
@@ -188,6 +190,7 @@ OfflineCalibration calibrate_offline(const measurement::MeasurementSet& set, con
   result.measured = split.fitted;
   result.fitted = names_of(split.fitted);
   result.held_out = names_of(split.held_out);
+  result.left_out = names_of(split.left_out);
   result.simulations = simulator.simulations();
   return result;
 }

@@ -31,6 +31,7 @@ struct OfflineCalibration {
   PredictionErrors after_fitted, after_held_out;
   PredictionErrors ensemble_held_out;             ///< of the mean over `parameters` and the ensemble, when there is one
   std::vector<std::string> fitted, held_out;      ///< names of designs
+  std::vector<std::string> left_out;              ///< coupons beside patterns, mixtures beside base materials
   std::vector<measurement::Replicates> measured;  ///< what was fitted, as Calibrated::predictions orders it
   int simulations = 0;                            ///< really done, held-out ones included
   int begun_simulations = 0;                      ///< of OfflineSettings::begin_at
@@ -83,8 +84,8 @@ std::vector<std::vector<Prediction>> predict(const std::vector<material::Paramet
 std::vector<Prediction> mean_prediction(const std::vector<std::vector<Prediction>>& members);
 
 /// Fits the patterns of a measurement set, as the thesis does (homogeneous specimens are left out), or, when it holds
-/// no patterns, the base materials of it one by one over the ranges of Table A.1. Throws InputError when there is
-/// nothing to fit, or fewer than hold_out + 1 patterns.
+/// no patterns, soft, rigid and interface of it one by one over the ranges of Table A.1 (other mixtures are left out).
+/// Throws InputError when there is nothing to fit, or fewer than hold_out + 1 patterns.
 OfflineCalibration calibrate_offline(const measurement::MeasurementSet& set, const OfflineSettings& settings,
                                      const ProgressCallback& progress = {});
 

@@ -14,9 +14,8 @@ namespace {
 fs::path journal_of(const fs::path& run_dir) { return run_dir / "nodes" / "analyser" / "journal.lcm"; }
 
 /// Projects every message that the journal says was to be kept, in its order.
-std::int64_t project_journal(const fs::path& journal, store::RunDatabase& database) {
-  std::int64_t messages = 0;
-  runtime::LogReader reader(journal);
+Rebuilt project_journal(runtime::LogReader& reader, store::RunDatabase& database) {
+  Rebuilt rebuilt;
   while (const auto record = reader.next()) {
     if (record->channel != runtime::kComputeChannel) continue;
     const auto compute = runtime::unpack(record->data);
@@ -24,9 +23,15 @@ std::int64_t project_journal(const fs::path& journal, store::RunDatabase& databa
     const auto message = runtime::unpack((*compute)[2]);
     if (!message || message->size() != 2) continue;
     database.project((*message)[0], (*message)[1]);
-    ++messages;
+    ++rebuilt.messages;
   }
-  return messages;
+  rebuilt.torn_bytes = reader.end().torn_bytes;
+  return rebuilt;
+}
+
+void remove_database(const fs::path& file) {
+  std::error_code ignored;
+  for (const char* companion : {"", "-wal", "-shm"}) fs::remove(file.string() + companion, ignored);
 }
 
 /// Why the file cannot go on; empty when it can.
@@ -40,19 +45,22 @@ std::string fault_of(const fs::path& file) {
 
 }  // namespace
 
-std::int64_t rebuild_run_database(const fs::path& run_dir) {
+Rebuilt rebuild_run_database(const fs::path& run_dir) {
   const fs::path file = run_dir / "run.db", anew = run_dir / "run.db.part";
-  std::error_code ignored;
-  for (const char* companion : {"", "-wal", "-shm"}) fs::remove(anew.string() + companion, ignored);
-  std::int64_t messages = 0;
-  {
+  runtime::LogReader journal(journal_of(run_dir));
+  remove_database(anew);
+  Rebuilt rebuilt;
+  try {
     store::RunDatabase database(anew);
-    messages = project_journal(journal_of(run_dir), database);
+    rebuilt = project_journal(journal, database);
     database.checkpoint();
+  } catch (...) {
+    remove_database(anew);
+    throw;
   }
   if (fs::exists(file)) store::move_aside(file);
   fs::rename(anew, file);
-  return messages;
+  return rebuilt;
 }
 
 std::unique_ptr<store::RunDatabase> open_run_database(const fs::path& run_dir,
@@ -60,8 +68,8 @@ std::unique_ptr<store::RunDatabase> open_run_database(const fs::path& run_dir,
   const fs::path file = run_dir / "run.db", journal = journal_of(run_dir);
   if (fs::exists(journal) && fs::file_size(journal) > 0) {
     if (const std::string fault = fault_of(file); !fault.empty()) {
-      const std::int64_t messages = rebuild_run_database(run_dir);
-      report(fmt::format("{}: {}; made anew from {} messages of the journal", file.string(), fault, messages));
+      const Rebuilt rebuilt = rebuild_run_database(run_dir);
+      report(fmt::format("{}: {}; made anew from {} messages of the journal", file.string(), fault, rebuilt.messages));
     }
   }
   return std::make_unique<store::RunDatabase>(file);

@@ -94,6 +94,13 @@ bool send(const ApproveOptions& options, const RunAccess& run, const game::State
   return deliver(run, "approve", {"APPROVAL", wire::encode(message)}, options.timeout_s) == 0;
 }
 
+/// How far each design of the run has come, by name.
+std::map<std::string, game::DesignStage> stages_in(const game::LaboratoryFacts& facts) {
+  std::map<std::string, game::DesignStage> stages;
+  for (const game::DesignState& state : game::design_states(facts)) stages.emplace(state.design.name(), state.stage);
+  return stages;
+}
+
 /// Designs that nobody proposed, to be measured with the rest. Status 1 when one of them is ordered already.
 int add_own(const ApproveOptions& options, const RunAccess& run) {
   if (options.designs.empty()) throw InputError("nacre approve --add: expected designs to add");
@@ -101,8 +108,15 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
   std::vector<pattern::Design> designs;
   for (const std::string& argument : options.designs) designs.push_back(pattern::design_from_argument(argument));
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
+  const std::map<std::string, game::DesignStage> stages = stages_in(facts);
   int status = 0;
   for (const pattern::Design& design : designs) {
+    const auto known = stages.find(design.name());
+    if (known != stages.end() && known->second == game::DesignStage::pending) {
+      remark(fmt::format("{} is proposed and waits for an answer: say yes without --add", design.name()));
+      status = 1;
+      continue;
+    }
     if (game::is_ordered(facts, design)) {
       remark(fmt::format("{} was ordered before: that stands", design.name()));
       status = 1;
@@ -138,13 +152,11 @@ int decide(const ApproveOptions& options, const RunAccess& run, const wire::Prop
 
 /// The designs, each with its state: what was decided needs no second yes.
 void list_designs(const RunAccess& run, const wire::Proposal& proposal) {
-  std::map<std::string, game::DesignState> states;
-  for (game::DesignState& state : game::design_states(view_laboratory(run).facts))
-    states.emplace(state.design.name(), std::move(state));
+  const std::map<std::string, game::DesignStage> stages = stages_in(view_laboratory(run).facts);
   fmt::print("proposal {}:\n", proposal.round);
   for (const auto& design : proposal.designs) {
-    const auto known = states.find(design.design.name());
-    const auto stage = known == states.end() ? game::DesignStage::pending : known->second.stage;
+    const auto known = stages.find(design.design.name());
+    const auto stage = known == stages.end() ? game::DesignStage::pending : known->second;
     fmt::print("{}  {:9} E {:.4f} GPa  T {:.4f} MPa  {}\n", design.design.name(), game::to_string(stage),
                1e-9 * design.modulus_pa, 1e-6 * design.toughness_pa, design.reason);
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/ranges.h>
+
 #include "base/files.hpp"
 #include "command.hpp"
 #include "material/parameters.hpp"
@@ -94,6 +96,7 @@ nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
           {"begun_simulations", result.begun_simulations},
           {"fitted", result.fitted},
           {"held_out", result.held_out},
+          {"left_out", result.left_out},
           {"objective",
            {{"modulus", {calibrated.modulus_objective_before, calibrated.modulus_objective_after}},
             {"toughness", {calibrated.toughness_objective_before, calibrated.toughness_objective_after}}}},
@@ -169,6 +172,9 @@ int calibrate(const Options& options) {
   const sysid::OfflineCalibration result = sysid::calibrate_offline(
       set, settings, [&](double share, std::string_view doing) { progress.set_share(share, std::string(doing)); });
   progress.end();
+  if (!result.left_out.empty())
+    remark(fmt::format("{}: left out, the fit is that of {}", fmt::join(result.left_out, ", "),
+                       result.base_materials ? "soft, rigid and interface" : "patterns"));
   write_file_atomically(options.out, material::to_toml(result.calibrated.parameters));
   nlohmann::ordered_json document = to_json(result);
   document["rejected"] = rejected_json(set.rejected);

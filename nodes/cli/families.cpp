@@ -292,6 +292,8 @@ nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning
                                 sysid::LocalSimulator& simulator) {
   const std::filesystem::path folder = folder_of(options) / family.name;
   const StagedFamily* stage = staged(family, beginning);
+  const std::vector<Pattern> members = members_of(family, stage, options);
+  for (const Pattern& seed : family.seeds) families::members_near(seed, members);  // before hours of work on them
   prepare_output_folder(folder.string());
   material::ParameterSet parameters = beginning.parameters;
   nlohmann::ordered_json document = {{"name", family.name}, {"seeds", family.seeds.size()}};
@@ -304,7 +306,6 @@ nlohmann::ordered_json work_out(const Family& family, const Beginning& beginning
     document["errors_of_the_family_model"] = errors_json(own_errors(family, beginning, parameters, simulator));
   }
   write_file_atomically(folder / "parameters.toml", material::to_toml(parameters));
-  const std::vector<Pattern> members = members_of(family, stage, options);
   Performances performances;
   if (stage != nullptr)
     for (const explore::Evaluated& variant : stage->variants) performances[variant.pattern] = variant.performance;
@@ -354,6 +355,16 @@ void print_family(const nlohmann::ordered_json& family) {
   }
 }
 
+void print_proposed(const std::vector<Family>& proposed, const std::filesystem::path& file, bool json) {
+  nlohmann::ordered_json document = {{"file", file.string()}, {"families", nlohmann::ordered_json::array()}};
+  for (const Family& family : proposed) {
+    if (!json) fmt::print("{}: {} seeds\n", family.name, family.seeds.size());
+    auto& entry = document["families"].emplace_back(nlohmann::ordered_json{{"name", family.name}});
+    for (const Pattern& seed : family.seeds) entry["seeds"].push_back(seed.key());
+  }
+  json ? print_json(document) : fmt::print("{}\n", file.string());
+}
+
 int find_families(const Options& options) {
   Beginning beginning = options.set.empty() ? beginning_of_run(options) : beginning_of_set(options);
   if (!options.params.empty()) beginning.parameters = material::read_parameters(options.params, beginning.parameters);
@@ -371,9 +382,7 @@ int find_families(const Options& options) {
   const std::filesystem::path folder = folder_of(options);
   prepare_output_folder(folder.string());
   if (options.propose) {
-    const auto proposed = families_in(folder, near);
-    for (const Family& family : proposed) fmt::print("{}: {} seeds\n", family.name, family.seeds.size());
-    fmt::print("{}\n", (folder / "families.toml").string());
+    print_proposed(families_in(folder, near), folder / "families.toml", options.json);
     return 0;
   }
   sysid::LocalSimulator simulator(beginning.fidelity, 0, folder / "simulations.bin");

@@ -31,6 +31,9 @@ int play(const runtime::LaunchOptions& options) {
   if (!options.resume.empty() && options.seed) {
     throw InputError("nacre launch: --seed belongs to a new run; a resumed one keeps its seed");
   }
+  if (!options.resume.empty() && !options.run_name.empty()) {
+    throw InputError("nacre launch: --run names a new run; a resumed one keeps its folder");
+  }
   if (!options.only.empty() && options.resume.empty()) {
     throw InputError("nacre launch: --only takes part in a run: expected --resume RUN, its folder or a copy of it");
   }

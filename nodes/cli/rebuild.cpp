@@ -27,6 +27,7 @@ int rebuild_cache(const RebuildOptions& options) {
   const fs::path file = options.cache;
   if (store::check_database(file)) {
     remark(fmt::format("{}: is whole; nothing to do", file.string()));
+    if (options.json) print_json({{"database", file.string()}, {"damaged", nullptr}});
     return 0;
   }
   const fs::path anew = file.string() + ".part";
@@ -53,12 +54,15 @@ int rebuild(const RebuildOptions& options) {
   if (runtime::node_runs(run.folder / "nodes" / "analyser")) {
     throw InputError::format("{}: its analyser is at work; expected a run that does not play", run.folder.string());
   }
-  const std::int64_t messages = analyser::rebuild_run_database(run.folder);
+  const analyser::Rebuilt rebuilt = analyser::rebuild_run_database(run.folder);
+  const std::string database = (run.folder / "run.db").string();
+  if (rebuilt.torn_bytes > 0)
+    warn(fmt::format("the analyser's journal ends in a torn record of {} bytes: what it said is not in {}",
+                     rebuilt.torn_bytes, database));
   if (options.json) {
-    print_json({{"database", (run.folder / "run.db").string()}, {"messages", messages}});
+    print_json({{"database", database}, {"messages", rebuilt.messages}, {"torn_bytes", rebuilt.torn_bytes}});
   } else {
-    fmt::print("{}: made anew from {} messages of the analyser's journal\n", (run.folder / "run.db").string(),
-               messages);
+    fmt::print("{}: made anew from {} messages of the analyser's journal\n", database, rebuilt.messages);
   }
   return 0;
 }

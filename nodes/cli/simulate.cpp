@@ -1,5 +1,6 @@
 // nacre simulate: the two testers on patterns, without farm and cache.
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -81,6 +82,11 @@ void film_specimen(const Specimen& specimen, const tester::Simulation& simulatio
   if (!options.film.empty()) draw_film(*film, options.film, stem, options.film_width);
 }
 
+/// Whether no specimen before it has the same design: files are named after designs, and written once.
+bool is_first_of_its_design(const Specimen& specimen, const std::vector<Specimen>& specimens) {
+  return &*std::ranges::find(specimens, specimen.design, &Specimen::design) == &specimen;
+}
+
 void run_tests(std::vector<Specimen>& specimens, const Options& options, const material::ParameterSet& parameters) {
   struct Task {
     Specimen* specimen;
@@ -106,7 +112,8 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
       if (*specimen.toughness) {
         specimen.crack = crack::record_of(simulation, (*specimen.toughness)->breaks);
         specimen.mechanisms = crack::mechanisms_of(simulation, *specimen.crack);
-        if (options.wants_films()) film_specimen(specimen, simulation, options);
+        if (options.wants_films() && is_first_of_its_design(specimen, specimens))
+          film_specimen(specimen, simulation, options);
       }
     }
     progress.advance();
@@ -200,9 +207,11 @@ void write_files(const std::vector<Specimen>& specimens, const Options& options)
 }
 
 /// Before anything is computed: a GIF shows one specimen, and what is to be written can be.
-void check_film_options(const Options& options) {
-  if (options.wants_films() && options.test == "modulus")
-    throw InputError("--frames and --film show the toughness test: --test modulus does not run it");
+void check_output_options(const Options& options) {
+  if ((options.wants_films() || !options.curves.empty()) && options.test == "modulus")
+    throw InputError("--curves, --frames and --film show the toughness test: --test modulus does not run it");
+  if (!options.curves.empty()) prepare_output_folder(options.curves);
+  if (!options.frames.empty()) prepare_output_folder(options.frames);
   if (options.film.empty()) return;
   if (!is_gif(options.film)) return prepare_output_folder(options.film);
   if (options.patterns.size() > 1)
@@ -215,9 +224,7 @@ int simulate(const Options& options) {
   std::vector<Specimen> specimens = read_specimens(options.patterns);
   material::ParameterSet parameters = material::default_parameters();
   if (!options.params.empty()) parameters = material::read_parameters(options.params, parameters);
-  if (!options.curves.empty()) prepare_output_folder(options.curves);
-  if (!options.frames.empty()) prepare_output_folder(options.frames);
-  check_film_options(options);
+  check_output_options(options);
   run_tests(specimens, options, parameters);
   write_files(specimens, options);
   bool any_succeeded = false;

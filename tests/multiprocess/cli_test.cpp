@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/files.hpp"
 #include "program_test.hpp"
 #include "runtime/run_folder.hpp"
 
@@ -80,7 +81,12 @@ TEST_F(CommandLine, SimulateWritesCurvesFilmsAndPictures) {
   EXPECT_GT(fs::file_size(path("film.gif")), 2000U);
   expect_refused(run_nacre({"film", path("curves/mix_0.65.csv"), "--out", path("no.gif")}), {"mix_0.65.csv", "film"});
   expect_refused(run_nacre({"simulate", "soft", "rigid", "--film", path("two.gif")}), {"two.gif", "one specimen"});
-  expect_refused(run_nacre({"simulate", "soft", "--test", "modulus", "--film", path("no.gif")}), {"--film", "modulus"});
+  for (const char* files : {"--film", "--frames", "--curves"})
+    expect_refused(run_nacre({"simulate", "soft", "--test", "modulus", files, path("no")}), {files, "modulus"});
+  const Outcome twice = run_nacre({"simulate", "mix:0.65", "mix:0.65", "--test", "toughness", "--fidelity", "tiny",
+                                   "--frames", path("twice"), "--frame-count", "5"});
+  EXPECT_EQ(twice.status, 0) << twice.err;
+  EXPECT_EQ(read_file(path("twice/mix_0.65.film")), read_file(path("frames/mix_0.65.film")));
 }
 
 TEST_F(CommandLine, SimulateTellsTheCrackThatItsFilmShows) {
@@ -134,6 +140,7 @@ TEST_F(CommandLine, WrongUsageIsRefused) {
   expect_refused(run_nacre({"nonsense"}), {"nonsense: no such command", "simulate"});
   expect_refused(run_nacre({"simulte", "--help"}), {"simulte: no such command; is `simulate` meant?"});
   expect_refused(run_nacre({"launch"}), {"SCENARIO"});
+  expect_refused(run_nacre({"launch", "--resume", path("game"), "--run", "other"}), {"--run", "keeps its folder"});
 }
 
 TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {
@@ -308,6 +315,20 @@ TEST_F(CommandLine, CalibrateFindsTheModulusOfASetAndWritesParametersThatSimulat
   EXPECT_EQ(run_nacre({"simulate", "soft", "--fidelity", "tiny", "--params", path("p.toml")}).status, 0);
 }
 
+TEST_F(CommandLine, CalibrateFitsBaseMaterialsAndNamesWhatItLeavesOut) {
+  const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\nreplicates = 1\n");
+  ASSERT_EQ(
+      run_nacre({"measure", "--lab", laboratory, "--out", path("set"), "--test", "modulus", "soft", "mix:0.3"}).status,
+      0);
+  const Outcome outcome =
+      run_nacre({"calibrate", path("set"), "--fidelity", "tiny", "--out", path("p.toml"), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto document = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(document["fitted"], nlohmann::json({"soft"}));
+  EXPECT_EQ(document["left_out"], nlohmann::json({"mix:0.3"}));
+  EXPECT_THAT(outcome.err, HasSubstr("mix:0.3: left out"));
+}
+
 TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   const std::string laboratory = file("lab.toml", "seed = 3\nfidelity = \"tiny\"\n");
   ASSERT_EQ(
@@ -336,6 +357,11 @@ TEST_F(CommandLine, FamiliesGroupsSamplesAndMapsWhatWasMeasured) {
   const Outcome edited = run_nacre(command);
   EXPECT_EQ(nlohmann::json::parse(edited.out).at(0)["name"], "mine");
   EXPECT_THAT(edited.err, HasSubstr("other families than these measurements propose"));
+  std::vector<std::string> propose = command;
+  propose.push_back("--propose");
+  const auto proposed = nlohmann::json::parse(run_nacre(propose).out);
+  EXPECT_EQ(proposed["file"], path("found/families.toml"));
+  EXPECT_EQ(proposed["families"].at(0)["seeds"], nlohmann::json({"577fffe9fffdef"}));
   file("found/families.toml", "[[family]]\nname = \"mine\"\nseeds = [\"577\"]\n");
   expect_refused(run_nacre(command), {"families.toml:3", "577"});
 }

@@ -99,6 +99,20 @@ TEST_F(Durability, TheDatabaseIsAProjectionOfTheJournal) {
   EXPECT_EQ(content(copy_ / "run.db"), before);
 }
 
+TEST_F(Durability, ADatabaseFromATornJournalSaysSoAndOneFromNoneLeavesEverything) {
+  const fs::path journal = copy_ / "nodes" / "analyser" / "journal.lcm";
+  fs::resize_file(journal, fs::file_size(journal) - 3);
+  const Outcome torn = run_nacre({"rebuild", "--run", copy_.string(), "--json"});
+  ASSERT_EQ(torn.status, 0) << torn.err;
+  EXPECT_GT(nlohmann::json::parse(torn.out)["torn_bytes"], 0);
+  EXPECT_THAT(torn.err, HasSubstr("torn record"));
+  const std::string before = content(copy_ / "run.db");
+  fs::remove(journal);
+  EXPECT_EQ(run_nacre({"rebuild", "--run", copy_.string()}).status, 2);
+  EXPECT_EQ(content(copy_ / "run.db"), before);
+  EXPECT_FALSE(fs::exists(copy_ / "run.db.part"));
+}
+
 TEST_F(Durability, ADamagedDatabaseIsSaidAndMadeAnewWhenTheAnalyserStarts) {
   const std::string before = content(copy_ / "run.db");
   {

@@ -173,6 +173,14 @@ TEST_F(Launcher, PortInUseIsRefusedBeforeAnythingIsMade) {
   wait_for_end(*process, said, 20.0);
 }
 
+TEST_F(Launcher, ProgramsThatAreMissingAreSaidBeforeAnythingIsMade) {
+  fs::remove(folder_ / "bin" / "nacre_analyser");
+  const Outcome outcome = run_nacre(arguments());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("bin/nacre_analyser: no program"));
+  EXPECT_FALSE(fs::exists(logs()));
+}
+
 TEST_F(Launcher, StatusListsEveryNodeOfTheRun) {
   misbehave("validation_agent:endless");
   std::string said;

@@ -18,6 +18,7 @@ namespace nacre::runtime {
 namespace {
 
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 void write_records(const std::filesystem::path& path, int count, std::size_t size = 50) {
   LogWriter writer(path);
@@ -98,6 +99,20 @@ TEST(LogFile, ZerosBehindTheEndAreATornTail) {  // what some file systems leave 
   write_records(path, 3);
   overwrite(path, read_file(path) + std::string(4096, '\0'));
   EXPECT_EQ(count_records(path), 3);
+}
+
+TEST(LogFile, AnythingElseIsNoLogAndNoJournalCutsItOff) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "journal.lcm";
+  const std::string text = "specimen,pattern,test\nA1,rigid,modulus\n";
+  overwrite(path, text);
+  EXPECT_THAT([&] { LogReader reader(path); }, ThrowsMessage<InputError>(HasSubstr("journal.lcm: no LCM log")));
+  EXPECT_THROW(Journal::open(folder.path(), 1), InputError);
+  EXPECT_EQ(read_file(path), text);
+  for (const std::string& nothing : {std::string(), std::string(100, '\0')}) {
+    overwrite(path, nothing);
+    EXPECT_EQ(count_records(path), 0);
+  }
 }
 
 TEST(LogFile, AFullDiskIsAnErrorAndNothingFollowsIt) {

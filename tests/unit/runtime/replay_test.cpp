@@ -1,5 +1,7 @@
 #include "runtime/replay.hpp"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +15,7 @@ namespace nacre::runtime {
 namespace {
 
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 /// Counts reviews and says after each how many there were; asks for work at every second one.
 class CountingCore : public NodeCore {
@@ -85,6 +88,16 @@ TEST(Replay, ReproducesEveryOutputAndEveryResult) {
   EXPECT_EQ(report.outputs, 7);
   EXPECT_EQ(report.computes, 2);
   EXPECT_EQ(report.recomputed, 2);
+}
+
+TEST(Replay, OfNothingIsNoAgreement) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "journal.lcm";
+  std::ofstream(path).close();
+  CountingCore core;
+  EXPECT_THAT([&] { replay_journal(path, core); }, ThrowsMessage<InputError>(HasSubstr("nothing to replay")));
+  EXPECT_THAT([&] { replay_bus_log(path, "proposal_agent", core, kWork); },
+              ThrowsMessage<InputError>(HasSubstr("nothing to replay")));
 }
 
 TEST(Replay, NamesTheFirstFieldThatDiffers) {

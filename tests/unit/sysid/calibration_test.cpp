@@ -495,5 +495,29 @@ TEST(BaseCalibration, MeetsEveryMaterialByItself) {
   EXPECT_LT(result.simulations, 60);
 }
 
+TEST(BaseCalibration, KeepsWhatHasNoBudget) {
+  const std::vector<Replicates> measured = base_materials();
+  CalibrationSettings base = settings();
+  base.target = material::FitTarget::base;
+  base.start.toughness.nu_tb = 0.31;
+  base.toughness_budget = 0;
+  BaseCalibration moduli(measured, base);
+  const Calibrated without_toughness = finish_by(moduli, measured, base_answer);
+  EXPECT_EQ(to_vector(without_toughness.parameters.toughness), to_vector(base.start.toughness));
+  EXPECT_LT(without_toughness.after.modulus_max, 3e-4);
+  base.toughness_budget = 60;
+  base.modulus_budget = 0;
+  BaseCalibration toughness(measured, base);
+  const Calibrated without_modulus = finish_by(toughness, measured, base_answer);
+  EXPECT_EQ(to_vector(without_modulus.parameters.modulus), to_vector(base.start.modulus));
+  EXPECT_LT(without_modulus.after.toughness_max, 0.01);
+}
+
+TEST(BaseCalibration, FitsSoftRigidAndInterface) {
+  EXPECT_TRUE(is_base_material(pattern::Mixture{0.5}));
+  EXPECT_FALSE(is_base_material(pattern::Mixture{0.3}));
+  EXPECT_FALSE(is_base_material(pattern::Pattern{}));
+}
+
 }  // namespace
 }  // namespace nacre::sysid
