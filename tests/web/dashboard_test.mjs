@@ -167,6 +167,26 @@ test("what is pointed at stays while the gamut comes", async () => {
   await other.context().close();
 });
 
+test("a key that comes with the first frame finds the chart made", async () => {
+  const other = await visit(`${live.url}#nodes`);
+  const said = await other.evaluate(
+    () =>
+      new Promise((resolve) => {
+        addEventListener("error", (event) => resolve(event.message));
+        new MutationObserver((_, watch) => {
+          const catcher = document.querySelector(".catcher");
+          if (!catcher) return;
+          watch.disconnect();
+          catcher.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+          resolve("no error");
+        }).observe(document.body, { childList: true, subtree: true });
+        location.hash = "#game";
+      }),
+  );
+  assert.equal(said, "no error");
+  await other.context().close();
+});
+
 test("the page of a live game has no errors and asks nobody else", async () => {
   await photograph(page, "live-at-the-end", true);
   assert.deepEqual(page.troubles, []);

@@ -5,7 +5,7 @@ import { DataZoomInsideComponent, GridComponent, MarkAreaComponent, MarkLineComp
 import * as echarts from "echarts/core";
 import { CanvasRenderer, SVGRenderer } from "echarts/renderers";
 import { createContext, type ComponentChildren } from "preact";
-import { useContext, useEffect, useRef } from "preact/hooks";
+import { useContext, useLayoutEffect, useRef } from "preact/hooks";
 import { themeColour } from "./colour";
 import { save, saveCsv, saveSvg } from "./save";
 
@@ -95,7 +95,8 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, c
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<Chart | undefined>(undefined);
   const theme = useContext(ThemeContext);
-  useEffect(() => {
+  // Laid out, not painted: a key or a pointer that comes with the first frame finds the chart made.
+  useLayoutEffect(() => {
     const made = echarts.init(host.current!, null, { renderer: "canvas" });
     chart.current = made;
     const observer = new ResizeObserver(() => made.resize());
@@ -105,7 +106,7 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, c
       made.dispose();
     };
   }, []);
-  useEffect(() => {
+  useLayoutEffect(() => {
     chart.current!.setOption(option, { replaceMerge: ["series"] });
     onReady?.(chart.current!);
   }, [option, theme]);
