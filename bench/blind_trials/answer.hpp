@@ -10,7 +10,7 @@
 
 namespace nacre::blind_trials {
 
-/// One effect that was hidden. Signals are 0 for effects that the library does not know.
+/// One effect that was hidden. Rivals are those of the library: none where it does not hold the effect.
 struct Hidden {
   double size = 0.0;  ///< in the parameter's unit
   double s = 0.0, rho = 0.0,

@@ -97,6 +97,8 @@ int main(int argc, char** argv) {
   app.add_flag("--fracture", options.trials.fracture, "Toughness specimens beside the moduli");
   app.add_option("--nulls", options.trials.nulls)->capture_default_str();
   app.add_option("--outside", options.trials.outside)->capture_default_str();
+  app.add_option("--forms", options.trials.forms, "Trials of effects of the library in another form")
+      ->capture_default_str();
   app.add_option("--doubles", options.trials.doubles)->capture_default_str();
   app.add_option("--alike", options.trials.alike)->capture_default_str();
   app.add_option("--pairs", options.trials.pairs)->capture_default_str();

@@ -1,5 +1,8 @@
 #include "score.hpp"
 
+#include "material/extensions.hpp"
+#include "virtual_lab/truth.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -37,6 +40,15 @@ std::string answer_of(const Score& score) {
                                          : score.answer.verdict;
 }
 
+/// Of the library; empty for what is of none.
+std::string_view family_of(const std::string& effect) {
+  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+    if (kind.name != effect) continue;
+    return kind.in_library ? material::find_effect(effect)->family : kind.family;
+  }
+  return {};
+}
+
 /// The hidden effect that is hardest to see.
 Hidden faintest(const Score& score) {
   const auto& hidden = score.answer.hidden;
@@ -56,10 +68,13 @@ std::string rate_over(const std::vector<Score>& scores, Wanted wanted, Good good
 }  // namespace
 
 Score score_of(const Trial& trial, const Answer& answer) {
-  Score score{trial, answer, false, false, -1.0, false};
+  Score score{trial, answer};
   score.right_name = answer.verdict == "named" && same(names_of(answer), trial.hidden);
   score.in_set = std::any_of(answer.possible.begin(), answer.possible.end(),
                              [&](const auto& model) { return same(model, trial.hidden); });
+  score.right_family = answer.verdict == "named" && std::ranges::all_of(answer.named, [&](const Named& named) {
+                         return material::find_effect(named.effect)->family == family_of(trial.hidden.front());
+                       });
   if (!score.right_name || trial.hidden.empty()) return score;
   const Named& named = *std::find_if(answer.named.begin(), answer.named.end(),
                                      [&](const Named& n) { return n.effect == trial.hidden.front(); });
@@ -93,11 +108,22 @@ std::string report_of(const std::vector<Score>& scores) {
   text += fmt::format("| true cause within the set, s >= 8 | {} | >= 99 % |\n",
                       rate_over(scores, visible, [](const Score& s) { return s.in_set; }));
   text += fmt::format("| confident wrong name, all effects | {} | |\n", rate_over(scores, kind("effect"), wrong_name));
+  const auto is_unexplained = [](const Score& s) { return s.answer.verdict == "unexplained"; };
+  text += fmt::format(
+      "| out of library, s >= 8: unexplained | {} | >= 90 % |\n",
+      rate_over(
+          scores, [](const Score& s) { return s.trial.kind == "outside" && faintest(s).s >= 8.0; }, is_unexplained));
   text +=
-      fmt::format("| out of library: unexplained | {} | >= 90 % |\n",
-                  rate_over(scores, kind("outside"), [](const Score& s) { return s.answer.verdict == "unexplained"; }));
+      fmt::format("| out of library, all: unexplained | {} | |\n", rate_over(scores, kind("outside"), is_unexplained));
   text += fmt::format("| out of library: a name | {} | <= 3 % |\n",
                       rate_over(scores, kind("outside"), [](const Score& s) { return s.answer.verdict == "named"; }));
+  text += fmt::format(
+      "| another form of a library effect: a name of another family | {} | |\n",
+      rate_over(scores, kind("form"), [](const Score& s) { return s.answer.verdict == "named" && !s.right_family; }));
+  text += fmt::format("| another form, s >= 8: its family named | {} | |\n",
+                      rate_over(
+                          scores, [](const Score& s) { return s.trial.kind == "form" && faintest(s).s >= 8.0; },
+                          [&](const Score& s) { return s.right_family; }));
   const auto both_visible = [](const Score& s) { return s.trial.kind == "double" && faintest(s).s >= 8.0; };
   text += fmt::format("| two at once, both s >= 8: both named | {} | |\n",
                       rate_over(scores, both_visible, [](const Score& s) { return s.right_name; }));

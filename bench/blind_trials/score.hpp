@@ -13,6 +13,7 @@ struct Score {
   Answer answer;
   bool right_name = false,
        in_set = false;            ///< exactly the hidden effects named; or one of the reported models is exactly them
+  bool right_family = false;      ///< what is named is of the hidden effect's family, in whatever form
   double parameter_error = -1.0;  ///< relative, of the first hidden effect; negative: not rightly named
   bool covered = false;           ///< the 90 % interval holds the hidden size
 };

@@ -97,20 +97,62 @@ std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::
   return records;
 }
 
-/// What the specimens could show of each hidden effect that the library knows, at the true constants.
-std::string sealed_signals(const Trial& trial, const TrialOptions& options, const lab::Truth& truth,
-                           std::vector<measurement::SpecimenRecord> specimens) {
-  // Fractures would have to be simulated for every effect.
+/// Responses of the laboratory, on all cores.
+std::vector<Result<lab::Response>> responses_of(const lab::Truth& truth, const std::vector<lab::Question>& questions) {
+  std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
+  parallel_for(static_cast<int>(questions.size()), [&](int i) {
+    responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]);
+  });
+  return responses;
+}
+
+/// The specimens of a trial; those without a fracture only, which would have to be simulated for every effect.
+using Specimens = std::vector<measurement::SpecimenRecord>;
+Specimens without_fractures(Specimens specimens) {
   std::erase_if(specimens, [](const auto& specimen) { return specimen.test == TestKind::toughness; });
+  return specimens;
+}
+
+/// What the planned specimens show without scatter.
+Specimens without_scatter(lab::Truth truth, const std::vector<lab::Question>& questions,
+                          const std::vector<Result<lab::Response>>& responses, const Specimens& planned) {
+  truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
+  Specimens records;
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    const std::size_t q = i / kReplicates;
+    records.push_back(lab::record_specimen(truth, questions[q], responses[q],
+                                           {planned[i].specimen, planned[i].batch, planned[i].print_order}));
+  }
+  return without_fractures(std::move(records));
+}
+
+/// What can be known of a trial's signals before anything scatters.
+struct Sealing {
   diagnosis::DiagnosisSettings settings;
+  diagnosis::AssumedScatter scatter;
+};
+
+Sealing sealing_of(const TrialOptions& options, const lab::Truth& truth) {
+  Sealing sealing;
+  diagnosis::DiagnosisSettings& settings = sealing.settings;
   settings.start = material::default_parameters();
   settings.start.modulus = truth.modulus;
   settings.start.toughness = truth.toughness;
   settings.fidelity = options.fidelity;
   settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
-  diagnosis::AssumedScatter scatter{
-      .modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
-  const diagnosis::Plan plan = diagnosis::plan_diagnosis(specimens, settings, scatter, false);
+  sealing.scatter = {.modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
+  return sealing;
+}
+
+std::string signal_in_toml(std::string_view name, double s, double rho, std::string_view rival, double ceiling) {
+  return fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", name,
+                     s, rho, rival, ceiling);
+}
+
+/// What the specimens could show of each hidden effect that the library knows, at the true constants.
+std::string signals_of_known(const Sealing& sealing, const lab::Truth& truth, const Specimens& planned) {
+  const diagnosis::Plan plan =
+      diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false);
   std::string text;
   for (const lab::EffectKind& kind : lab::effect_kinds()) {
     const double value = truth.effects.*kind.value;
@@ -121,11 +163,22 @@ std::string sealed_signals(const Trial& trial, const TrialOptions& options, cons
         std::abs(material::strength_of(material::find_effect(kind.name)->parameters.front(), value));
     const double s = diagnosis::signal_at(*known, strength),
                  distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n",
-                        kind.name, s, known->rival_cosine, known->nearest_rival,
-                        0.5 * std::erfc(-distance / std::sqrt(2.0)));
+    text += signal_in_toml(kind.name, s, known->rival_cosine, known->nearest_rival,
+                           0.5 * std::erfc(-distance / std::sqrt(2.0)));
   }
-  return fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind, text);
+  return text;
+}
+
+/// What they could show of what the library does not hold: the laboratory's own numerics with it and without.
+std::string signal_of_unknown(const Sealing& sealing, const Trial& trial, const lab::Truth& truth,
+                              const std::vector<lab::Question>& questions,
+                              const std::vector<Result<lab::Response>>& responses, const Specimens& planned) {
+  lab::Truth plain = truth;
+  plain.effects = {};
+  const double s = diagnosis::signal_of_change(
+      without_scatter(plain, questions, responses_of(plain, questions), planned),
+      without_scatter(truth, questions, responses, planned), sealing.settings, sealing.scatter);
+  return signal_in_toml(trial.hidden.front(), s, 0.0, "", 0.0);
 }
 
 }  // namespace
@@ -140,15 +193,22 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
     ++seed;
   };
   for (int i = 0; i < options.nulls; ++i) add("null", "nothing", {}, true, i % 2 == 1);
-  std::vector<std::string> inside, outside;
-  for (const lab::EffectKind& kind : lab::effect_kinds()) (kind.in_library ? inside : outside).emplace_back(kind.name);
+  std::vector<std::string> inside, outside, forms;
+  for (const lab::EffectKind& kind : lab::effect_kinds())
+    (kind.in_library ? inside : kind.family.empty() ? outside : forms).emplace_back(kind.name);
   for (const std::string& name : inside)
     for (const bool large : {true, false})
       for (const bool noisy : {false, true})
         for (int i = 0; i < options.seeds_per_effect; ++i) add("effect", name, {name}, large, noisy);
-  for (int i = 0; i < options.outside && !outside.empty(); ++i)
-    add("outside", outside[static_cast<std::size_t>(i) % outside.size()],
-        {outside[static_cast<std::size_t>(i) % outside.size()]}, true, i % 2 == 1);
+  const auto add_in_turn = [&](const std::string& kind, const std::vector<std::string>& names, int count) {
+    for (int i = 0; i < count && !names.empty(); ++i) {
+      // Round by round: every cause with the plain scatter and with twice that.
+      const std::size_t which = static_cast<std::size_t>(i) % names.size(),
+                        turn = static_cast<std::size_t>(i) / names.size();
+      add(kind, names[which], {names[which]}, true, turn % 2 == 1);
+    }
+  };
+  add_in_turn("outside", outside, options.outside);
   RandomStream random(options.first_seed, "trials/doubles");
   for (int i = 0; i < options.doubles; ++i) {
     const int a = random.index(static_cast<int>(inside.size()));
@@ -161,6 +221,7 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
   };
   add_turns("alike", options.alike, "droplet_mixing", "rigid_overprint");
   for (const char* kind : {"pair", "resolved"}) add_turns(kind, options.pairs, "batch_drift", "rate_dependence");
+  add_in_turn("form", forms, options.forms);
   return trials;
 }
 
@@ -215,22 +276,25 @@ std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& 
 void generate(const Trial& trial, const TrialOptions& options, const fs::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Question> questions = questions_of(trial, options);
-  std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
-  parallel_for(static_cast<int>(questions.size()), [&](int i) {
-    responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]);
-  });
-  std::vector<measurement::SpecimenRecord> records = planned(trial, questions, responses);
-  const std::string signals = sealed_signals(trial, options, truth, records);
+  const std::vector<Result<lab::Response>> responses = responses_of(truth, questions);
+  Specimens records = planned(trial, questions, responses);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
   for (std::size_t i = 0; i < records.size(); ++i) order.push_back(static_cast<int>(i) + 1);
   RandomStream random(trial.seed, "trial/print order");
   for (std::size_t i = order.size(); i > 1; --i)
     std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].print_order = order[i];
+  const Sealing sealing = sealing_of(options, truth);
+  const bool unknown = trial.kind == "outside" || trial.kind == "form";
+  const std::string signals =
+      fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind,
+                  unknown ? signal_of_unknown(sealing, trial, truth, questions, responses, records)
+                          : signals_of_known(sealing, truth, records));
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records[i] =
-        lab::record_specimen(truth, questions[q], responses[q], {records[i].specimen, records[i].batch, order[i]});
+    records[i] = lab::record_specimen(truth, questions[q], responses[q],
+                                      {records[i].specimen, records[i].batch, records[i].print_order});
   }
   fs::create_directories(folder);
   measurement::write_measurement_set(folder / "set", records);

@@ -14,7 +14,7 @@ namespace nacre::blind_trials {
 /// One trial before it is played. Everything follows from it: designs, constants, scatter.
 struct Trial {
   std::string name;  ///< unique, a file name
-  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved
+  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form
   std::uint64_t seed = 1;
   bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
   bool noisy = false;               ///< twice the scatter
@@ -24,7 +24,7 @@ struct Trial {
 struct TrialOptions {
   tester::Fidelity fidelity = tester::Fidelity::tiny;
   bool fracture = false;  ///< toughness specimens beside the moduli
-  int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20;
+  int nulls = 149, outside = 40, doubles = 30, alike = 10, pairs = 20, forms = 15;
   int seeds_per_effect = 3;
   std::string program;           ///< nacre under test
   std::uint64_t first_seed = 1;  ///< tuning: 1; report: from the hash of the commit
@@ -37,15 +37,16 @@ std::vector<Trial> all_trials(const TrialOptions& options);
 /// checkerboards, a second rate and a thinner twin; beside them homogeneous coupons of five mixtures, pulled with a
 /// curve at both rates. Alike causes (droplets that mix, rigid ink that spreads) are played on layouts as they are and
 /// nothing else. Pairs cannot be told apart: coupons at two rates, every fast one of the second batch; of those to be
-/// resolved, what the diagnosis orders is printed in a third batch.
+/// resolved, what the diagnosis orders is printed in a third batch. Outside: eight causes that the library has no name
+/// for; forms: five effects of the library in another functional form, whose family is the right answer.
 std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
 
 /// What the laboratory of a trial is.
 virtual_laboratory::Truth truth_of(const Trial& trial, const TrialOptions& options);
 
 /// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens
-/// could show what is hidden (signal-to-noise, nearest rival, chance that all rivals lose), computed before scatter is
-/// drawn.
+/// could show what is hidden (signal-to-noise, nearest rival, chance that all rivals lose; of what the library does not
+/// hold the signal alone), computed before scatter is drawn.
 void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
 /// Adds what FOLDER/diagnosis.json orders as next experiments to FOLDER/set, a third batch; the diagnosis that ordered

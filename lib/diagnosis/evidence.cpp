@@ -192,4 +192,25 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   return evidence;
 }
 
+Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
+  Observations observations = evidence.observations;
+  if (observations.has_shared_numerics())
+    observations.numerics_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
+  return observations;
+}
+
+OwnFit fit_with_own_numerics(const Evidence& evidence, const std::vector<std::string>& effects,
+                             const Eigen::VectorXd& start, const std::vector<int>& held, double hopeless) {
+  const auto fitted_from = [&](const Eigen::VectorXd& u) {
+    const Observations observations = with_numerics_at(evidence, evidence.model.map(effects), u);
+    OwnFit at{fit_model(evidence.model, observations, effects, u, held)};
+    const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
+    at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    return at;
+  };
+  OwnFit first = fitted_from(start);
+  if (!evidence.observations.has_shared_numerics() || first.deviance > hopeless) return first;
+  return fitted_from(first.fit.u);
+}
+
 }  // namespace nacre::diagnosis

@@ -17,41 +17,8 @@ constexpr int kRounds = 4;
 /// By how much a size goes on beyond an end that is of interest.
 constexpr double kBeyond = 1.6;
 
-/// The model at one size, with its own numerics.
-struct Sized {
-  Fit fit;
-  double deviance = 0.0;  ///< -2 log likelihood of the data, up to a constant; prior of the base constants included
-};
-
-/// By coordinate of the size.
-using Profile = std::map<double, Sized>;
-
-/// Rows with what finer elements change at this model, in place of what they change at the base and all its rivals.
-Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
-  Observations observations = evidence.observations;
-  if (observations.has_shared_numerics())
-    observations.numerics_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
-  return observations;
-}
-
-/// Fits with the numerics of where it starts.
-Sized fitted_from(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
-                  const std::vector<int>& held) {
-  const Observations observations = with_numerics_at(evidence, evidence.model.map(effects), start);
-  Sized at{.fit = fit_model(evidence.model, observations, effects, start, held)};
-  const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
-  at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  return at;
-}
-
-/// The same, and once more with the numerics of where that ended: constants that belonged to another size have other
-/// numerics. What is `hopeless` even so is left at that.
-Sized sized(const Evidence& evidence, const std::vector<std::string>& effects, const Eigen::VectorXd& start,
-            const std::vector<int>& held, double hopeless = std::numeric_limits<double>::infinity()) {
-  const Sized first = fitted_from(evidence, effects, start, held);
-  if (!evidence.observations.has_shared_numerics() || first.deviance > hopeless) return first;
-  return fitted_from(evidence, effects, first.fit.u, held);
-}
+/// The model at one size, by coordinate of the size.
+using Profile = std::map<double, OwnFit>;
 
 double least_deviance(const Profile& profile) {
   return std::ranges::min_element(profile, {}, [](const Profile::value_type& known) { return known.second.deviance; })
@@ -62,7 +29,7 @@ double least_deviance(const Profile& profile) {
 void fit_at(const Evidence& evidence, Profile& profile, int i, double size, Eigen::VectorXd start) {
   start[i] = size;
   const double hopeless = least_deviance(profile) + 2.0 * kCaught;
-  Sized at = sized(evidence, profile.begin()->second.fit.effects, start, {i}, hopeless);
+  OwnFit at = fit_with_own_numerics(evidence, profile.begin()->second.fit.effects, start, {i}, hopeless);
   const auto known = profile.find(size);
   if (known == profile.end() || at.deviance < known->second.deviance) profile[size] = std::move(at);
 }
@@ -75,14 +42,14 @@ void try_size(const Evidence& evidence, Profile& profile, int i, double size) {
   size = std::clamp(size, any.lower[i], any.upper[i]);
   if (profile.contains(size)) return;
   const double least = least_deviance(profile);
-  const Sized *below = nullptr, *above = nullptr;
+  const OwnFit *below = nullptr, *above = nullptr;
   for (const auto& [known, at] : profile) {
     if (at.deviance - least >= kCaught) continue;
     if (known < size) below = &at;
     if (known > size && !above) above = &at;
   }
   const bool from_above = !below || (above && above->deviance < below->deviance);
-  const Sized *better = from_above ? above : below, *other = from_above ? below : above;
+  const OwnFit *better = from_above ? above : below, *other = from_above ? below : above;
   fit_at(evidence, profile, i, size, better->fit.u);
   if (other && profile[size].deviance > other->deviance) fit_at(evidence, profile, i, size, other->fit.u);
 }
@@ -105,7 +72,7 @@ std::vector<double> missing_sizes(const Profile& profile) {
 
 Profile profile_of(const Evidence& evidence, const Fit& named, int i) {
   Profile profile;
-  profile[named.u[i]] = sized(evidence, named.effects, named.u, {i});
+  profile[named.u[i]] = fit_with_own_numerics(evidence, named.effects, named.u, {i});
   // Far from the named size too, from where the search for the base began: other constants may hide another size.
   for (const double size : kSizes)
     fit_at(evidence, profile, i, std::copysign(size, named.u[i]), at_first_constants(evidence, named.u));
@@ -196,7 +163,7 @@ NamedModel measure_size(const Evidence& evidence, const Fit& named) {
     middles[i] = interval.middle;
     held.push_back(i);
   }
-  model.fit = sized(evidence, named.effects, middles, held).fit;
+  model.fit = fit_with_own_numerics(evidence, named.effects, middles, held).fit;
   return model;
 }
 

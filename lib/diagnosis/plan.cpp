@@ -91,9 +91,28 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
 struct Sheet {
   const Observations& observations;
   Fit base;
-  std::vector<Signature> signatures;
   Eigen::MatrixXd covariance;
+  std::vector<Signature> signatures = {};
 };
+
+/// Base and covariance at the start parameters, with the scatter that is assumed.
+Sheet sheet_of(Workbench& workbench, const DiagnosisSettings& settings, const AssumedScatter& scatter) {
+  Observations& observations = workbench.observations();
+  for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
+  const CoordinateMap map = workbench.model().base_map();
+  Fit base = linearised(workbench.model(), map.coordinates(settings.start));
+  if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
+    observations.numerics_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, base.u);
+    observations.numerics_sd = settings.floor.mesh_remainder_sd;
+  }
+  return {observations, std::move(base), observations.covariance()};
+}
+
+/// Without a search for the constants: those that are given stand for the truth.
+DiagnosisSettings as_given(DiagnosisSettings settings) {
+  settings.search_budget = 0;
+  return settings;
+}
 
 /// Smallest size, as a strength, at which `judged` reaches `wanted`: between the sizes of a signature in log scale;
 /// nothing beyond them.
@@ -224,18 +243,9 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
       for (int r = 0; r < kAddedReplicates; ++r) more.push_back(specimen_of(test, r));
   fill_in(more, settings);
   all.insert(all.end(), more.begin(), more.end());
-  DiagnosisSettings given = settings;
-  given.search_budget = 0;
-  Workbench workbench(all, given);
-  Observations& observations = workbench.observations();
-  for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
-  const CoordinateMap map = workbench.model().base_map();
-  Sheet sheet{observations, linearised(workbench.model(), map.coordinates(settings.start)), {}, {}};
-  if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
-    observations.numerics_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, sheet.base.u);
-    observations.numerics_sd = settings.floor.mesh_remainder_sd;
-  }
-  sheet.covariance = observations.covariance();
+  Workbench workbench(all, as_given(settings));
+  Sheet sheet = sheet_of(workbench, settings, scatter);
+  const Observations& observations = sheet.observations;
   sheet.signatures = signatures_on(workbench.model(), sheet.base, workbench.effects());
 
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
@@ -265,6 +275,17 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   std::stable_sort(plan.additions.begin(), plan.additions.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
   return plan;
+}
+
+double signal_of_change(const std::vector<SpecimenRecord>& specimens, const std::vector<SpecimenRecord>& changed,
+                        const DiagnosisSettings& settings, const AssumedScatter& scatter) {
+  Workbench workbench(specimens, as_given(settings));
+  const Sheet sheet = sheet_of(workbench, settings, scatter);
+  const Observations other = observe(changed, settings.floor.log_modulus_sd, settings.fracture_numerics);
+  if (other.size() != sheet.observations.size())
+    throw InputError::format("the changed specimens show {} features, expected {}", other.size(),
+                             sheet.observations.size());
+  return signature_size(sheet.base, other.values - sheet.observations.values, Whitener(sheet.covariance)).projected;
 }
 
 std::string to_json(const Plan& plan) {

@@ -53,6 +53,13 @@ struct Plan {
 Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter = {}, bool additions = true);
 
+/// Signal-to-noise of a cause that no effect of the library describes: of how `changed` differ from `specimens` (the
+/// same specimens in the same order, both with values), as far as the base model cannot imitate it. Start parameters
+/// stand for the truth. Throws InputError as diagnose() does, and where the two do not show the same features.
+double signal_of_change(const std::vector<measurement::SpecimenRecord>& specimens,
+                        const std::vector<measurement::SpecimenRecord>& changed, const DiagnosisSettings& settings,
+                        const AssumedScatter& scatter);
+
 /// The JSON document of `nacre diagnose --plan --json`.
 std::string to_json(const Plan& plan);
 

@@ -1,6 +1,7 @@
 #include "diagnosis/verdict.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
@@ -50,23 +51,51 @@ double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
 
 bool usable(const Fit& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
 
-/// Models that the data cannot tell from the best one: each fits by itself, and data drawn from it would let another
-/// model win by as much as was seen often enough.
+/// By how much -2 log likelihood with each model's own numerics must be larger for a rival to leave: odds of one to
+/// 200, as the bootstrap's exclusion level has it.
+constexpr double kOwnLead = 10.6;
+
+/// Whether data drawn from this rival would let another model win by as much as was seen so seldom that it is excluded.
+bool excluded_by_draws(const Evidence& evidence, const std::vector<Fit>& rivals, std::size_t rival, double lead) {
+  if (lead <= 0.0) return false;
+  const RivalStatistics draws =
+      bootstrap_rival(rivals, rival, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
+  return exceedance(draws.lead_of_best_other, lead) < kExclusionLevel;
+}
+
+/// -2 log likelihood of each model; where elements matter with its own numerics: directions that all models share let
+/// one of them explain itself by what elements would do in another.
+std::vector<double> deviances(const Evidence& evidence, const std::vector<Fit>& models) {
+  std::vector<double> values;
+  for (const Fit& model : models)
+    values.push_back(evidence.observations.has_shared_numerics()
+                         ? fit_with_own_numerics(evidence, model.effects, model.u).deviance
+                         : model.chi2);
+  return values;
+}
+
+/// Models that the data cannot tell from the best one, the best first: each fits by itself, and leaves only when it is
+/// excluded both by draws under the numerics of all models and by its likelihood under its own.
 std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals,
                                 const std::vector<double>& p_fit) {
-  const double least =
-      std::min_element(rivals.begin(), rivals.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; })->chi2;
-  std::vector<Fit> kept;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Fit& rival : rivals) least = std::min(least, rival.chi2);
+  std::vector<Fit> fitting;
+  std::vector<bool> excluded;
   for (std::size_t k = 0; k < rivals.size(); ++k) {
     if (!usable(rivals[k], p_fit[k], kExclusionLevel)) continue;
-    if (rivals[k].chi2 > least) {
-      const RivalStatistics draws =
-          bootstrap_rival(rivals, k, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
-      if (exceedance(draws.lead_of_best_other, rivals[k].chi2 - least) < kExclusionLevel) continue;
-    }
-    kept.push_back(rivals[k]);
+    fitting.push_back(rivals[k]);
+    excluded.push_back(excluded_by_draws(evidence, rivals, k, rivals[k].chi2 - least));
   }
-  std::stable_sort(kept.begin(), kept.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  const std::vector<double> deviance = deviances(evidence, fitting);
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < fitting.size(); ++k) {
+    const bool behind = deviance[k] > *std::ranges::min_element(deviance) + kOwnLead;
+    if (!excluded[k] || (evidence.observations.has_shared_numerics() && !behind)) order.push_back(k);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return deviance[k]; });
+  std::vector<Fit> kept;
+  for (const std::size_t k : order) kept.push_back(fitting[k]);
   return kept;
 }
 
@@ -114,13 +143,15 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
   return decision;
 }
 
-/// Signal-to-noise of what a model adds to the base, beyond what the base imitates, or would were its constants not on
-/// the bounds of their ranges: what an effect only repairs of a range is no trace of its own.
-double signal_of(const Evidence& evidence, const Fit& fit) {
-  Fit base = evidence.base.fit;
-  base.free_all();
-  return signature_size(base, fit.predicted - evidence.base.fit.predicted, Whitener(evidence.observations.covariance()))
-      .projected;
+/// Signal-to-noise of what a model adds to the base at its own constants and with its own numerics, beyond what moving
+/// the constants imitates, or would were they not bounded: what an effect only repairs of a range is no trace of its
+/// own. Not at the base's constants: to imitate an effect they went as far as they could, and what moving them does
+/// there, and how elements move the model there, says little of the true ones.
+double signal_of(const Evidence& evidence, const Fit& model) {
+  const Fit fit = fit_with_own_numerics(evidence, model.effects, model.u).fit;
+  const Fit base = linearised(evidence.model, fit.u.head(fit.base_count));
+  const Observations observations = with_numerics_at(evidence, evidence.model.map(fit.effects), fit.u);
+  return signature_size(base, fit.predicted - base.predicted, Whitener(observations.covariance())).projected;
 }
 
 /// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,21 @@ Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u);
 /// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. The better
 /// of both.
 Fit begun_again(const Evidence& evidence, Fit fit);
+
+/// Rows with what finer elements change at this model, in place of what they change at the base and all its rivals.
+Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u);
+
+/// A model fitted with its own numerics.
+struct OwnFit {
+  Fit fit;
+  double deviance = 0.0;  ///< -2 log likelihood of the data, up to a constant; prior of the base constants included
+};
+
+/// Fits with the numerics of where it starts, and once more with those of where that ended; what is `hopeless` after
+/// the first is left at that. Coordinates that are `held` stay.
+OwnFit fit_with_own_numerics(const Evidence& evidence, const std::vector<std::string>& effects,
+                             const Eigen::VectorXd& start, const std::vector<int>& held = {},
+                             double hopeless = std::numeric_limits<double>::infinity());
 
 /// Steps 7 and 8: select, keep the set of models that the data cannot tell apart, or say that none fits. A single
 /// effect that fits better from where a pair ended is replaced in the evidence.
