@@ -14,7 +14,9 @@ Foretold foretell(const Options& options, std::uint64_t seed, std::span<const ex
   explore::SearchSettings settings = options.search;
   settings.seed = seed;
   const double begin = processor_time_s();
-  const explore::Predictors predictors = explore::fit_predictors(run.first(learnt), settings);
+  explore::Predictors former;
+  if (!settings.former.empty()) former = explore::fit_predictors(settings.former, settings);
+  const explore::Predictors predictors = explore::fit_predictors(run.first(learnt), settings, former);
   foretold.fitting_s = processor_time_s() - begin;
   std::vector<pattern::Pattern> patterns;
   for (const explore::Evaluated& sample : foretold.samples) patterns.push_back(sample.pattern);

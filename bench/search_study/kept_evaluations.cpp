@@ -6,6 +6,7 @@
 
 #include "base/processor_time.hpp"
 #include "base/result.hpp"
+#include "explore/exact_modulus.hpp"
 #include "explore/synthetic.hpp"
 
 namespace nacre::search_study {
@@ -49,6 +50,16 @@ KeptEvaluations::Answer KeptEvaluations::operator()(const pattern::Pattern& patt
   const double spent = processor_time_s() - begin;
   const auto kept = table_.find(pattern.key()).value();
   return {performance(kept[0], kept[1]), spent};
+}
+
+explore::ModulusOf KeptEvaluations::moduli(int threads) const {
+  if (fidelity_) return explore::modulus_by_tester(parameters_, *fidelity_, threads);
+  return [](std::span<const pattern::Pattern> patterns) {
+    std::vector<std::optional<double>> moduli;
+    for (const pattern::Pattern& pattern : patterns)
+      moduli.push_back(explore::synthetic_performance(pattern).modulus_pa);
+    return moduli;
+  };
 }
 
 }  // namespace nacre::search_study

@@ -20,6 +20,8 @@ class KeptEvaluations {
   };
   /// Thread-safe.
   Answer operator()(const pattern::Pattern& pattern);
+  /// Moduli alone; not kept.
+  explore::ModulusOf moduli(int threads) const;
 
  private:
   std::optional<tester::Fidelity> fidelity_;

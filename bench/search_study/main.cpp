@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.hpp"
+#include "explore/gamut_csv.hpp"
 #include "explore/learned.hpp"
 #include "study/study_command.hpp"
 
@@ -39,6 +40,10 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--weight-decay", learned.weight_decay)->capture_default_str();
   command.add_option("--dropout", learned.dropout)->capture_default_str();
   command.add_option("--floor-deviations", learned.floor_deviations)->capture_default_str();
+  command.add_flag("--believed-modulus", options.believed_modulus,
+                   "the modulus of finalists is believed like their toughness, not computed");
+  command.add_option("--former", options.former, "gamut.csv of other parameters or another fidelity, learnt from too")
+      ->check(CLI::ExistingFile);
   command.add_flag_function(
       "--thesis", [&learned](std::int64_t) { learned = nacre::explore::thesis_learning(); }, "the learning of 2.3.3");
 }
@@ -81,6 +86,7 @@ int main(int argc, char** argv) {
   if (options.variant.empty()) options.variant = options.search.algorithm;
   bool finished = true;
   const int status = nacre::study::exit_status_of([&] {
+    if (!options.former.empty()) options.search.former = nacre::explore::read_gamut_csv(options.former);
     if (*run) finished = run_searches(options);
     if (*held_out) predict_held_out(options);
     if (*summary) summarise(options);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "base/result.hpp"
 #include "explore/improvement.hpp"
@@ -54,15 +55,25 @@ Finalists finalists_of(const Predictors& predictors, std::span<const pattern::Pa
   return best;
 }
 
+/// Puts the modulus itself in place of what is believed of it; what could not be computed stays believed.
+void know_moduli(Finalists& finalists, const ModulusOf& modulus_of) {
+  const std::vector<std::optional<double>> moduli = modulus_of(finalists.patterns);
+  for (std::size_t i = 0; i < moduli.size(); ++i)
+    if (moduli[i] && *moduli[i] > 0.0) finalists.beliefs[i].modulus = {std::log(*moduli[i]), 0.0};
+}
+
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
-                                                    std::span<const Evaluated> evaluated, int count) {
-  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(evaluated));
-  const auto [patterns, beliefs] = finalists_of(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
+                                                    const Question& question) {
+  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(question.evaluated));
+  Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
+  SharedErrors shared{{}, predictors.toughness->covariance(finalists.patterns)};
+  if (question.settings.modulus_of)
+    know_moduli(finalists, question.settings.modulus_of);
+  else
+    shared.log_modulus = predictors.modulus->covariance(finalists.patterns);
   std::vector<pattern::Pattern> batch;
-  for (const std::size_t i :
-       best_improvements(beliefs, front, count,
-                         {predictors.modulus->covariance(patterns), predictors.toughness->covariance(patterns)}))
-    batch.push_back(patterns[i]);
+  for (const std::size_t i : best_improvements(finalists.beliefs, front, question.count, std::move(shared)))
+    batch.push_back(finalists.patterns[i]);
   return batch;
 }
 
@@ -125,7 +136,7 @@ std::vector<pattern::Pattern> learned_batch(const Question& question) {
                  {.generations = learned.generations, .population = learned.population, .seed = batch_seed(question)}),
              question);
   if (learned.choice == "improvement")
-    return choose_by_improvement(predictors, candidates, question.evaluated, question.count);
+    return choose_by_improvement(predictors, candidates, question);
   return patterns_of(best_by_rank(candidates, static_cast<std::size_t>(question.count)));
 }
 

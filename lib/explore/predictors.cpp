@@ -78,9 +78,19 @@ std::size_t settled_samples(std::size_t size) {
   return stage;
 }
 
+/// Learns upon `base` only while that makes the samples likelier than learning from nothing does: what another model
+/// says of good patterns may be wrong, and is then worse than nothing.
 std::shared_ptr<const Predictor> fit_patches(const surrogate::Samples& deciding, const surrogate::Samples& learnt,
                                              std::uint64_t seed, std::shared_ptr<const Predictor> base) {
-  const auto kernel = surrogate::fit_patch_kernel(deciding, seed, base.get());
+  auto kernel = surrogate::fit_patch_kernel(deciding, seed, base.get());
+  if (base) {
+    const auto alone = surrogate::fit_patch_kernel(deciding, seed);
+    if (surrogate::log_likelihood(deciding, alone, seed) >=
+        surrogate::log_likelihood(deciding, kernel, seed, base.get())) {
+      base.reset();
+      kernel = alone;
+    }
+  }
   return surrogate::make_patch_process(learnt, kernel, std::move(base));
 }
 

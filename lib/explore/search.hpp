@@ -2,6 +2,7 @@
 // The gamut search: which patterns to simulate next. Ask and tell, so that the simulations may run anywhere.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,6 +43,9 @@ struct LearnedSettings {
 /// `key=value` of all of them, separated by spaces.
 std::string to_text(const LearnedSettings& settings);
 
+/// Young's modulus of patterns, exactly as a simulation would tell it, in Pa; nothing where that fails.
+using ModulusOf = std::function<std::vector<std::optional<double>>(std::span<const pattern::Pattern>)>;
+
 struct SearchSettings {
   std::string algorithm = "nsga2";  ///< one of algorithms()
   int budget = 300;                 ///< simulations
@@ -53,6 +57,7 @@ struct SearchSettings {
   std::vector<Evaluated> former =
       {};                        ///< simulated with other parameters or at another fidelity; `learned` learns from them
   LearnedSettings learned = {};  ///< of `learned` alone
+  ModulusOf modulus_of = {};  ///< when given, `learned` asks it for the moduli of the finalists of a batch (hundreds)
 };
 
 /// Everything that the next batch of a model-based search depends on.

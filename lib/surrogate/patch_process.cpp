@@ -173,7 +173,7 @@ PatchKernel kernel_at(const std::vector<double>& at) {
 
 struct KernelQuestion {
   std::vector<QuarterRows> rows;
-  VectorXd values;  ///< standardised
+  VectorXd values;  ///< standardised while a kernel is looked for
 };
 
 /// Negative log posterior density of a kernel.
@@ -224,6 +224,24 @@ std::vector<std::size_t> chosen_indices(std::size_t size, std::size_t count, Ran
   return indices;
 }
 
+/// What the prior's mean leaves of at most kKernelSamples samples.
+KernelQuestion deciding_samples(const Samples& samples, std::uint64_t seed, const Predictor* base) {
+  assert(samples.patterns.size() == samples.values.size() && !samples.values.empty());
+  const Trend trend(samples, base);
+  const VectorXd residuals =
+      Eigen::Map<const VectorXd>(samples.values.data(), static_cast<Index>(samples.values.size())) -
+      trend(samples.patterns);
+  RandomStream random(seed, "surrogate/kernel");
+  KernelQuestion question;
+  std::vector<double> values;
+  for (const std::size_t i : chosen_indices(samples.values.size(), kKernelSamples, random)) {
+    question.rows.push_back(quarter_rows(samples.patterns[i]));
+    values.push_back(residuals[static_cast<Index>(i)]);
+  }
+  question.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return question;
+}
+
 /// Kernels found lately, by content of the question: a search asks the same question many times. What is answered does
 /// not depend on it.
 class KernelMemory {
@@ -255,30 +273,29 @@ class KernelMemory {
 }  // namespace
 
 PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const Predictor* base) {
-  assert(samples.patterns.size() == samples.values.size() && !samples.values.empty());
-  const Trend trend(samples, base);
-  const VectorXd residuals =
-      Eigen::Map<const VectorXd>(samples.values.data(), static_cast<Index>(samples.values.size())) -
-      trend(samples.patterns);
-  RandomStream random(seed, "surrogate/kernel");
-  KernelQuestion question;
-  std::vector<double> values;
-  for (const std::size_t i : chosen_indices(samples.values.size(), kKernelSamples, random)) {
-    question.rows.push_back(quarter_rows(samples.patterns[i]));
-    values.push_back(residuals[static_cast<Index>(i)]);
-  }
-  question.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-  const double variance = question.values.squaredNorm() / static_cast<double>(values.size());
+  KernelQuestion question = deciding_samples(samples, seed, base);
+  const auto size = static_cast<std::size_t>(question.values.size());
+  const double variance = question.values.squaredNorm() / static_cast<double>(size);
   const double scale = variance > 0.0 ? std::sqrt(variance) : 1.0;
   question.values /= scale;
   static KernelMemory memory;
-  PatchKernel kernel = kernel_at(values.size() < 10 ? std::vector<double>(std::begin(kCentre), std::end(kCentre))
-                                                    : memory.most_probable_of(question));
+  PatchKernel kernel = kernel_at(size < 10 ? std::vector<double>(std::begin(kCentre), std::end(kCentre))
+                                           : memory.most_probable_of(question));
   for (double* part : {&kernel.pixel_variance, &kernel.patch_variance, &kernel.region_variance, &kernel.whole_variance,
                        &kernel.noise_variance}) {
     *part *= scale * scale;
   }
   return kernel;
+}
+
+double log_likelihood(const Samples& samples, const PatchKernel& kernel, std::uint64_t seed, const Predictor* base) {
+  const KernelQuestion deciding = deciding_samples(samples, seed, base);
+  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(deciding.rows, kernel));
+  assert(factor.info() == Eigen::Success);
+  const VectorXd reduced = factor.matrixL().solve(deciding.values);
+  constexpr double kLogTwoPi = 1.8378770664093453;
+  return -0.5 * reduced.squaredNorm() - factor.matrixLLT().diagonal().array().log().sum() -
+         0.5 * kLogTwoPi * static_cast<double>(deciding.values.size());
 }
 
 std::unique_ptr<Predictor> make_patch_process(const Samples& samples, const PatchKernel& kernel,

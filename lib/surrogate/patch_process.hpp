@@ -29,6 +29,11 @@ inline constexpr int kKernelSamples = 300;
 /// by `seed`. `base` as below. Some tenths of a second.
 PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const Predictor* base = nullptr);
 
+/// Logarithm of the density that a kernel gives the samples that decided on it (as chosen by `seed`), with the prior's
+/// mean fitted to all of them: what a base is worth shows in it.
+double log_likelihood(const Samples& samples, const PatchKernel& kernel, std::uint64_t seed,
+                      const Predictor* base = nullptr);
+
 /// The posterior. O(n^3 / 3) to make, O(n) per mean, O(n^2) per deviation. `base`, when given, is a predictor of a
 /// kindred quantity (another model's, another fidelity's): the prior's mean then has a term b base(x), and the process
 /// learns only what that one gets wrong. Needs one sample.

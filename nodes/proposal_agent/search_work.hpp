@@ -6,11 +6,13 @@
 
 #include "base/result.hpp"
 #include "explore/search.hpp"
+#include "wire/convert.hpp"
 
 namespace nacre::proposal_agent {
 
-/// Spec of a Compute of kind "search": the question whole, so that the answer is a function of the spec.
-std::string search_spec(const explore::Question& question);
+/// Spec of a Compute of kind "search": the question whole and the model that it is asked of, so that the answer is a
+/// function of the spec.
+std::string search_spec(const explore::Question& question, const wire::SimulateRequest& model);
 
 /// Kind "search": explore::answer_to() of the question.
 std::string search_work(const std::string& spec);

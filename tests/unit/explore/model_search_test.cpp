@@ -102,6 +102,52 @@ TEST(Learned, ChoosingByRankAsTheThesisDoesLearnsToo) {
   EXPECT_GT(hypervolume_after(by_rank), 1.05 * hypervolume_after(settings("random", 1, 120)));
 }
 
+TEST(Learned, TheModulusThatIsComputedDecidesAndNotTheOneBelieved) {
+  SearchSettings chosen = settings("learned", 2, 40);
+  std::vector<pattern::Pattern> asked;
+  chosen.modulus_of = [&](std::span<const pattern::Pattern> patterns) {
+    std::vector<std::optional<double>> moduli;
+    for (const pattern::Pattern& pattern : patterns) {
+      asked.push_back(pattern);
+      moduli.push_back(pattern.bits() % 3 == 0 ? 1e12 : 1.0);  // far beyond all that is known, or worthless
+    }
+    return moduli;
+  };
+  const auto search = make_search(chosen);
+  while (!search->question()) {
+    std::vector<std::optional<optimize::Performance>> answers;
+    for (const pattern::Pattern& pattern : search->ask()) answers.push_back(synthetic_performance(pattern));
+    search->tell(answers);
+  }
+  const std::vector<pattern::Pattern> batch = search->ask();
+  ASSERT_EQ(batch.size(), 10u);
+  EXPECT_GT(asked.size(), 50u);
+  for (const pattern::Pattern& pattern : batch) EXPECT_EQ(pattern.bits() % 3, 0u) << pattern.key();
+}
+
+TEST(Predictors, AFormerModelThatMisleadsIsNotBuiltUpon) {
+  RandomStream random(11, "test");
+  std::vector<Evaluated> samples, former;
+  std::vector<pattern::Pattern> others;
+  for (int i = 0; i < 300; ++i) {
+    const pattern::Pattern pattern = pattern::random_pattern(random);
+    if (i < 80) samples.push_back({pattern, synthetic_performance(pattern)});
+    if (i >= 80 && i < 250) former.push_back({pattern, synthetic_performance(pattern)});
+    if (i >= 250) others.push_back(pattern);
+  }
+  // Toughness of other patterns in place of their own: what is learnt from it has nothing to do with the truth.
+  std::vector<Evaluated> misleading = former;
+  for (std::size_t i = 0; i < former.size(); ++i)
+    misleading[i].performance.toughness_pa = former[(i * 7 + 3) % former.size()].performance.toughness_pa;
+  const SearchSettings chosen = settings("learned", 1, 300);
+  const auto upon = [&](const std::vector<Evaluated>& base) {
+    return fit_predictors(samples, chosen, fit_predictors(base, chosen)).toughness->means(others);
+  };
+  const std::vector<double> alone = fit_predictors(samples, chosen).toughness->means(others);
+  EXPECT_EQ(upon(misleading), alone);
+  EXPECT_NE(upon(former), alone) << "a former model that says the same is of use";
+}
+
 TEST(Learned, FormerSamplesOfAnotherModelAreAHeadStart) {
   const auto earlier = make_search(settings("nsga2", 9, 400));
   run(*earlier);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include "base/result.hpp"
 #include "blind_trials/score.hpp"
 
@@ -59,6 +62,30 @@ TEST(BlindScore, AnotherNameIsWrong) {
   EXPECT_FALSE(score.in_set);
   EXPECT_LT(score.parameter_error, 0.0);
   EXPECT_NE(report_of({score}).find("| two at once: a wrong name | 1 of 1"), std::string::npos);
+}
+
+TEST(BlindScore, AnotherFormOfAnEffectIsRightWithItsFamily) {
+  Answer answer;
+  answer.verdict = "named";
+  answer.hidden = {{0.3, 12.0, 0.0, 0.0}};
+  answer.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
+  const Trial form{"form-smooth_mixing-large-9", "form", 9, true, false, {"smooth_mixing"}};
+  EXPECT_TRUE(score_of(form, answer).right_family);
+  answer.named = {{"plane_strain", 0.8, 0.7, 0.9}};
+  EXPECT_FALSE(score_of(form, answer).right_family);
+  EXPECT_NE(report_of({score_of(form, answer)}).find("a name of another family | 1 of 1"), std::string::npos);
+}
+
+TEST(BlindTrials, OutsideIsWhatTheLibraryHasNoFamilyFor) {
+  std::map<std::string, std::set<std::string>> hidden;
+  for (const Trial& trial : all_trials({}))
+    for (const std::string& effect : trial.hidden) hidden[trial.kind].insert(effect);
+  EXPECT_EQ(hidden["outside"].size(), 8u);
+  EXPECT_EQ(hidden["form"].size(), 5u);
+  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+    EXPECT_EQ(hidden["outside"].contains(std::string(kind.name)), !kind.in_library && kind.family.empty()) << kind.name;
+    EXPECT_EQ(hidden["form"].contains(std::string(kind.name)), !kind.in_library && !kind.family.empty()) << kind.name;
+  }
 }
 
 }  // namespace

@@ -191,6 +191,23 @@ TEST(PatchProcess, CovarianceSaysWhatOneMoreSampleWouldLeave) {
   }
 }
 
+TEST(PatchProcess, WithoutCovarianceTheLikelihoodIsThatOfIndependentNoise) {
+  const auto patterns = random_patterns(25, 13);
+  const std::vector<double> values = values_of(patterns);
+  // Where nothing goes together the process is its prior's mean and noise: a product of normal densities.
+  const double variance = 0.3;
+  const PatchKernel noise{.pixel_variance = 0.0,
+                          .patch_variance = 0.0,
+                          .region_variance = 0.0,
+                          .whole_variance = 0.0,
+                          .noise_variance = variance};
+  const std::vector<double> means = make_patch_process({patterns, values}, noise)->means(patterns);
+  double expected = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    expected -= 0.5 * (std::pow(values[i] - means[i], 2) / variance + std::log(2.0 * M_PI * variance));
+  EXPECT_NEAR(log_likelihood({patterns, values}, noise, 1), expected, 1e-9);
+}
+
 TEST(PatchProcess, OneSampleAndEqualSamplesAreNoProblem) {
   const auto patterns = random_patterns(12, 9);
   for (const std::size_t count : {std::size_t{1}, std::size_t{12}}) {
