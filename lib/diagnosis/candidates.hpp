@@ -15,6 +15,10 @@ inline constexpr double kVisibleSignal = 3.8, kToldApart = 2.2;
 inline constexpr double kLookalike = 0.8, kNameableSignal = kVisibleSignal / 0.6;
 /// A rival leaves the set only when data from it would so seldom look like ours.
 inline constexpr double kExclusionLevel = 0.005;
+/// By how much -2 log likelihood with each model's own numerics must be larger for a rival to leave when draws exclude
+/// it too: odds of one to 200, as the exclusion level of the draws has it; and when they do not: out even if specimens
+/// scattered 1.7 times as much as replicates say.
+inline constexpr double kOwnLead = 10.6, kCertainLead = 3.0 * kOwnLead;
 /// Share of a signature that the base imitates above which the effect is called invisible.
 inline constexpr double kInvisibleAbsorption = 0.95;
 

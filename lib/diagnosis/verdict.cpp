@@ -51,10 +51,6 @@ double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
 
 bool usable(const Fit& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
 
-/// By how much -2 log likelihood with each model's own numerics must be larger for a rival to leave: odds of one to
-/// 200, as the bootstrap's exclusion level has it.
-constexpr double kOwnLead = 10.6;
-
 /// Whether data drawn from this rival would let another model win by as much as was seen so seldom that it is excluded.
 bool excluded_by_draws(const Evidence& evidence, const std::vector<Fit>& rivals, std::size_t rival, double lead) {
   if (lead <= 0.0) return false;
@@ -63,39 +59,55 @@ bool excluded_by_draws(const Evidence& evidence, const std::vector<Fit>& rivals,
   return exceedance(draws.lead_of_best_other, lead) < kExclusionLevel;
 }
 
-/// -2 log likelihood of each model; where elements matter with its own numerics: directions that all models share let
-/// one of them explain itself by what elements would do in another.
-std::vector<double> deviances(const Evidence& evidence, const std::vector<Fit>& models) {
-  std::vector<double> values;
-  for (const Fit& model : models)
-    values.push_back(evidence.observations.has_shared_numerics()
-                         ? fit_with_own_numerics(evidence, model.effects, model.u).deviance
-                         : model.chi2);
-  return values;
+/// -2 log likelihood of a model with its own numerics: directions that all models share let one of them explain itself
+/// by what elements would do in another. From where it was fitted and from where the search for the base began.
+double own_deviance(const Evidence& evidence, const Fit& model) {
+  const auto from = [&](const Eigen::VectorXd& u) {
+    return fit_with_own_numerics(evidence, model.effects, u).deviance;
+  };
+  return std::min(from(model.u), from(at_first_constants(evidence, model.u)));
 }
 
-/// Models that the data cannot tell from the best one, the best first: each fits by itself, and leaves only when it is
-/// excluded both by draws under the numerics of all models and by its likelihood under its own.
-std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals,
-                                const std::vector<double>& p_fit) {
+/// Models that fit by themselves, with how far each lies behind the best.
+struct Fitting {
+  std::vector<Fit> models;
+  std::vector<bool> excluded_by_draws;
+  std::vector<double> behind;  ///< -2 log likelihood; where elements matter with each model's own numerics
+};
+
+Fitting fitting_among(const Evidence& evidence, const std::vector<Fit>& rivals, const std::vector<double>& p_fit) {
   double least = std::numeric_limits<double>::infinity();
   for (const Fit& rival : rivals) least = std::min(least, rival.chi2);
-  std::vector<Fit> fitting;
-  std::vector<bool> excluded;
+  Fitting fitting;
   for (std::size_t k = 0; k < rivals.size(); ++k) {
     if (!usable(rivals[k], p_fit[k], kExclusionLevel)) continue;
-    fitting.push_back(rivals[k]);
-    excluded.push_back(excluded_by_draws(evidence, rivals, k, rivals[k].chi2 - least));
+    fitting.models.push_back(rivals[k]);
+    fitting.excluded_by_draws.push_back(excluded_by_draws(evidence, rivals, k, rivals[k].chi2 - least));
+    const bool elements_matter = evidence.observations.has_shared_numerics();
+    fitting.behind.push_back(elements_matter ? own_deviance(evidence, rivals[k]) : rivals[k].chi2);
   }
-  const std::vector<double> deviance = deviances(evidence, fitting);
+  if (fitting.behind.empty()) return fitting;
+  const double best = *std::ranges::min_element(fitting.behind);
+  for (double& behind : fitting.behind) behind -= best;
+  return fitting;
+}
+
+/// Models that the data cannot tell from the best one, the best first: each fits by itself and is not excluded by draws
+/// under the numerics of all models; where elements matter, a model's likelihood with its own decides with them.
+std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals,
+                                const std::vector<double>& p_fit) {
+  const Fitting fitting = fitting_among(evidence, rivals, p_fit);
   std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < fitting.size(); ++k) {
-    const bool behind = deviance[k] > *std::ranges::min_element(deviance) + kOwnLead;
-    if (!excluded[k] || (evidence.observations.has_shared_numerics() && !behind)) order.push_back(k);
+  for (std::size_t k = 0; k < fitting.models.size(); ++k) {
+    const bool drawn_out = fitting.excluded_by_draws[k];
+    const bool out = evidence.observations.has_shared_numerics()
+                         ? fitting.behind[k] > (drawn_out ? kOwnLead : kCertainLead)
+                         : drawn_out;
+    if (!out) order.push_back(k);
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return deviance[k]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return fitting.behind[k]; });
   std::vector<Fit> kept;
-  for (const std::size_t k : order) kept.push_back(fitting[k]);
+  for (const std::size_t k : order) kept.push_back(fitting.models[k]);
   return kept;
 }
 
