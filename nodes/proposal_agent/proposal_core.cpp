@@ -101,7 +101,7 @@ wire::SimulateRequest ProposalCore::question_to_farm() const {
 void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
   if (const auto question = branch.question()) {
     outputs.computes.push_back(
-        {.id = branch.question_id(), .kind = "search", .spec = search_spec(*question, question_to_farm())});
+        {.id = branch.question_id(), .kind = "search", .spec = search_spec(*question, round_->model)});
   } else {
     send(branch.next(question_to_farm()), outputs);
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "explore/exact_modulus.hpp"
+#include "game/model.hpp"
 #include "runtime/journal.hpp"
 
 namespace nacre::proposal_agent {
@@ -71,16 +72,16 @@ explore::Question question_from(const std::string& spec) {
   question.evaluated = unpacked(fields->at(3));
   question.lost = patterns_in(fields->at(4));
   question.settings.former = unpacked(fields->at(5));
-  const auto model = wire::read<wire::SimulateRequest>(fields->at(6));
+  const auto model = wire::read<wire::AdoptedModel>(fields->at(6));
   if (!model) throw std::logic_error("the model in the spec of a search: " + model.error().message);
   // On one core: the farm has the others.
-  question.settings.modulus_of = explore::modulus_by_tester(model->parameters, model->fidelity, 1);
+  question.settings.modulus_of = explore::modulus_by_tester(game::material_side(model->parameters), model->fidelity, 1);
   return question;
 }
 
 }  // namespace
 
-std::string search_spec(const explore::Question& question, const wire::SimulateRequest& model) {
+std::string search_spec(const explore::Question& question, const wire::AdoptedModel& model) {
   return runtime::pack({question.settings.algorithm, std::to_string(question.settings.seed),
                         std::to_string(question.count), packed(question.evaluated), packed(question.lost),
                         packed(question.settings.former), wire::write(model)});

@@ -12,7 +12,7 @@ namespace nacre::proposal_agent {
 
 /// Spec of a Compute of kind "search": the question whole and the model that it is asked of, so that the answer is a
 /// function of the spec.
-std::string search_spec(const explore::Question& question, const wire::SimulateRequest& model);
+std::string search_spec(const explore::Question& question, const wire::AdoptedModel& model);
 
 /// Kind "search": explore::answer_to() of the question.
 std::string search_work(const std::string& spec);

@@ -1,0 +1,38 @@
+// A batch of a search that thinks is worked out from its spec alone.
+
+#include "proposal_agent/search_work.hpp"
+
+#include <gtest/gtest.h>
+
+#include "explore/exact_modulus.hpp"
+
+namespace nacre::proposal_agent {
+namespace {
+
+TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli) {
+  explore::SearchSettings settings;
+  settings.algorithm = "learned";
+  settings.budget = 30;
+  const auto search = explore::make_search(settings);
+  double toughness_pa = 1e5;
+  while (!search->question()) {
+    std::vector<std::optional<optimize::Performance>> answers;
+    for (const pattern::Pattern& pattern : search->ask())
+      answers.push_back(optimize::Performance{1e9 * pattern.rigid_fraction(), toughness_pa += 1e3});
+    search->tell(answers);
+  }
+  wire::AdoptedModel model;
+  model.fidelity = tester::Fidelity::tiny;
+  model.parameters = material::default_parameters();
+  explore::Question question = *search->question();
+  const auto batch = batch_from_result(search_work(search_spec(question, model)));
+  ASSERT_TRUE(batch) << batch.error().message;
+  EXPECT_EQ(batch->size(), 10u);
+  question.settings.modulus_of = explore::modulus_by_tester(model.parameters, model.fidelity, 1);
+  EXPECT_EQ(*batch, explore::answer_to(question));
+  question.settings.modulus_of = {};
+  EXPECT_NE(*batch, explore::answer_to(question)) << "moduli that are believed choose otherwise";
+}
+
+}  // namespace
+}  // namespace nacre::proposal_agent
