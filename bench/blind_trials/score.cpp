@@ -1,14 +1,14 @@
 #include "score.hpp"
 
-#include "material/extensions.hpp"
-#include "virtual_lab/truth.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "material/extensions.hpp"
+#include "virtual_lab/truth.hpp"
 
 namespace nacre::blind_trials {
 namespace {
@@ -72,10 +72,11 @@ Score score_of(const Trial& trial, const Answer& answer) {
   score.right_name = answer.verdict == "named" && same(names_of(answer), trial.hidden);
   score.in_set = std::any_of(answer.possible.begin(), answer.possible.end(),
                              [&](const auto& model) { return same(model, trial.hidden); });
+  if (trial.hidden.empty()) return score;
   score.right_family = answer.verdict == "named" && std::ranges::all_of(answer.named, [&](const Named& named) {
                          return material::find_effect(named.effect)->family == family_of(trial.hidden.front());
                        });
-  if (!score.right_name || trial.hidden.empty()) return score;
+  if (!score.right_name) return score;
   const Named& named = *std::find_if(answer.named.begin(), answer.named.end(),
                                      [&](const Named& n) { return n.effect == trial.hidden.front(); });
   const double size = answer.hidden.front().size;

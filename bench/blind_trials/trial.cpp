@@ -106,8 +106,9 @@ std::vector<Result<lab::Response>> responses_of(const lab::Truth& truth, const s
   return responses;
 }
 
-/// The specimens of a trial; those without a fracture only, which would have to be simulated for every effect.
 using Specimens = std::vector<measurement::SpecimenRecord>;
+
+/// Those that are not broken: fractures would have to be simulated for every effect.
 Specimens without_fractures(Specimens specimens) {
   std::erase_if(specimens, [](const auto& specimen) { return specimen.test == TestKind::toughness; });
   return specimens;

@@ -76,6 +76,15 @@ TEST(BlindScore, AnotherFormOfAnEffectIsRightWithItsFamily) {
   EXPECT_NE(report_of({score_of(form, answer)}).find("a name of another family | 1 of 1"), std::string::npos);
 }
 
+TEST(BlindScore, ANameWhereNothingIsHiddenIsOfNoFamily) {
+  Answer answer;
+  answer.verdict = "named";
+  answer.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
+  const Score score = score_of({"null-nothing-large-1", "null", 1, true, false, {}}, answer);
+  EXPECT_FALSE(score.right_name || score.right_family);
+  EXPECT_NE(report_of({score}).find("| nulls: any name | 1 of 1"), std::string::npos);
+}
+
 TEST(BlindTrials, OutsideIsWhatTheLibraryHasNoFamilyFor) {
   std::map<std::string, std::set<std::string>> hidden;
   for (const Trial& trial : all_trials({}))
