@@ -361,6 +361,24 @@ TEST_F(Game, CorruptAndForeignMessagesChangeNothing) {
 
 TEST_F(Game, ReplayOfEveryNodeSaysTheSame) { expect_replays(undisturbed_run()); }
 
+/// A search that learns works its batches out in processes of their own, from what their spec holds alone.
+TEST_F(Game, ALearnedSearchThatWasKilledGoesOnAndThinksTheSameAgain) {
+  std::string text = short_game("learned", 1);
+  const std::string ten_samples = "samples = 10";
+  text.replace(text.find(ten_samples), ten_samples.size(), "samples = 15\nalgorithm = \"learned\"");
+  PlayedGame game(written(folder_ / "learned.toml", text), logs(), "learned");
+  std::vector<Kill> kills = {{.node = "proposal_agent", .share = 0.5}};
+  std::map<std::string, int> killed;
+  ASSERT_TRUE(game.play_to_end(kPatienceS, [&] { kill_those_due(game, undisturbed_run(), kills, killed); }))
+      << game.said();
+  ASSERT_EQ(game.status(), 0) << game.said();
+  EXPECT_TRUE(kills[0].done);
+  const Outcome replay = run_nacre({"replay", game.folder().string(), "--node", "proposal_agent", "--recompute"});
+  EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+  EXPECT_THAT(replay.out, HasSubstr("the same, byte for byte"));
+  EXPECT_THAT(replay.out, Not(HasSubstr(", 0 works done again")));
+}
+
 TEST_F(Game, ReplayNamesTheFirstDifference) {
   const fs::path altered = folder_ / "altered";
   fs::copy(undisturbed_run(), altered, fs::copy_options::recursive);
