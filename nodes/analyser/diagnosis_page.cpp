@@ -131,8 +131,9 @@ std::string status_words(const Candidate& c, Verdict verdict) {
 }
 
 constexpr const char* kColumnsOfRivals =
-    "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found; below {:.1f} it "
-    "cannot be told from nothing. Hidden by the base: share of its traces that other constants of the materials "
+    "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found, counted where the "
+    "base model stands (a name is judged once more at constants of its own); below {:.1f} it cannot be told from "
+    "nothing. Hidden by the base: share of its traces that other constants of the materials "
     "imitate. Cosine 1: two causes look alike on these specimens. Chance: how often the best of all causes would look "
     "as good by accident.";
 
