@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -150,36 +151,46 @@ std::string signal_in_toml(std::string_view name, double s, double rho, std::str
                      s, rho, rival, ceiling);
 }
 
-/// What the specimens could show of each hidden effect that the library knows, at the true constants.
-std::string signals_of_known(const Sealing& sealing, const lab::Truth& truth, const Specimens& planned) {
+/// The same truth with nothing hidden but the effects of these names.
+lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
+  const lab::HiddenEffects hidden = std::exchange(truth.effects, {});
+  for (const lab::EffectKind& kind : lab::effect_kinds()) {
+    if (std::ranges::find(names, kind.name) == names.end()) continue;
+    truth.effects.*kind.value = hidden.*kind.value;
+    if (kind.second.value) truth.effects.*kind.second.value = hidden.*kind.second.value;
+  }
+  return truth;
+}
+
+/// How well the specimens could show one hidden effect, beyond what the base imitates: the laboratory's own numerics
+/// with it alone and with nothing.
+double signal_of(const std::string& effect, const Sealing& sealing, const lab::Truth& truth,
+                 const std::vector<lab::Question>& questions, const Specimens& planned) {
+  const auto shown = [&](std::span<const std::string> names) {
+    const lab::Truth hiding = hiding_only(truth, names);
+    return without_scatter(hiding, questions, responses_of(hiding, questions), planned);
+  };
+  return diagnosis::signal_of_change(shown({}), shown({&effect, 1}), sealing.settings, sealing.scatter);
+}
+
+/// Signal of every hidden effect; of those that the library knows the nearest rival too.
+std::string signals_of(const Trial& trial, const Sealing& sealing, const lab::Truth& truth,
+                       const std::vector<lab::Question>& questions, const Specimens& planned) {
   const diagnosis::Plan plan =
       diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false);
   std::string text;
-  for (const lab::EffectKind& kind : lab::effect_kinds()) {
-    const double value = truth.effects.*kind.value;
-    const auto known =
-        std::find_if(plan.effects.begin(), plan.effects.end(), [&](const auto& e) { return e.name == kind.name; });
-    if (value == 0.0 || known == plan.effects.end()) continue;
-    const double strength =
-        std::abs(material::strength_of(material::find_effect(kind.name)->parameters.front(), value));
-    const double s = diagnosis::signal_at(*known, strength),
-                 distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += signal_in_toml(kind.name, s, known->rival_cosine, known->nearest_rival,
+  for (const std::string& effect : trial.hidden) {
+    const double s = signal_of(effect, sealing, truth, questions, planned);
+    const auto known = std::ranges::find(plan.effects, effect, &diagnosis::PlannedEffect::name);
+    if (known == plan.effects.end()) {
+      text += signal_in_toml(effect, s, 0.0, "", 0.0);
+      continue;
+    }
+    const double distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
+    text += signal_in_toml(effect, s, known->rival_cosine, known->nearest_rival,
                            0.5 * std::erfc(-distance / std::sqrt(2.0)));
   }
   return text;
-}
-
-/// What they could show of what the library does not hold: the laboratory's own numerics with it and without.
-std::string signal_of_unknown(const Sealing& sealing, const Trial& trial, const lab::Truth& truth,
-                              const std::vector<lab::Question>& questions,
-                              const std::vector<Result<lab::Response>>& responses, const Specimens& planned) {
-  lab::Truth plain = truth;
-  plain.effects = {};
-  const double s = diagnosis::signal_of_change(
-      without_scatter(plain, questions, responses_of(plain, questions), planned),
-      without_scatter(truth, questions, responses, planned), sealing.settings, sealing.scatter);
-  return signal_in_toml(trial.hidden.front(), s, 0.0, "", 0.0);
 }
 
 }  // namespace
@@ -287,11 +298,8 @@ void generate(const Trial& trial, const TrialOptions& options, const fs::path& f
     std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
   for (std::size_t i = 0; i < records.size(); ++i) records[i].print_order = order[i];
   const Sealing sealing = sealing_of(options, truth);
-  const bool unknown = trial.kind == "outside" || trial.kind == "form";
-  const std::string signals =
-      fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind,
-                  unknown ? signal_of_unknown(sealing, trial, truth, questions, responses, records)
-                          : signals_of_known(sealing, truth, records));
+  const std::string signals = fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind,
+                                          signals_of(trial, sealing, truth, questions, records));
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t q = i / kReplicates;
     records[i] = lab::record_specimen(truth, questions[q], responses[q],

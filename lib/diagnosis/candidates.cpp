@@ -61,7 +61,7 @@ std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& d
         candidate.rival_cosine = cosine, candidate.nearest_rival = evidence.effects[j];
     }
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
-    const bool visible = typical.projected >= kVisibleSignal && typical.absorption() <= kInvisibleAbsorption;
+    const bool visible = typical.projected >= kVisibleSignal;
     const bool noticed = candidate.p_family_wise <= evidence.settings.name_level;
     candidate.status = holds(decision.possible, candidate.name) ? "in_set"
                        : visible || noticed                     ? "excluded"

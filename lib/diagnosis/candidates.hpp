@@ -19,8 +19,6 @@ inline constexpr double kExclusionLevel = 0.005;
 /// it too: odds of one to 200, as the exclusion level of the draws has it; and when they do not: out even if specimens
 /// scattered 1.7 times as much as replicates say.
 inline constexpr double kOwnLead = 10.6, kCertainLead = 3.0 * kOwnLead;
-/// Share of a signature that the base imitates above which the effect is called invisible.
-inline constexpr double kInvisibleAbsorption = 0.95;
 
 /// What became of every effect of the library: fitted size and drop, absorption, signal-to-noise at the fitted size
 /// where it was noticed and at a typical one otherwise (0.3 of its range), and its nearest rival among the effects that

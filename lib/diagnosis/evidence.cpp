@@ -15,12 +15,13 @@ constexpr double kWellKnown = 1.5;
 /// Effects whose fits are simulated: those that come near the best.
 constexpr std::size_t kRefinedEffects = 4;
 
-/// Sizes at which a one-sided or two-sided effect is tried, in the order of its signature's changes.
-std::vector<double> signed_sizes(bool one_sided) {
-  std::vector<double> sizes(std::begin(kSizes), std::end(kSizes));
+/// These sizes of an effect, and of a two-sided one the same the other way round, in the order of a signature's
+/// changes.
+std::vector<double> signed_sizes(std::span<const double> sizes, bool one_sided) {
+  std::vector<double> all(sizes.begin(), sizes.end());
   if (!one_sided)
-    for (const double size : kSizes) sizes.push_back(-size);
-  return sizes;
+    for (const double size : sizes) all.push_back(-size);
+  return all;
 }
 
 /// Shares of the whole work between which a step lies.
@@ -111,7 +112,7 @@ void refine_fractures(Evidence& evidence, Workbench& workbench) {
 }  // namespace
 
 std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor,
-                                     const std::vector<std::string>& effects) {
+                                     const std::vector<std::string>& effects, std::span<const double> sizes) {
   std::vector<Signature> signatures;
   for (const std::string& effect : effects) {
     std::vector<std::string> names = anchor.effects;
@@ -120,7 +121,7 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
     const int own = static_cast<int>(anchor.u.size());
     Signature signature{effect, {}, map.lower(own) >= 0.0};
     std::vector<Eigen::VectorXd> points;
-    for (const double size : signed_sizes(signature.one_sided)) {
+    for (const double size : signed_sizes(sizes, signature.one_sided)) {
       points.push_back(widened_start(anchor, map));
       points.back()[own] = std::clamp(size, map.lower(own), map.upper(own));
     }
@@ -154,7 +155,7 @@ Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observ
   const Eigen::Index own = anchor.u.size();
   Eigen::VectorXd best = widened_start(anchor, map);
   double least = anchor.chi2;
-  const std::vector<double> sizes = signed_sizes(signature.one_sided);
+  const std::vector<double> sizes = signed_sizes(kSizes, signature.one_sided);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     Fit shifted = anchor;
     shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));

@@ -8,6 +8,7 @@
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/experiments.hpp"
+#include "diagnosis/features.hpp"
 #include "diagnosis/scatter.hpp"
 
 namespace nacre::diagnosis {
@@ -17,6 +18,11 @@ using measurement::SpecimenRecord;
 using tester::TestKind;
 
 constexpr int kAddedReplicates = 3;
+/// Shares of an effect's range at which a plan looks for the smallest that shows: closer than those of a diagnosis,
+/// since flow and its like leave nothing at all until they begin.
+constexpr double kPlannedSizes[] = {0.03, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.45, 0.6};
+constexpr int kPlannedTypical = 6;  ///< the typical size of a diagnosis among them
+static_assert(kPlannedSizes[kPlannedTypical] == kSizes[kTypicalSize]);
 
 /// What the specimens would show if the start parameters were the truth: values for whatever they lack.
 void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& settings) {
@@ -114,22 +120,34 @@ DiagnosisSettings as_given(DiagnosisSettings settings) {
   return settings;
 }
 
-/// Smallest size, as a strength, at which `judged` reaches `wanted`: between the sizes of a signature in log scale;
-/// nothing beyond them.
+/// Coupons of both read as far as the shorter curve goes: how far somebody pulled is no trace of a cause.
+void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenRecord>& changed) {
+  for (std::size_t i = 0; i < std::min(specimens.size(), changed.size()); ++i) {
+    tester::Curve &one = specimens[i].curve, &other = changed[i].curve;
+    if (specimens[i].test != TestKind::tensile || one.empty() || other.empty() || is_unloaded(one)) continue;
+    const double strain = std::min(one.strain.back(), other.strain.back());
+    one = truncated(one, strain);
+    other = truncated(other, strain);
+  }
+}
+
+/// Smallest size, as a strength, at which `judged` reaches `wanted`: between the planned sizes in log scale, the larger
+/// of the two where the smaller leaves nothing; nothing beyond them.
 std::optional<double> smallest(const std::vector<double>& judged, double wanted) {
+  constexpr double kNothing = 0.01;
   for (std::size_t i = 0; i < judged.size(); ++i) {
     if (judged[i] < wanted) continue;
-    if (i == 0) return kSizes[0] * wanted / judged[0];
-    const double t =
-        std::log(wanted / std::max(judged[i - 1], 1e-9)) / std::log(judged[i] / std::max(judged[i - 1], 1e-9));
-    return std::exp(std::log(kSizes[i - 1]) + t * std::log(kSizes[i] / kSizes[i - 1]));
+    if (i == 0) return kPlannedSizes[0] * wanted / judged[0];
+    if (judged[i - 1] < kNothing) return kPlannedSizes[i];
+    const double t = std::log(wanted / judged[i - 1]) / std::log(judged[i] / judged[i - 1]);
+    return kPlannedSizes[i - 1] * std::pow(kPlannedSizes[i] / kPlannedSizes[i - 1], t);
   }
   return std::nullopt;
 }
 
 /// Signatures of all effects in some rows, whitened and projected off what the base imitates there.
 struct Traces {
-  std::vector<Eigen::MatrixXd> projected;  ///< rows x kSizes, per signature
+  std::vector<Eigen::MatrixXd> projected;  ///< rows x kPlannedSizes, per signature
   std::vector<double> absorption;          ///< at a typical size
 };
 
@@ -139,42 +157,41 @@ Traces traces_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
   Traces traces;
   for (const Signature& signature : sheet.signatures) {
     const Eigen::MatrixXd changes =
-        signature.changes(rows, Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kSizes))));
+        signature.changes(rows, Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kPlannedSizes))));
     traces.projected.push_back(projected_signatures(base, changes, whitener));
-    traces.absorption.push_back(signature_size(base, changes.col(kTypicalSize), whitener).absorption());
+    traces.absorption.push_back(signature_size(base, changes.col(kPlannedTypical), whitener).absorption());
   }
   return traces;
 }
 
 /// What a diagnosis would make of effect k at every size: signal, distance to the nearest rival of typical size.
 PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const Traces& traces, std::size_t k) {
-  std::vector<double> distance;
-  for (std::size_t i = 0; i < std::size(kSizes); ++i) {
+  std::vector<double> signals, distance;
+  for (std::size_t i = 0; i < std::size(kPlannedSizes); ++i) {
     const auto own = traces.projected[k].col(static_cast<Eigen::Index>(i));
     double nearest = 0.0;
     std::string rival;
     for (std::size_t j = 0; j < traces.projected.size(); ++j) {
-      const auto other = traces.projected[j].col(kTypicalSize);
+      const auto other = traces.projected[j].col(kPlannedTypical);
       const double lengths = own.norm() * other.norm();
       if (j == k || lengths < 1e-6) continue;
       const double cosine = std::min(1.0, std::abs(own.dot(other)) / lengths);
       if (cosine > nearest) nearest = cosine, rival = sheet.signatures[j].effect;
     }
-    planned.signals.push_back(own.norm());
+    signals.push_back(own.norm());
     distance.push_back(own.norm() * std::sqrt((1.0 - nearest) / 2.0));
-    if (i == kTypicalSize) planned.nearest_rival = rival, planned.rival_cosine = nearest;
+    if (i == kPlannedTypical) planned.nearest_rival = rival, planned.rival_cosine = nearest;
   }
   planned.absorption = traces.absorption[k];
-  planned.signal_to_noise = planned.signals[kTypicalSize];
+  planned.signal_to_noise = signals[kPlannedTypical];
   const material::EffectParameter& parameter = material::find_effect(planned.name)->parameters.front();
   const auto value = [&](const std::optional<double>& strength) {
     return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
   };
-  // As a diagnosis decides: what the base imitates is invisible, and a name needs traces that no look-alike leaves.
-  const bool imitated = planned.absorption > kInvisibleAbsorption;
-  const auto nameable = smallest(planned.signals, kNameableSignal), apart = smallest(distance, kToldApart);
-  planned.smallest_seen = imitated ? std::nullopt : value(smallest(planned.signals, kVisibleSignal));
-  planned.smallest_told_apart = !imitated && nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
+  // As a diagnosis decides: a name needs traces that no look-alike leaves.
+  const auto nameable = smallest(signals, kNameableSignal), apart = smallest(distance, kToldApart);
+  planned.smallest_seen = value(smallest(signals, kVisibleSignal));
+  planned.smallest_told_apart = nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
   planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
   return planned;
 }
@@ -190,7 +207,7 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
     planned.status = "not_shown";
     const auto found = std::ranges::find(sheet.signatures, effect.name, &Signature::effect);
     const auto k = static_cast<std::size_t>(found - sheet.signatures.begin());
-    const bool shown = found != sheet.signatures.end() && traces.projected[k].col(kTypicalSize).norm() >= 1e-6;
+    const bool shown = found != sheet.signatures.end() && traces.projected[k].norm() >= 1e-6;
     effects.push_back(shown ? judged(std::move(planned), sheet, traces, k) : std::move(planned));
   }
   return effects;
@@ -224,14 +241,6 @@ PlannedAddition compare(const std::string& words, const std::vector<PossibleTest
 
 }  // namespace
 
-double signal_at(const PlannedEffect& effect, double strength) {
-  if (effect.signals.empty() || strength <= 0.0) return 0.0;
-  std::size_t i = 1;
-  while (i + 1 < effect.signals.size() && kSizes[i] < strength) ++i;
-  const double low = std::max(effect.signals[i - 1], 1e-9), high = std::max(effect.signals[i], 1e-9);
-  return low * std::pow(high / low, std::log(strength / kSizes[i - 1]) / std::log(kSizes[i] / kSizes[i - 1]));
-}
-
 Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter, bool additions) {
   fill_in(specimens, settings);
@@ -246,7 +255,7 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   Workbench workbench(all, as_given(settings));
   Sheet sheet = sheet_of(workbench, settings, scatter);
   const Observations& observations = sheet.observations;
-  sheet.signatures = signatures_on(workbench.model(), sheet.base, workbench.effects());
+  sheet.signatures = signatures_on(workbench.model(), sheet.base, workbench.effects(), kPlannedSizes);
 
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
     std::vector<Eigen::Index> rows;
@@ -277,8 +286,9 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   return plan;
 }
 
-double signal_of_change(const std::vector<SpecimenRecord>& specimens, const std::vector<SpecimenRecord>& changed,
+double signal_of_change(std::vector<SpecimenRecord> specimens, std::vector<SpecimenRecord> changed,
                         const DiagnosisSettings& settings, const AssumedScatter& scatter) {
+  read_alike(specimens, changed);
   Workbench workbench(specimens, as_given(settings));
   const Sheet sheet = sheet_of(workbench, settings, scatter);
   const Observations other = observe(changed, settings.floor.log_modulus_sd, settings.fracture_numerics);

@@ -22,11 +22,7 @@ struct PlannedEffect {
   double signal_to_noise = 0.0;               ///< at a typical size (0.3 of its range)
   std::string nearest_rival;
   double rival_cosine = 0.0;
-  std::vector<double> signals;  ///< signal-to-noise at the strengths kSizes (workbench.hpp); empty: not shown
 };
-
-/// Signal-to-noise of an effect at a strength, between those of `signals` in log scale.
-double signal_at(const PlannedEffect& effect, double strength);
 
 /// A few specimens more, and what they would change.
 struct PlannedAddition {
@@ -53,11 +49,12 @@ struct Plan {
 Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter = {}, bool additions = true);
 
-/// Signal-to-noise of a cause that no effect of the library describes: of how `changed` differ from `specimens` (the
-/// same specimens in the same order, both with values), as far as the base model cannot imitate it. Start parameters
-/// stand for the truth. Throws InputError as diagnose() does, and where the two do not show the same features.
-double signal_of_change(const std::vector<measurement::SpecimenRecord>& specimens,
-                        const std::vector<measurement::SpecimenRecord>& changed, const DiagnosisSettings& settings,
+/// Signal-to-noise of a cause, of the library or not: of how `changed` differ from `specimens` (the same specimens in
+/// the same order, both with values; coupons are compared as far as both were pulled), as far as the base model cannot
+/// imitate it. Start parameters stand for the truth. Throws InputError as diagnose() does, and where the two do not
+/// show the same features.
+double signal_of_change(std::vector<measurement::SpecimenRecord> specimens,
+                        std::vector<measurement::SpecimenRecord> changed, const DiagnosisSettings& settings,
                         const AssumedScatter& scatter);
 
 /// The JSON document of `nacre diagnose --plan --json`.

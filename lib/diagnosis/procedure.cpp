@@ -16,8 +16,8 @@ std::string procedure_text(const DiagnosisSettings& settings) {
                                  tester::to_string(settings.fidelity), settings.name_level, settings.unexplained_level,
                                  kExclusionLevel, kOutsiderLevel, settings.bootstraps);
   text += fmt::format("leads {} {}\n", kOwnLead, kCertainLead);
-  text += fmt::format("signal {} {} (at the named constants) distance {} absorption {} sizes {}\n", kVisibleSignal, kNameableSignal, kToldApart,
-                      kInvisibleAbsorption, fmt::join(kSizes, " "));
+  text += fmt::format("signal {} {} (at the named constants) distance {} sizes {}\n", kVisibleSignal, kNameableSignal,
+                      kToldApart, fmt::join(kSizes, " "));
   text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,
                       settings.floor.mesh_remainder_sd);
   const FractureNumerics& fracture = settings.fracture_numerics;

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,9 +43,9 @@ struct Decision {
 /// move these models.
 Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings);
 
-/// Signatures of every effect on top of a fitted model, at several sizes each.
+/// Signatures of every effect on top of a fitted model, at these shares of its range.
 std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor,
-                                     const std::vector<std::string>& effects);
+                                     const std::vector<std::string>& effects, std::span<const double> sizes = kSizes);
 
 /// Start of a joint fit of a fitted model and one effect more: the size of its signature that lowers the misfit most.
 Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/candidates.hpp"
 #include "diagnosis/workbench.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
@@ -11,22 +12,66 @@
 namespace nacre::diagnosis {
 namespace {
 
-TEST(Plan, ACauseWithoutANameIsCountedLikeOneOfTheLibrary) {
+class Plans : public testing::Test {
+ protected:
+  Plans() {
+    settings_.start = material::default_parameters();
+    settings_.fidelity = tester::Fidelity::tiny;
+  }
+  PlannedEffect planned(const std::vector<measurement::SpecimenRecord>& specimens, std::string_view effect) const {
+    const Plan plan = plan_diagnosis(specimens, settings_, kScatter, false);
+    return *std::ranges::find(plan.effects, effect, &PlannedEffect::name);
+  }
+  material::ParameterSet with(const std::string& effect, double value) const {
+    material::ParameterSet set = settings_.start;
+    set.extensions[effect] = {value};
+    return set;
+  }
+  double signal(const std::vector<measurement::SpecimenRecord>& plain,
+                const std::vector<measurement::SpecimenRecord>& changed) const {
+    return signal_of_change(plain, changed, settings_, kScatter);
+  }
+
+  static constexpr AssumedScatter kScatter{.modulus = 0.01, .stress = 0.01, .strain = 0.01};
+  DiagnosisSettings settings_;
+};
+
+TEST_F(Plans, ACauseWithoutANameIsCountedLikeOneOfTheLibrary) {
   // The same change of the same specimens: as a signature of the library, and as what another set of values shows.
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  settings.fidelity = tester::Fidelity::tiny;
-  const AssumedScatter scatter{.modulus = 0.01, .stress = 0.01, .strain = 0.01};
   const SyntheticSet set{.patterns = 10, .twins = 3, .noise = 0.0};
   const material::Effect& mixing = *material::find_effect("droplet_mixing");
-  material::ParameterSet mixed = settings.start;
-  mixed.extensions["droplet_mixing"] = {material::value_at_strength(mixing.parameters.front(), kSizes[kTypicalSize])};
-  const auto plain = synthetic_specimens(set, settings.start), changed = synthetic_specimens(set, mixed);
-  const Plan plan = plan_diagnosis(plain, settings, scatter, false);
-  const auto planned = std::ranges::find(plan.effects, "droplet_mixing", &PlannedEffect::name);
-  const double s = signal_of_change(plain, changed, settings, scatter);
+  const double typical = material::value_at_strength(mixing.parameters.front(), kSizes[kTypicalSize]);
+  const auto plain = synthetic_specimens(set, settings_.start),
+             changed = synthetic_specimens(set, with("droplet_mixing", typical));
+  const double s = signal(plain, changed);
   EXPECT_GT(s, 3.0);
-  EXPECT_NEAR(s, planned->signal_to_noise, 1e-3 * s);
+  EXPECT_NEAR(s, planned(plain, "droplet_mixing").signal_to_noise, 1e-3 * s);
+}
+
+// Flow leaves nothing until stress reaches the yield stress: the smallest effect is where it begins to show.
+TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
+  const auto pulled = [&](const material::ParameterSet& truth) { return synthetic_coupons(truth, {1e-3}, 3, 0.0, 1); };
+  const auto plain = pulled(settings_.start);
+  const PlannedEffect flow = planned(plain, "rigid_yield");
+  ASSERT_TRUE(flow.smallest_seen.has_value());
+  EXPECT_GT(signal(plain, pulled(with("rigid_yield", *flow.smallest_seen))), kVisibleSignal);
+  EXPECT_LT(signal(plain, pulled(with("rigid_yield", 1.4 * *flow.smallest_seen))), kVisibleSignal);
+}
+
+// A machine that gives way looks nearly like softer materials on specimens of all stiffnesses; what is left is seen.
+TEST_F(Plans, WhatTheBaseMostlyImitatesIsSeenByWhatIsLeft) {
+  const auto printed = [&](double compliance_per_pa) {
+    const auto truth = compliance_per_pa > 0.0 ? with("machine_compliance", compliance_per_pa) : settings_.start;
+    auto specimens = synthetic_specimens({.patterns = 14, .twins = 5, .noise = 0.0}, truth);
+    const auto coupons = synthetic_coupons(truth, {1e-3}, 3, 0.0, 1);
+    specimens.insert(specimens.end(), coupons.begin(), coupons.end());
+    return specimens;
+  };
+  const auto plain = printed(0.0);
+  const PlannedEffect compliance = planned(plain, "machine_compliance");
+  EXPECT_GT(compliance.absorption, 0.95);
+  ASSERT_TRUE(compliance.smallest_seen.has_value());
+  EXPECT_NEAR(signal(plain, printed(*compliance.smallest_seen)), kVisibleSignal, 0.1 * kVisibleSignal);
 }
 
 }  // namespace
