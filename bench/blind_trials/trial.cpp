@@ -162,27 +162,24 @@ lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
   return truth;
 }
 
-/// How well the specimens could show one hidden effect, beyond what the base imitates: the laboratory's own numerics
-/// with it alone and with nothing.
-double signal_of(const std::string& effect, const Sealing& sealing, const lab::Truth& truth,
-                 const std::vector<lab::Question>& questions, const Specimens& planned) {
+/// How well the specimens could show every hidden effect, beyond what the base imitates: the laboratory's own numerics
+/// with it alone and with nothing. Of those that the library knows the nearest rival too.
+std::string signals_of(const Trial& trial, const Sealing& sealing, const lab::Truth& truth,
+                       const std::vector<lab::Question>& questions, const Specimens& planned) {
+  if (trial.hidden.empty()) return {};
   const auto shown = [&](std::span<const std::string> names) {
     const lab::Truth hiding = hiding_only(truth, names);
     return without_scatter(hiding, questions, responses_of(hiding, questions), planned);
   };
-  return diagnosis::signal_of_change(shown({}), shown({&effect, 1}), sealing.settings, sealing.scatter);
-}
-
-/// Signal of every hidden effect; of those that the library knows the nearest rival too.
-std::string signals_of(const Trial& trial, const Sealing& sealing, const lab::Truth& truth,
-                       const std::vector<lab::Question>& questions, const Specimens& planned) {
-  const diagnosis::Plan plan =
-      diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false);
+  std::vector<diagnosis::PlannedEffect> library;  // rivals: asked for only where there are any
+  if (std::ranges::any_of(trial.hidden, material::find_effect))
+    library = diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false).effects;
+  const Specimens plain = shown({});
   std::string text;
   for (const std::string& effect : trial.hidden) {
-    const double s = signal_of(effect, sealing, truth, questions, planned);
-    const auto known = std::ranges::find(plan.effects, effect, &diagnosis::PlannedEffect::name);
-    if (known == plan.effects.end()) {
+    const double s = diagnosis::signal_of_change(plain, shown({&effect, 1}), sealing.settings, sealing.scatter);
+    const auto known = std::ranges::find(library, effect, &diagnosis::PlannedEffect::name);
+    if (known == library.end()) {
       text += signal_in_toml(effect, s, 0.0, "", 0.0);
       continue;
     }
