@@ -1,4 +1,5 @@
 # Shared by launch/game and tests/run: installs what is missing, builds, and bundles the dashboard's page. Source it with NACRE_ROOT set.
+: "${NACRE_ROOT:?set NACRE_ROOT to the folder of the project before sourcing this}"
 
 say() { printf '%s\n' "nacre: $*" >&2; }
 give_up() { say "$*"; exit 2; }

@@ -16,6 +16,7 @@ struct Options {
   std::string set = "default";                   ///< name of the parameter set in file names
   std::string variant;                           ///< name of the run; the algorithm's when empty
   std::string reference = "nsga2-single-pixel";  ///< variant whose final hypervolume is to be reached
+  std::string known;                             ///< gamut.csv of the same parameters to start from; empty: none
   std::string former;                            ///< gamut.csv that `learned` learns from too; empty: none
   explore::SearchSettings search;
   bool believed_modulus = false;  ///< `learned` is not told the modulus of its finalists

@@ -40,6 +40,9 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--weight-decay", learned.weight_decay)->capture_default_str();
   command.add_option("--dropout", learned.dropout)->capture_default_str();
   command.add_option("--floor-deviations", learned.floor_deviations)->capture_default_str();
+  command.add_option("--barred-start", learned.barred_start)->capture_default_str();
+  command.add_option("--barred-candidates", learned.barred_candidates)->capture_default_str();
+  command.add_option("--patience", learned.patience)->capture_default_str();
   command.add_flag("--believed-modulus", options.believed_modulus,
                    "the modulus of finalists is believed like their toughness, not computed");
   command.add_option("--former", options.former, "gamut.csv of other parameters or another fidelity, learnt from too")
@@ -67,6 +70,8 @@ int main(int argc, char** argv) {
   run->add_option("--budget", options.search.budget)->capture_default_str();
   run->add_option("--population", options.search.population)->capture_default_str();
   run->add_option("--batch", options.search.batch)->capture_default_str();
+  run->add_option("--known", options.known, "gamut.csv of the same parameters and fidelity to start from")
+      ->check(CLI::ExistingFile);
   run->add_option("--minutes", options.minutes, "stop after this time; run again to go on");
   run->add_option("--threads", options.threads, "0: all allowed cores");
   for (CLI::App* command : {held_out, predicted}) {
@@ -86,6 +91,7 @@ int main(int argc, char** argv) {
   if (options.variant.empty()) options.variant = options.search.algorithm;
   bool finished = true;
   const int status = nacre::study::exit_status_of([&] {
+    if (!options.known.empty()) options.search.known = nacre::explore::read_gamut_csv(options.known);
     if (!options.former.empty()) options.search.former = nacre::explore::read_gamut_csv(options.former);
     if (*run) finished = run_searches(options);
     if (*held_out) predict_held_out(options);

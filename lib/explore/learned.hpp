@@ -14,9 +14,10 @@ void check_learned(const LearnedSettings& settings);
 /// them, the first patterns by non-dominated sorting.
 LearnedSettings thesis_learning();
 
-/// The next batch: predictors of log E and log T are fitted to what was evaluated (and to `former` samples as a first
-/// guess), NSGA-II searches on them from the best samples, and among all that it visits those not yet simulated are
-/// chosen. Fewer than asked for only when the search on the predictor visits fewer.
+/// The next batch. After the random patterns come some with rigid bars. Then predictors of log E and log T are fitted
+/// to what was evaluated (and to `former` samples as a first guess), NSGA-II searches on them from the best samples and
+/// the best of many random patterns with bars, and among all that are not yet simulated the batch is chosen. Fewer than
+/// asked for only when there are fewer.
 std::vector<pattern::Pattern> learned_batch(const Question& question);
 
 }  // namespace nacre::explore

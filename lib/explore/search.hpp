@@ -26,13 +26,16 @@ struct Evaluated {
 struct LearnedSettings {
   std::string predictor = "patches";   ///< patches: Gaussian process on neighbourhoods; networks: residual networks
   std::string choice = "improvement";  ///< improvement: expected hypervolume improvement; rank: non-dominated sorting
-  int generations = 60;                ///< of the search on the predictor
-  int population = 100;                ///< of that search
-  double optimism = 0.0;               ///< deviations added to predictions while searching on the predictor
-  int members = 3;                     ///< networks per property; their disagreement is the uncertainty
-  bool warm_start = true;              ///< networks go on from those of fewer samples; else from nothing every time
-  double weight_decay = 1e-2;          ///< of the networks for toughness
-  double dropout = 0.2;                ///< of the networks for toughness
+  int barred_start = 40;          ///< patterns with rigid bars that follow the random ones (none with `former` samples)
+  int barred_candidates = 2000;   ///< of them that every batch may be chosen from, beside what the search visits
+  int patience = 50;              ///< samples without growth after which an island ends (islands.hpp); 0: never
+  int generations = 60;           ///< of the search on the predictor
+  int population = 100;           ///< of that search
+  double optimism = 0.0;          ///< deviations added to predictions while searching on the predictor
+  int members = 3;                ///< networks per property; their disagreement is the uncertainty
+  bool warm_start = true;         ///< networks go on from those of fewer samples; else from nothing every time
+  double weight_decay = 1e-2;     ///< of the networks for toughness
+  double dropout = 0.2;           ///< of the networks for toughness
   int most_samples = 5000;        ///< that `patches` learns from; of more, half the best by rank, half of the others
                                   ///< (networks learn from all)
   double floor_deviations = 0.5;  ///< toughness lower than so many robust deviations below its trend over the

@@ -23,6 +23,34 @@ std::array<int, kFreePixels> shuffled_free_pixels(RandomStream& random) {
   return order;
 }
 
+/// Rows first to last - 1 of the quarter.
+struct Gap {
+  int first = 0, last = 0;
+};
+
+/// What random bars leave between them: runs of rows without one.
+std::vector<Gap> gaps_between_bars(RandomStream& random) {
+  constexpr int kFewest = 2, kMost = 6;  // beside the outer row
+  std::array<bool, kQuarter> is_bar{true};
+  for (int left = kFewest + random.index(kMost - kFewest + 1); left > 0;) {
+    bool& row = is_bar[static_cast<std::size_t>(1 + random.index(kQuarter - 1))];
+    left -= row ? 0 : 1;
+    row = true;
+  }
+  std::vector<Gap> gaps;
+  for (int row = 1; row < kQuarter; ++row) {
+    if (is_bar[static_cast<std::size_t>(row)]) continue;
+    if (gaps.empty() || gaps.back().last != row) gaps.push_back({row, row});
+    gaps.back().last = row + 1;
+  }
+  return gaps;
+}
+
+void soften(Pattern& pattern, const Gap& rows, const Gap& columns) {
+  for (int row = rows.first; row < rows.last; ++row)
+    for (int column = columns.first; column < columns.last; ++column) pattern.set(row, column, false);
+}
+
 constexpr std::uint64_t bit(int free_pixel) { return std::uint64_t{1} << free_pixel; }
 
 }  // namespace
@@ -57,6 +85,20 @@ Pattern random_pattern(int rigid_percent, RandomStream& random) {
 Pattern random_pattern(RandomStream& random) {
   const int lowest = kStrata[0].minimum_percent, highest = std::rbegin(kStrata)->maximum_percent;
   return random_pattern(lowest + random.index(highest - lowest + 1), random);
+}
+
+Pattern random_barred_pattern(RandomStream& random) {
+  constexpr double kLeastSoft = 0.2, kMostSoft = 0.9;
+  while (true) {
+    const std::vector<Gap> gaps = gaps_between_bars(random);
+    const double soft = kLeastSoft + (kMostSoft - kLeastSoft) * random.uniform();
+    Pattern pattern((std::uint64_t{1} << kFreePixels) - 1);
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      for (std::size_t j = i; j < gaps.size(); ++j)
+        if (random.uniform() < soft) soften(pattern, gaps[i], gaps[j]);
+    }
+    if (is_feasible(pattern)) return pattern;
+  }
 }
 
 std::vector<Pattern> stratified_patterns(int count, RandomStream& random) {

@@ -23,6 +23,12 @@ Pattern random_pattern(int rigid_percent, RandomStream& random);
 /// A pattern with a random whole percentage of rigid pixels from 50 to 85.
 Pattern random_pattern(RandomStream& random);
 
+/// A pattern with rigid bars: two to six random rows of the quarter's nine inner ones are rigid throughout, as are the
+/// outer row and, by symmetry, the same columns; each of the rectangles that they leave between them is soft with one
+/// probability, drawn from 0.2 to 0.9 for the whole pattern. Bars make a pattern stiff and send a crack round corners:
+/// of what searches find good most has three to five of them (docs/studies/search.md).
+Pattern random_barred_pattern(RandomStream& random);
+
 /// `count` different patterns spread over the strata of Table 3.2 in turn, so that earlier strata get one more when
 /// count is no multiple of 4 (10: 3, 3, 2, 2); in each, the whole percentage is random. In the order stratum 0, 1, 2,
 /// 3, 0, 1, ...

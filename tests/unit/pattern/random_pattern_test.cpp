@@ -29,6 +29,33 @@ TEST(RandomPattern, EveryFreePixelIsSometimesSoftUnlessRequired) {
             ((std::uint64_t{1} << kFreePixels) - 1) & ~required_rigid_bits(320));
 }
 
+bool is_bar(const Pattern& pattern, int row) {
+  for (int column = 0; column < kQuarter; ++column)
+    if (!pattern.rigid(row, column)) return false;
+  return true;
+}
+
+TEST(RandomBarredPattern, HasBarsAndRectanglesBetweenThem) {
+  RandomStream random(6, "test"), same(6, "test");
+  std::set<Pattern> patterns;
+  for (int i = 0; i < 500; ++i) {
+    const Pattern pattern = random_barred_pattern(random);
+    ASSERT_EQ(random_barred_pattern(same), pattern);
+    ASSERT_EQ(violation(pattern), std::nullopt);
+    int bars = 0;
+    for (int row = 0; row < kQuarter; ++row) bars += is_bar(pattern, row);
+    EXPECT_GE(bars, 3) << pattern.key();
+    EXPECT_TRUE(is_bar(pattern, 0)) << pattern.key();
+    for (int row = 1; row < kQuarter; ++row) {
+      if (is_bar(pattern, row - 1) || is_bar(pattern, row)) continue;
+      for (int column = 0; column < kQuarter; ++column)
+        ASSERT_EQ(pattern.rigid(row, column), pattern.rigid(row - 1, column)) << pattern.key();
+    }
+    patterns.insert(pattern);
+  }
+  EXPECT_GT(patterns.size(), 300u);
+}
+
 TEST(StratifiedPatterns, TenSpreadThreeThreeTwoTwoOverTheIntervalsOfTable32) {
   RandomStream random(3, "test");
   const std::vector<Pattern> patterns = stratified_patterns(10, random);
