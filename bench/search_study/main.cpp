@@ -42,7 +42,6 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--floor-deviations", learned.floor_deviations)->capture_default_str();
   command.add_option("--barred-start", learned.barred_start)->capture_default_str();
   command.add_option("--barred-candidates", learned.barred_candidates)->capture_default_str();
-  command.add_option("--patience", learned.patience)->capture_default_str();
   command.add_flag("--believed-modulus", options.believed_modulus,
                    "the modulus of finalists is believed like their toughness, not computed");
   command.add_option("--former", options.former, "gamut.csv of other parameters or another fidelity, learnt from too")

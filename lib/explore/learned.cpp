@@ -9,7 +9,6 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "explore/improvement.hpp"
-#include "explore/islands.hpp"
 #include "explore/model_search.hpp"
 #include "explore/predictors.hpp"
 #include "explore/surrogate_search.hpp"
@@ -44,14 +43,11 @@ std::vector<Evaluated> barred_patterns(const Question& question, int count) {
   return unseen(std::move(patterns), question);
 }
 
-/// The next batch of patterns with bars that an island begins with; none once it has enough of them.
-std::vector<pattern::Pattern> barred_start(const Question& question, std::span<const Evaluated> samples) {
+/// The next batch of patterns with bars that a search begins with; none once it has asked for enough of them.
+std::vector<pattern::Pattern> barred_start(const Question& question) {
   const SearchSettings& settings = question.settings;
-  const bool is_first = samples.size() == question.evaluated.size();
-  if (is_first && !settings.former.empty()) return {};
-  const std::size_t others = is_first ? static_cast<std::size_t>(settings.population) : 0;
-  const std::size_t asked = samples.size() + (is_first ? question.lost.size() : 0);
-  if (asked >= others + static_cast<std::size_t>(settings.learned.barred_start)) return {};
+  const int asked = static_cast<int>(question.evaluated.size() + question.lost.size());
+  if (asked >= settings.population + settings.learned.barred_start || !settings.former.empty()) return {};
   constexpr int kSpare = 10;  // some are alike or known
   std::vector<pattern::Pattern> start = patterns_of(barred_patterns(question, kSpare * question.count));
   start.resize(std::min(start.size(), static_cast<std::size_t>(question.count)));
@@ -59,8 +55,7 @@ std::vector<pattern::Pattern> barred_start(const Question& question, std::span<c
 }
 
 /// All that a search on the predictors visits, and patterns with bars, which that search starts from too.
-std::vector<Evaluated> candidates_for(const Question& question, std::span<const Evaluated> samples,
-                                      const Predictors& predictors) {
+std::vector<Evaluated> candidates_for(const Question& question, const Predictors& predictors) {
   const LearnedSettings& learned = question.settings.learned;
   const auto believed_of = [&](std::span<const pattern::Pattern> patterns) {
     return believed(predictors, patterns, learned.optimism);
@@ -68,7 +63,7 @@ std::vector<Evaluated> candidates_for(const Question& question, std::span<const 
   const auto count = static_cast<std::size_t>(learned.population);
   // The population of that search begins with the best that was simulated, at its true values: a candidate has to be
   // believed better than these, not better than what is believed of them.
-  std::vector<Evaluated> start = best_by_rank(samples, count);
+  std::vector<Evaluated> start = best_by_rank(question.evaluated, count);
   std::vector<Evaluated> candidates = barred_patterns(question, learned.barred_candidates);
   const std::vector<optimize::Performance> performances = believed_of(patterns_of(candidates));
   for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].performance = performances[i];
@@ -111,8 +106,8 @@ void know_moduli(Finalists& finalists, const ModulusOf& modulus_of) {
 }
 
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
-                                                    std::span<const Evaluated> samples, const Question& question) {
-  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(samples));
+                                                    const Question& question) {
+  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(question.evaluated));
   Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
   SharedErrors shared{{}, predictors.toughness->covariance(finalists.patterns)};
   if (question.settings.modulus_of)
@@ -142,9 +137,6 @@ void check_learned(const LearnedSettings& settings) {
         "improvement or rank");
   check(settings.barred_start >= 0, "barred_start", settings.barred_start, "at least 0");
   check(settings.barred_candidates >= 0, "barred_candidates", settings.barred_candidates, "at least 0");
-  check(settings.patience >= 0, "patience", settings.patience, "at least 0");
-  check(settings.patience == 0 || settings.barred_start > 0, "barred_start", settings.barred_start,
-        "at least 1 to begin anew with (or patience = 0)");
   check(settings.generations >= 1, "generations", settings.generations, "at least 1");
   check(settings.population >= 2, "population", settings.population, "at least 2");
   check(settings.optimism >= 0.0 && settings.optimism <= 10.0, "optimism", settings.optimism, "0 to 10 deviations");
@@ -155,16 +147,16 @@ void check_learned(const LearnedSettings& settings) {
 std::string to_text(const LearnedSettings& settings) {
   return fmt::format(
       "predictor={} choice={} generations={} population={} optimism={} most_samples={} members={} warm_start={} "
-      "weight_decay={} dropout={} floor_deviations={} barred_start={} barred_candidates={} patience={}",
+      "weight_decay={} dropout={} floor_deviations={} barred_start={} barred_candidates={}",
       settings.predictor, settings.choice, settings.generations, settings.population, settings.optimism,
       settings.most_samples, settings.members, settings.warm_start, settings.weight_decay, settings.dropout,
-      settings.floor_deviations, settings.barred_start, settings.barred_candidates, settings.patience);
+      settings.floor_deviations, settings.barred_start, settings.barred_candidates);
 }
 
 LearnedSettings thesis_learning() {
   LearnedSettings settings;
   settings.predictor = "networks";
-  settings.barred_start = settings.barred_candidates = settings.patience = 0;
+  settings.barred_start = settings.barred_candidates = 0;
   settings.members = 1;
   settings.warm_start = false;
   settings.choice = "rank";
@@ -176,14 +168,12 @@ LearnedSettings thesis_learning() {
 
 std::vector<pattern::Pattern> learned_batch(const Question& question) {
   const SearchSettings& settings = question.settings;
-  const LearnedSettings& learned = settings.learned;
-  const std::span<const Evaluated> samples = samples_to_go_by(question.evaluated, learned.patience, settings.batch);
-  if (std::vector<pattern::Pattern> start = barred_start(question, samples); !start.empty()) return start;
+  if (std::vector<pattern::Pattern> start = barred_start(question); !start.empty()) return start;
   Predictors base;
   if (!settings.former.empty()) base = fit_predictors(settings.former, settings);
-  const Predictors predictors = fit_predictors(samples, settings, base);
-  const std::vector<Evaluated> candidates = candidates_for(question, samples, predictors);
-  if (learned.choice == "improvement") return choose_by_improvement(predictors, candidates, samples, question);
+  const Predictors predictors = fit_predictors(question.evaluated, settings, base);
+  const std::vector<Evaluated> candidates = candidates_for(question, predictors);
+  if (settings.learned.choice == "improvement") return choose_by_improvement(predictors, candidates, question);
   return patterns_of(best_by_rank(candidates, static_cast<std::size_t>(question.count)));
 }
 

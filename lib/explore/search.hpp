@@ -28,7 +28,6 @@ struct LearnedSettings {
   std::string choice = "improvement";  ///< improvement: expected hypervolume improvement; rank: non-dominated sorting
   int barred_start = 40;          ///< patterns with rigid bars that follow the random ones (none with `former` samples)
   int barred_candidates = 2000;   ///< of them that every batch may be chosen from, beside what the search visits
-  int patience = 50;              ///< samples without growth after which an island ends (islands.hpp); 0: never
   int generations = 60;           ///< of the search on the predictor
   int population = 100;           ///< of that search
   double optimism = 0.0;          ///< deviations added to predictions while searching on the predictor

@@ -64,7 +64,7 @@ std::vector<pattern::Pattern> patterns_in(const std::string& bytes) {
 explore::Question question_from(const std::string& spec) {
   const auto fields = runtime::unpack(spec);
   // A spec that this program wrote itself must read back.
-  if (!fields || fields->size() != 7) throw std::logic_error("the spec of a search is damaged");
+  if (!fields || fields->size() != 8) throw std::logic_error("the spec of a search is damaged");
   explore::Question question;
   question.settings.algorithm = fields->at(0);
   question.settings.seed = std::stoull(fields->at(1));
@@ -72,7 +72,8 @@ explore::Question question_from(const std::string& spec) {
   question.evaluated = unpacked(fields->at(3));
   question.lost = patterns_in(fields->at(4));
   question.settings.former = unpacked(fields->at(5));
-  const auto model = wire::read<wire::AdoptedModel>(fields->at(6));
+  question.settings.population = std::stoi(fields->at(6));
+  const auto model = wire::read<wire::AdoptedModel>(fields->at(7));
   if (!model) throw std::logic_error("the model in the spec of a search: " + model.error().message);
   // On one core: the farm has the others.
   question.settings.modulus_of = explore::modulus_by_tester(game::material_side(model->parameters), model->fidelity, 1);
@@ -84,7 +85,8 @@ explore::Question question_from(const std::string& spec) {
 std::string search_spec(const explore::Question& question, const wire::AdoptedModel& model) {
   return runtime::pack({question.settings.algorithm, std::to_string(question.settings.seed),
                         std::to_string(question.count), packed(question.evaluated), packed(question.lost),
-                        packed(question.settings.former), wire::write(model)});
+                        packed(question.settings.former), std::to_string(question.settings.population),
+                        wire::write(model)});
 }
 
 std::string search_work(const std::string& spec) {

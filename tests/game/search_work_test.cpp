@@ -12,18 +12,25 @@ namespace {
 TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli) {
   explore::SearchSettings settings;
   settings.algorithm = "learned";
-  settings.budget = 30;
+  settings.budget = 60;
+  settings.population = 5;
   const auto search = explore::make_search(settings);
-  double toughness_pa = 1e5;
-  while (!search->question()) {
-    std::vector<std::optional<optimize::Performance>> answers;
-    for (const pattern::Pattern& pattern : search->ask())
-      answers.push_back(optimize::Performance{1e9 * pattern.rigid_fraction(), toughness_pa += 1e3});
-    search->tell(answers);
-  }
   wire::AdoptedModel model;
   model.fidelity = tester::Fidelity::tiny;
   model.parameters = material::default_parameters();
+  double toughness_pa = 1e5;
+  // Past the start, which nothing is believed for.
+  while (search->evaluated().size() < static_cast<std::size_t>(settings.population + settings.learned.barred_start)) {
+    std::vector<std::optional<optimize::Performance>> answers;
+    const auto asked = search->question();
+    const auto start = search->ask();
+    if (asked) {
+      EXPECT_EQ(start, *batch_from_result(search_work(search_spec(*asked, model))));
+    }
+    for (const pattern::Pattern& pattern : start)
+      answers.push_back(optimize::Performance{1e9 * pattern.rigid_fraction(), toughness_pa += 1e3});
+    search->tell(answers);
+  }
   explore::Question question = *search->question();
   const auto batch = batch_from_result(search_work(search_spec(question, model)));
   ASSERT_TRUE(batch) << batch.error().message;

@@ -12,7 +12,6 @@
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "explore/batch_log.hpp"
-#include "explore/islands.hpp"
 #include "explore/learned.hpp"
 #include "explore/predictors.hpp"
 #include "explore/surrogate_search.hpp"
@@ -31,7 +30,7 @@ SearchSettings settings(const std::string& algorithm, std::uint64_t seed, int bu
   settings.seed = seed;
   settings.learned.generations = 15;  // little, so that tests stay fast
   settings.learned.population = 40;
-  settings.learned.barred_start = settings.learned.patience = 0;
+  settings.learned.barred_start = 0;
   settings.learned.barred_candidates = 100;
   return settings;
 }
@@ -59,9 +58,7 @@ TEST(Learned, ReachesWithAFewSamplesWhatEvolutionNeedsFourTimesAsManyFor) {
 }
 
 /// How many patterns of each batch have three rigid bars in the quarter, as those with bars have.
-std::vector<int> barred_by_batch(
-    const SearchSettings& chosen,
-    const std::function<optimize::Performance(const pattern::Pattern&)>& performance_of = synthetic_performance) {
+std::vector<int> barred_by_batch(const SearchSettings& chosen) {
   const auto search = make_search(chosen);
   std::vector<int> barred;
   for (auto batch = search->ask(); !batch.empty(); batch = search->ask()) {
@@ -75,7 +72,7 @@ std::vector<int> barred_by_batch(
         bars += is_bar;
       }
       barred.back() += bars >= 3;
-      answers.push_back(performance_of(pattern));
+      answers.push_back(synthetic_performance(pattern));
     }
     search->tell(answers);
   }
@@ -93,44 +90,6 @@ TEST(Learned, PatternsWithBarsFollowTheRandomOnes) {
     chosen.former.push_back({pattern, synthetic_performance(pattern)});
   }
   EXPECT_THAT(barred_by_batch(chosen), ::testing::Each(::testing::Lt(10))) << "who has former samples knows enough";
-}
-
-TEST(Islands, EndWhereTheyStandStillAndAreJoinedFromTheSecondOn) {
-  // All are equally stiff: the hypervolume is the best toughness so far.
-  std::vector<Evaluated> samples;
-  const auto add = [&](int count, double first_mpa, double step_mpa) {
-    for (int i = 0; i < count; ++i) samples.push_back({{}, {1e9, 1e6 * (first_mpa + step_mpa * i)}});
-  };
-  const auto gone_by = [&](int patience) { return samples_to_go_by(samples, patience, 10).size(); };
-  add(60, 1.0, 0.1);
-  EXPECT_EQ(gone_by(20), 60u) << "it grows by more than a hundredth";
-  add(10, 1.0, 0.0);
-  EXPECT_EQ(gone_by(20), 70u) << "it has stood still for less than its patience";
-  add(10, 1.0, 0.0);
-  EXPECT_EQ(gone_by(20), 0u) << "the second one begins";
-  add(40, 0.1, 0.01);
-  EXPECT_EQ(gone_by(20), 40u) << "far below the front of the first, and growing";
-  add(20, 0.1, 0.0);
-  EXPECT_EQ(gone_by(20), 140u) << "both together";
-  add(20, 7.0, 0.1);
-  EXPECT_EQ(gone_by(20), 160u) << "together they grow";
-  add(20, 0.1, 0.0);
-  EXPECT_EQ(gone_by(20), 0u) << "the third one begins";
-  EXPECT_EQ(gone_by(0), 180u) << "all, without patience";
-}
-
-TEST(Learned, BeginsAnewWithBarsWhereItStandsStill) {
-  SearchSettings chosen = settings("learned", 6, 130);
-  chosen.learned.barred_start = chosen.learned.patience = 20;
-  const auto all_alike = [](const pattern::Pattern& pattern) {
-    return optimize::Performance{1e9, 1e6 + 100.0 * static_cast<double>(pattern.bits() % 7)};
-  };
-  const ::testing::Matcher<int> learnt = ::testing::Lt(10);
-  EXPECT_THAT(barred_by_batch(chosen, all_alike),
-              ::testing::ElementsAre(0, 0, 10, 10,            // the first island ends with its start
-                                     10, 10, learnt, learnt,  // the second one
-                                     learnt, learnt,          // both together
-                                     10, 10, learnt));
 }
 
 TEST(Learned, BatchesAreChosenFromPatternsWithBarsToo) {
