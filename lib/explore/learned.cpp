@@ -43,7 +43,7 @@ std::vector<Evaluated> barred_patterns(const Question& question, int count) {
   return unseen(std::move(patterns), question);
 }
 
-/// The next batch of patterns with bars that a search begins with; none once it has asked for enough of them.
+/// The next batch of patterns with bars that a search begins with, a whole one; none once it has asked for enough.
 std::vector<pattern::Pattern> barred_start(const Question& question) {
   const SearchSettings& settings = question.settings;
   const int asked = static_cast<int>(question.evaluated.size() + question.lost.size());
