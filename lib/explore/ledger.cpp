@@ -13,6 +13,7 @@ Ledger::Ledger(const SearchSettings& settings) : budget_(settings.budget), batch
 }
 
 int Ledger::room() const {
+  if (awaiting_) return 0;
   const int in_batch = static_cast<int>(batch_.size());
   return std::min(batch_size_, budget_ - asked_) - in_batch;
 }

@@ -15,7 +15,7 @@ class Ledger {
   explicit Ledger(const SearchSettings& settings);
   /// Whether the pattern is known, was asked for before or stands in the batch that is being put together.
   bool seen(const pattern::Pattern& pattern) const { return seen_.contains(pattern.bits()); }
-  /// Patterns that the batch may still take.
+  /// Patterns that the batch may still take; none while an answer is awaited.
   int room() const;
   /// Adds an unseen pattern to the batch.
   void add(const pattern::Pattern& pattern);

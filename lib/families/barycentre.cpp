@@ -14,10 +14,10 @@
 namespace nacre::families {
 namespace {
 
+using pattern::kAllFreePixels;
 using pattern::kFreePixels;
 using pattern::Pattern;
 
-constexpr std::uint64_t kAllBits = (std::uint64_t{1} << kFreePixels) - 1;
 constexpr double kRounding = 1e-7;  // of a cell's height: the programme's own tolerance
 
 /// Soft free pixels of one source that are not soft in all, and the height of their cells.
@@ -128,17 +128,17 @@ std::uint64_t highest(double cells, const std::vector<double>& earth) {
 }  // namespace
 
 std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<const double> weights, Cut cut) {
-  std::uint64_t common = kAllBits, any = 0;
+  std::uint64_t common = kAllFreePixels, any = 0;
   for (const Pattern& source : sources) {
-    common &= ~source.bits() & kAllBits;
-    any |= ~source.bits() & kAllBits;
+    common &= ~source.bits() & kAllFreePixels;
+    any |= ~source.bits() & kAllFreePixels;
   }
   if (common == any) return sources.front();
   std::vector<Earth> earths;
   double height = 0.0, cells = 0.0;
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (std::size_t k = 0; k < sources.size(); ++k) {
-    earths.push_back(exclusive_earth(~sources[k].bits() & kAllBits & ~common));
+    earths.push_back(exclusive_earth(~sources[k].bits() & kAllFreePixels & ~common));
     if (earths.back().pixels.empty()) return std::nullopt;
     height += weights[k] / sum * earths.back().cell_height;
     cells += weights[k] / sum / earths.back().cell_height;
@@ -146,7 +146,7 @@ std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<co
   const std::vector<double> earth = Programme(earths, weights).solve();
   if (earth.empty()) return std::nullopt;
   const std::uint64_t soft = common | (cut == Cut::height ? cut_at(height, earth) : highest(cells, earth));
-  return Pattern(~soft & kAllBits);
+  return Pattern(~soft & kAllFreePixels);
 }
 
 }  // namespace nacre::families

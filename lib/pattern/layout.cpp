@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kPatternKeyDigits = 14;
 constexpr std::size_t kLayoutKeyDigits = kPixels / 4;
-constexpr std::uint64_t kFreeMask = (std::uint64_t{1} << kFreePixels) - 1;
 
 /// Free pixel of every pixel of the quarter; the lower triangle mirrors the upper one.
 constexpr std::array<std::array<int, kQuarter>, kQuarter> make_free_indices() {
@@ -55,8 +54,8 @@ Result<Layout> layout_from_pattern_digits(std::string_view key) {
     if (!digit) return fail("key \"{}\", character {}: expected a lower-case hex digit", key, i + 1);
     bits = bits << 4 | *digit;
   }
-  if ((bits & ~kFreeMask) != 0) {
-    return fail("key \"{}\": a pattern has {} bits, expected at most {:014x}", key, kFreePixels, kFreeMask);
+  if ((bits & ~kAllFreePixels) != 0) {
+    return fail("key \"{}\": a pattern has {} bits, expected at most {:014x}", key, kFreePixels, kAllFreePixels);
   }
   return Pattern(bits).layout();
 }

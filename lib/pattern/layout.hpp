@@ -19,6 +19,8 @@ inline constexpr int kPixels = kSide * kSide;
 /// Pixels along one side of the upper-left quarter, and the free pixels of a pattern: the quarter's upper triangle.
 inline constexpr int kQuarter = kSide / 2;
 inline constexpr int kFreePixels = kQuarter * (kQuarter + 1) / 2;
+/// One bit for every free pixel: the bits of the wholly rigid pattern.
+inline constexpr std::uint64_t kAllFreePixels = (std::uint64_t{1} << kFreePixels) - 1;
 
 /// Any 20 x 20 arrangement of soft (0) and rigid (1) pixels; row 0 at the top, column 0 at the left.
 /// Coupons (laminates, checkerboards) are layouts; proposals are patterns, see Pattern.

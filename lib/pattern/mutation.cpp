@@ -69,8 +69,7 @@ Pattern mutation_attempt(const Pattern& parent, MutationKind kind, RandomStream&
 
 Pattern flipped_if_mostly_soft(const Pattern& pattern) {
   if (pattern.rigid_count() >= kMinimumRigidCount) return pattern;
-  constexpr std::uint64_t kAll = (std::uint64_t{1} << kFreePixels) - 1;
-  Pattern flipped(pattern.bits() ^ kAll);
+  Pattern flipped(pattern.bits() ^ kAllFreePixels);
   flipped.set(0, 0, true);
   return flipped;
 }

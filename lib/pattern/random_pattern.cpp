@@ -92,7 +92,7 @@ Pattern random_barred_pattern(RandomStream& random) {
   while (true) {
     const std::vector<Gap> gaps = gaps_between_bars(random);
     const double soft = kLeastSoft + (kMostSoft - kLeastSoft) * random.uniform();
-    Pattern pattern((std::uint64_t{1} << kFreePixels) - 1);
+    Pattern pattern(kAllFreePixels);
     for (std::size_t i = 0; i < gaps.size(); ++i) {
       for (std::size_t j = i; j < gaps.size(); ++j)
         if (random.uniform() < soft) soften(pattern, gaps[i], gaps[j]);

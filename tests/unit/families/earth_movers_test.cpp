@@ -68,11 +68,11 @@ TEST(EarthMoversDistance, IsAMetric) {
 }
 
 TEST(EarthMoversDistance, IsTheWayThatOneSoftPixelGoes) {
-  Pattern a = Pattern((std::uint64_t{1} << pattern::kFreePixels) - 1), b = a;
+  Pattern a = Pattern(pattern::kAllFreePixels), b = a;
   a.set(2, 2, false);
   b.set(5, 5, false);
   EXPECT_NEAR(earth_movers_distance(a, b), 3.0 * std::sqrt(2.0), 1e-6);
-  EXPECT_TRUE(std::isinf(earth_movers_distance(a, Pattern((std::uint64_t{1} << pattern::kFreePixels) - 1))));
+  EXPECT_TRUE(std::isinf(earth_movers_distance(a, Pattern(pattern::kAllFreePixels))));
 }
 
 }  // namespace

@@ -20,10 +20,8 @@ namespace {
 
 using pattern::Pattern;
 
-constexpr std::uint64_t kAllRigid = (std::uint64_t{1} << pattern::kFreePixels) - 1;
-
 Pattern with_soft(std::initializer_list<std::pair<int, int>> pixels) {
-  Pattern pattern(kAllRigid);
+  Pattern pattern(pattern::kAllFreePixels);
   for (const auto& [row, column] : pixels) pattern.set(row, column, false);
   return pattern;
 }

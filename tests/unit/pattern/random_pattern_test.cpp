@@ -25,8 +25,7 @@ TEST(RandomPattern, EveryFreePixelIsSometimesSoftUnlessRequired) {
   RandomStream random(2, "test");
   std::uint64_t ever_soft = 0;
   for (int i = 0; i < 2000; ++i) ever_soft |= ~random_pattern(80, random).bits();
-  EXPECT_EQ(ever_soft & ((std::uint64_t{1} << kFreePixels) - 1),
-            ((std::uint64_t{1} << kFreePixels) - 1) & ~required_rigid_bits(320));
+  EXPECT_EQ(ever_soft & kAllFreePixels, kAllFreePixels & ~required_rigid_bits(320));
 }
 
 bool is_bar(const Pattern& pattern, int row) {
