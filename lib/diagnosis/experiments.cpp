@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -55,17 +56,6 @@ std::vector<const Observation*> layouts_most_measured_first(const Observations& 
   return groups;
 }
 
-/// How most upright designs are tested: what is tested otherwise is a twin already.
-tester::TestConditions usual_conditions(const std::vector<const Observation*>& groups, TestKind test) {
-  std::map<std::pair<double, double>, int> counts;
-  for (const Observation* g : groups)
-    if (g->test == test && g->conditions.orientation_deg == 0.0)
-      ++counts[{g->conditions.strain_rate_per_s, g->conditions.thickness_mm}];
-  const auto most = std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
-  if (most == counts.end()) return {};
-  return {.orientation_deg = 0.0, .strain_rate_per_s = most->first.first, .thickness_mm = most->first.second};
-}
-
 /// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with.
 tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
 
@@ -91,6 +81,53 @@ FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& 
   return values;
 }
 
+/// Turned twins of all layouts; faster and thinner ones of the most measured of each test.
+std::vector<PossibleTest> twins(const Observations& observations) {
+  std::vector<PossibleTest> possible;
+  const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
+  std::map<TestKind, int> twins_of;
+  for (const Observation* g : layouts) {
+    const auto twin = [&](std::string_view words) -> tester::TestConditions& {
+      possible.push_back({AddedTest::twin, g->design, g->test, g->conditions, std::string(words)});
+      return possible.back().conditions;
+    };
+    const double orientation_deg = g->conditions.orientation_deg;
+    twin("a twin printed turned by 90 degrees").orientation_deg = orientation_deg == 0.0 ? 90.0 : 0.0;
+    if (g->conditions != usual_conditions(observations, g->test) || twins_of[g->test]++ >= kConditionTwins) continue;
+    twin("a twin pulled ten times as fast").strain_rate_per_s *= kSecondRate;
+    twin("a twin of half the thickness").thickness_mm *= kSecondThickness;
+  }
+  return possible;
+}
+
+std::vector<PossibleTest> layout_coupons(TestKind test, const tester::TestConditions& conditions) {
+  std::vector<PossibleTest> possible;
+  const auto laminate = [&](pattern::LayerDirection direction, int period, std::string_view way) {
+    possible.push_back({AddedTest::laminate, pattern::laminate(direction, period, period), test, conditions,
+                        fmt::format("a laminate of period {} {} the pull", period, way)});
+  };
+  for (const int period : {1, 2, 5}) {
+    possible.push_back({AddedTest::checkerboard, pattern::checkerboard(period), test, conditions,
+                        fmt::format("a checkerboard of period {}", period)});
+    laminate(pattern::LayerDirection::along_x, period, "across");
+    laminate(pattern::LayerDirection::along_y, period, "along");
+  }
+  return possible;
+}
+
+std::vector<PossibleTest> homogeneous_coupons(const tester::TestConditions& conditions) {
+  std::vector<PossibleTest> possible;
+  for (const double fraction : {1.0, 0.5, 0.0}) {
+    for (const double factor : {1.0, kSecondRate}) {
+      const std::string speed = factor > 1.0 ? "ten times as fast " : "";
+      possible.push_back({AddedTest::homogeneous, pattern::Mixture{fraction}, TestKind::tensile, conditions,
+                          "a homogeneous coupon pulled " + speed + "to 2 % strain, back to 0.5 % and on"});
+      possible.back().conditions.strain_rate_per_s *= factor;
+    }
+  }
+  return possible;
+}
+
 }  // namespace
 
 std::vector<double> unload_history() {
@@ -104,64 +141,23 @@ bool answers(const PossibleTest& test, const Observation& group) {
 }
 
 std::vector<PossibleTest> possible_tests(const Observations& observations) {
-  std::vector<PossibleTest> possible;
   std::set<std::string> taken;
   const auto name_of = [](const PossibleTest& t) {
     return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test),
                        t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
   };
   for (const Observation& g : observations.groups) {
-    const PossibleTest measured{g.design, g.test, g.conditions, ""};
+    const PossibleTest measured{{}, g.design, g.test, g.conditions, ""};
     if (answers(measured, g)) taken.insert(name_of(measured));
   }
-  const auto offer = [&](PossibleTest test) {
-    if (taken.insert(name_of(test)).second) possible.push_back(std::move(test));
-  };
-  std::vector<TestKind> tests;
+  std::vector<PossibleTest> possible = twins(observations);
   for (const TestKind test : {TestKind::modulus, TestKind::toughness})
-    if (std::any_of(observations.groups.begin(), observations.groups.end(),
-                    [&](const Observation& g) { return g.test == test && g.design.layout(); }))
-      tests.push_back(test);
-  const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
-  std::map<TestKind, tester::TestConditions> usual;
-  for (const TestKind test : tests) usual[test] = usual_conditions(layouts, test);
-  std::map<TestKind, int> twins;
-  for (const Observation* g : layouts) {
-    PossibleTest turned{g->design, g->test, g->conditions, "a twin printed turned by 90 degrees"};
-    turned.conditions.orientation_deg = g->conditions.orientation_deg == 0.0 ? 90.0 : 0.0;
-    offer(turned);
-    if (g->conditions != usual[g->test] || twins[g->test]++ >= kConditionTwins) continue;
-    PossibleTest faster{g->design, g->test, g->conditions, "a twin pulled ten times as fast"};
-    faster.conditions.strain_rate_per_s *= kSecondRate;
-    offer(faster);
-    PossibleTest thinner{g->design, g->test, g->conditions, "a twin of half the thickness"};
-    thinner.conditions.thickness_mm *= kSecondThickness;
-    offer(thinner);
-  }
-  for (const TestKind test : tests) {
-    for (const int period : {1, 2, 5}) {
-      offer({pattern::checkerboard(period), test, {}, fmt::format("a checkerboard of period {}", period)});
-      offer({pattern::laminate(pattern::LayerDirection::along_x, period, period),
-             test,
-             {},
-             fmt::format("a laminate of period {} across the pull", period)});
-      offer({pattern::laminate(pattern::LayerDirection::along_y, period, period),
-             test,
-             {},
-             fmt::format("a laminate of period {} along the pull", period)});
-    }
-  }
-  for (const double fraction : {1.0, 0.5, 0.0}) {
-    for (const double factor : {1.0, kSecondRate}) {
-      const std::string speed = factor > 1.0 ? "ten times as fast " : "";
-      PossibleTest coupon{pattern::Mixture{fraction},
-                          TestKind::tensile,
-                          {},
-                          "a homogeneous coupon pulled " + speed + "to 2 % strain, back to 0.5 % and on"};
-      coupon.conditions.strain_rate_per_s *= factor;
-      offer(coupon);
-    }
-  }
+    if (std::ranges::any_of(observations.groups,
+                            [&](const Observation& g) { return g.test == test && g.design.layout(); }))
+      std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
+  std::ranges::move(homogeneous_coupons(usual_conditions(observations, TestKind::tensile)),
+                    std::back_inserter(possible));
+  std::erase_if(possible, [&](const PossibleTest& test) { return !taken.insert(name_of(test)).second; });
   return possible;
 }
 
@@ -173,9 +169,8 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
   // Where moduli are measured too, only turned, faster and thinner twins are worth a fracture test: the others say the
   // same for less.
   if (observations.has(TestKind::modulus))
-    std::erase_if(tests, [](const PossibleTest& t) {
-      return t.test == TestKind::toughness && t.words.find("twin") == std::string::npos;
-    });
+    std::erase_if(tests,
+                  [](const PossibleTest& t) { return t.test == TestKind::toughness && t.kind != AddedTest::twin; });
   std::vector<std::vector<FeatureValues>> predicted(tests.size(), std::vector<FeatureValues>(models.size()));
   parallel_for(static_cast<int>(tests.size() * models.size()), [&](int job) {
     const std::size_t t = static_cast<std::size_t>(job) / models.size(),

@@ -7,12 +7,16 @@
 
 namespace nacre::diagnosis {
 
+/// What a test adds to those that are there.
+enum class AddedTest { twin, checkerboard, laminate, homogeneous };
+
 /// A specimen that could be made and tested, with what a person calls it.
 struct PossibleTest {
+  AddedTest kind = AddedTest::twin;
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  std::string words;  ///< "turned twin", "second rate", ...
+  std::string words;  ///< "a twin printed turned by 90 degrees", ...
 };
 
 /// Whether a measured group is that test already: homogeneous coupons are to be unloaded.

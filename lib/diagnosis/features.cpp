@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "diagnosis/smoothing.hpp"
 #include "measurement/reduction.hpp"
 
 namespace nacre::diagnosis {
@@ -101,27 +102,37 @@ std::optional<Unloading> first_unloading(const tester::Curve& curve) {
   return std::nullopt;
 }
 
+/// The readings of an unloading, least strain first.
+tester::Curve unloading_of(const tester::Curve& curve, const Unloading& unloading) {
+  tester::Curve path;
+  for (std::size_t k = unloading.end + 1; k-- > unloading.turn;) {
+    path.strain.push_back(curve.strain[k]);
+    path.stress_pa.push_back(curve.stress_pa[k]);
+  }
+  return path;
+}
+
 /// What the first unloading says.
 void put_unloading(FeatureValues& values, const tester::Curve& curve) {
   const auto unloading = first_unloading(curve);
   if (!unloading) return;
-  const auto [turn, end] = *unloading;
-  const double top = curve.stress_pa[turn];
+  const tester::Curve path = smoothed(unloading_of(curve, *unloading));
+  const double top = path.stress_pa.back();
   const auto strain_at = [&](double stress) -> std::optional<double> {
-    for (std::size_t k = turn; k < end; ++k) {
-      if (curve.stress_pa[k] < stress || curve.stress_pa[k + 1] > stress) continue;
-      const double fall = curve.stress_pa[k] - curve.stress_pa[k + 1];
-      const double t = fall > 0.0 ? (curve.stress_pa[k] - stress) / fall : 0.0;
-      return curve.strain[k] + t * (curve.strain[k + 1] - curve.strain[k]);
+    for (std::size_t k = path.size() - 1; k > 0; --k) {
+      if (path.stress_pa[k] < stress || path.stress_pa[k - 1] > stress) continue;
+      const double fall = path.stress_pa[k] - path.stress_pa[k - 1];
+      const double t = fall > 0.0 ? (path.stress_pa[k] - stress) / fall : 0.0;
+      return path.strain[k] + t * (path.strain[k - 1] - path.strain[k]);
     }
     return std::nullopt;
   };
-  const double highest = 0.9 * top, lowest = std::max(0.5 * top, curve.stress_pa[end]);
+  const double highest = 0.9 * top, lowest = std::max(0.5 * top, path.stress_pa.front());
   const auto high = strain_at(highest), low = strain_at(lowest);
   if (!high || !low || *high <= *low) return;
   const double slope = (highest - lowest) / (*high - *low);
   value_of(values, Feature::log_unloading) = std::log(slope);
-  value_of(values, Feature::set_share) = (*low - lowest / slope) / curve.strain[turn];
+  value_of(values, Feature::set_share) = (*low - lowest / slope) / path.strain.back();
 }
 
 }  // namespace
@@ -156,7 +167,7 @@ FeatureValues fracture_features(const tester::Curve& curve) {
 
 FeatureValues tensile_features(const tester::Curve& curve) {
   FeatureValues values;
-  const tester::Curve forward = measurement::forward_part(curve);
+  const tester::Curve forward = smoothed(measurement::forward_part(curve));
   const std::optional<Rise> rise = rise_of(forward);
   if (!rise) return values;
   put_rise(values, *rise);

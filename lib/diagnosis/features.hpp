@@ -53,7 +53,8 @@ FeatureValues fracture_features(const tester::Curve& curve);
 
 /// Features of an unnotched coupon that need not break: tangents relative to the largest stress, that stress, toe, knee
 /// (over all of the curve: a plateau behind the peak bends it too), and of the first unloading where there is one. Its
-/// strain is not among them: it is where the test was stopped.
+/// strain is not among them: it is where the test was stopped. Readings that scatter are smoothed first
+/// (smoothing.hpp).
 FeatureValues tensile_features(const tester::Curve& curve);
 
 /// Whether a tensile curve goes back on its way.

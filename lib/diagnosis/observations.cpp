@@ -266,4 +266,14 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   return observations;
 }
 
+tester::TestConditions usual_conditions(const Observations& observations, TestKind test) {
+  std::map<std::pair<double, double>, int> counts;
+  for (const Observation& g : observations.groups)
+    if (g.test == test && g.conditions.orientation_deg == 0.0)
+      ++counts[{g.conditions.strain_rate_per_s, g.conditions.thickness_mm}];
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
+  if (most == counts.end()) return {};
+  return {.orientation_deg = 0.0, .strain_rate_per_s = most->first.first, .thickness_mm = most->first.second};
+}
+
 }  // namespace nacre::diagnosis

@@ -129,4 +129,7 @@ struct Observations {
 Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_numerics_sd,
                      const FractureNumerics& fracture);
 
+/// How most upright specimens of a test are tested; as by default where there are none.
+tester::TestConditions usual_conditions(const Observations& observations, tester::TestKind test);
+
 }  // namespace nacre::diagnosis

@@ -74,20 +74,29 @@ SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   return specimen;
 }
 
+/// What a person calls the bundle that a test belongs to.
+std::string bundle_of(const PossibleTest& test) {
+  switch (test.kind) {
+    case AddedTest::checkerboard:
+      return "checkerboards of period 1, 2 and 5";
+    case AddedTest::laminate:
+      return "laminates of period 1, 2 and 5, across and along the pull";
+    case AddedTest::homogeneous:
+      return "homogeneous coupons at two rates, unloaded on the way";
+    case AddedTest::twin:
+      break;
+  }
+  return fmt::format("{}, {} tests", test.words, tester::to_string(test.test));
+}
+
 /// Tests that a person would order together, by what they are called.
 std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& observations) {
   constexpr std::size_t kMost = 3;
   std::map<std::string, std::vector<PossibleTest>> result;
   for (const PossibleTest& test : possible_tests(observations)) {
-    const bool twin = test.words.find("twin") != std::string::npos;
+    const bool twin = test.kind == AddedTest::twin;
     if (!twin && test.test == TestKind::toughness) continue;  // the same as a modulus says, for more
-    std::string name = test.words;
-    if (name.find("checkerboard") != std::string::npos) name = "checkerboards of period 1, 2 and 5";
-    if (name.find("laminate") != std::string::npos) name = "laminates of period 1, 2 and 5, across and along the pull";
-    if (name.find("homogeneous coupon") != std::string::npos)
-      name = "homogeneous coupons at two rates, unloaded on the way";
-    if (twin) name += fmt::format(", {} tests", tester::to_string(test.test));
-    auto& tests = result[name];
+    auto& tests = result[bundle_of(test)];
     if (!twin || tests.size() < kMost) tests.push_back(test);
   }
   return result;
@@ -243,6 +252,7 @@ PlannedAddition compare(const std::string& words, const std::vector<PossibleTest
 
 Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter, bool additions) {
+  std::erase_if(specimens, [](const SpecimenRecord& specimen) { return !specimen.valid; });
   fill_in(specimens, settings);
   const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics);
   const auto added = additions ? bundles(alone) : std::map<std::string, std::vector<PossibleTest>>{};

@@ -26,13 +26,13 @@ std::vector<Variant> variants() {
   return {step, rate, recording, element};
 }
 
-/// Upright layouts of one test: least, middling and most rigid.
+/// Upright layouts of one test under the usual conditions: least, middling and most rigid.
 std::vector<int> three_groups(const Observations& observations, TestKind test) {
+  const tester::TestConditions usual = usual_conditions(observations, test);
   std::vector<int> groups;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
-    if (group.test == test && group.design.layout() && group.conditions == tester::TestConditions{})
-      groups.push_back(static_cast<int>(g));
+    if (group.test == test && group.design.layout() && group.conditions == usual) groups.push_back(static_cast<int>(g));
   }
   std::stable_sort(groups.begin(), groups.end(), [&](int a, int b) {
     return observations.groups[static_cast<std::size_t>(a)].design.rigid_fraction() <

@@ -54,11 +54,10 @@ void append(const std::filesystem::path& path, const std::string& line) {
 
 BatchLog::BatchLog(std::filesystem::path path, const SearchSettings& settings, const std::string& model)
     : path_(std::move(path)), identity_(identity_of(settings, model)) {
+  const std::string first = identity_ + "\n";
   std::string text = std::filesystem::exists(path_) ? read_file(path_) : "";
-  const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
-  if (whole < text.size() || text.empty()) {
-    text.resize(whole);
-    if (text.empty()) text = identity_ + "\n";
+  if (first.starts_with(text) && text != first) {  // none yet, or its first line was cut off by a crash
+    text = first;
     write_file_atomically(path_, text);
   }
   std::istringstream lines(text);
@@ -67,6 +66,12 @@ BatchLog::BatchLog(std::filesystem::path path, const SearchSettings& settings, c
   if (line != identity_)
     throw InputError::format("{}: line 1: it is \"{}\", expected \"{}\"; name another file", path_.string(), line,
                              identity_);
+  if (!text.ends_with('\n')) {
+    text.resize(text.rfind('\n') + 1);
+    write_file_atomically(path_, text);
+    lines.str(text);
+    std::getline(lines, line);
+  }
   for (std::size_t number = 2; std::getline(lines, line); ++number) batches_.push_back(batch_from(line, path_, number));
 }
 

@@ -10,7 +10,8 @@
 namespace nacre::explore {
 
 /// A text file: a line that says which search it is of, then one line of keys per batch. A line that was cut
-/// off by a crash is dropped; a last batch that a smaller budget cut short is filled up.
+/// off by a crash is dropped; a last batch that a smaller budget cut short is filled up, or left as it is by searches
+/// that think (Search::question), which go on after it.
 class BatchLog {
  public:
   /// Opens or begins the file of a search on a `model` (any text that tells it from others). Throws InputError naming

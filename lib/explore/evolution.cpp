@@ -45,6 +45,7 @@ class Evolution final : public Search {
   }
 
   std::vector<pattern::Pattern> ask() override {
+    while (next_start_ < start_.size() && ledger_.seen(start_[next_start_])) ++next_start_;
     if (next_start_ < start_.size()) {
       add_start();
     } else if (population_.empty()) {

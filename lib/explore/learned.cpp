@@ -18,7 +18,8 @@
 namespace nacre::explore {
 namespace {
 
-/// Candidates whose uncertainty is looked at, and those of them that a batch is chosen from.
+/// Candidates whose uncertainty is looked at, and those of them that a batch is chosen from; a batch itself may be
+/// larger.
 constexpr std::size_t kShortList = 1000, kFinalists = 250;
 
 std::vector<pattern::Pattern> patterns_of(std::span<const Evaluated> samples) {
@@ -84,12 +85,12 @@ struct Finalists {
 
 /// Those whose own improvement is expected to be largest.
 Finalists finalists_of(const Predictors& predictors, std::span<const pattern::Pattern> patterns,
-                       std::span<const optimize::Performance> front) {
+                       std::span<const optimize::Performance> front, std::size_t count) {
   const std::vector<Belief> beliefs = beliefs_about(predictors, patterns);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < patterns.size(); ++i) order.emplace_back(-expected_improvement(beliefs[i], front), i);
   std::sort(order.begin(), order.end());
-  order.resize(std::min(order.size(), kFinalists));
+  order.resize(std::min(order.size(), count));
   Finalists best;
   for (const auto& [improvement, i] : order) {
     best.patterns.push_back(patterns[i]);
@@ -108,7 +109,9 @@ void know_moduli(Finalists& finalists, const ModulusOf& modulus_of) {
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
                                                     const Question& question) {
   const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(question.evaluated));
-  Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, kShortList)), front);
+  const auto count = static_cast<std::size_t>(question.count);
+  Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, std::max(kShortList, count))),
+                                     front, std::max(kFinalists, count));
   SharedErrors shared{{}, predictors.toughness->covariance(finalists.patterns)};
   if (question.settings.modulus_of)
     know_moduli(finalists, question.settings.modulus_of);
@@ -159,6 +162,7 @@ LearnedSettings thesis_learning() {
   settings.barred_start = settings.barred_candidates = 0;
   settings.members = 1;
   settings.warm_start = false;
+  settings.floor_deviations = 0.0;
   settings.choice = "rank";
   settings.generations = 200;
   settings.population = 100;

@@ -15,8 +15,8 @@ namespace {
 
 using surrogate::Predictor;
 
-/// Kernels are decided, and networks trained in full, anew only when the samples have become this many times more: what
-/// fewer samples say is a good start until then, and equal searches do it at equal places.
+/// Samples decide on kernels, and networks are trained in full on them, anew only when they have become this many times
+/// more: what fewer say is a good start until then, and equal searches do it at equal places.
 constexpr double kKernelGrowth = 1.3;
 constexpr std::size_t kFirstKernelSamples = 20;
 /// Patterns with the logarithms of their properties. A property that is not positive counts as `kLeast` of a unit.
@@ -25,29 +25,33 @@ struct LogSamples {
   std::vector<double> log_modulus, log_toughness;
 };
 
-/// A parabola over the rigid fraction, by least squares.
-std::vector<double> trend_of(const std::vector<pattern::Pattern>& patterns, const std::vector<double>& values) {
+/// A parabola over the rigid fraction, by least squares to the first `deciding` values.
+std::vector<double> trend_of(const std::vector<pattern::Pattern>& patterns, const std::vector<double>& values,
+                             std::size_t deciding) {
   Eigen::MatrixXd terms(static_cast<Eigen::Index>(patterns.size()), 3);
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     const double fraction = patterns[i].rigid_fraction();
     terms.row(static_cast<Eigen::Index>(i)) << 1.0, fraction, fraction * fraction;
   }
-  const Eigen::Map<const Eigen::VectorXd> y(values.data(), terms.rows());
-  const Eigen::VectorXd trend = terms * terms.colPivHouseholderQr().solve(y);
+  const auto rows = static_cast<Eigen::Index>(deciding);
+  const Eigen::Map<const Eigen::VectorXd> y(values.data(), rows);
+  const Eigen::VectorXd trend = terms * terms.topRows(rows).colPivHouseholderQr().solve(y);
   return {trend.begin(), trend.end()};
 }
 
-/// Raises what lies too far below the trend. How bad a bad pattern is says nothing about the good ones, and the few
-/// that fall apart at once (a factor of a hundred) would make a process of all others too rough and too unsure.
-void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<double>& values, double deviations) {
+/// Raises what lies too far below the trend of the first `deciding`. How bad a bad pattern is says nothing about the
+/// good ones, and the few that fall apart at once (a factor of a hundred) would make a process of all others too rough
+/// and too unsure.
+void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<double>& values, std::size_t deciding,
+                    double deviations) {
   constexpr std::size_t kFewest = 10;
   constexpr int kTimes = 4;  // the trend itself is drawn down at first
-  if (deviations <= 0.0 || values.size() < kFewest) return;
+  if (deviations <= 0.0 || deciding < kFewest) return;
   const std::vector<double> as_they_are = values;
   for (int time = 0; time < kTimes; ++time) {
-    const std::vector<double> trend = trend_of(patterns, values);
-    std::vector<double> residuals(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) residuals[i] = values[i] - trend[i];
+    const std::vector<double> trend = trend_of(patterns, values, deciding);
+    std::vector<double> residuals(deciding);
+    for (std::size_t i = 0; i < deciding; ++i) residuals[i] = values[i] - trend[i];
     // Of the upper half, which has no tail: its quartile lies 0.674 deviations above the middle.
     const double middle = quantile(residuals, 0.5), deviation = (quantile(residuals, 0.75) - middle) / 0.674;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -55,8 +59,8 @@ void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<d
   }
 }
 
-/// Toughness with the floor of the settings.
-LogSamples logarithms(std::span<const Evaluated> samples, const LearnedSettings& learned) {
+/// Toughness with the floor of the settings, which the first `deciding` samples lay.
+LogSamples logarithms(std::span<const Evaluated> samples, std::size_t deciding, const LearnedSettings& learned) {
   constexpr double kLeast = 1.0;  // Pa: softer or weaker than anything that holds together
   LogSamples logs;
   for (const Evaluated& sample : samples) {
@@ -64,7 +68,7 @@ LogSamples logarithms(std::span<const Evaluated> samples, const LearnedSettings&
     logs.log_modulus.push_back(std::log(std::max(kLeast, sample.performance.modulus_pa)));
     logs.log_toughness.push_back(std::log(std::max(kLeast, sample.performance.toughness_pa)));
   }
-  raise_to_floor(logs.patterns, logs.log_toughness, learned.floor_deviations);
+  raise_to_floor(logs.patterns, logs.log_toughness, deciding, learned.floor_deviations);
   return logs;
 }
 
@@ -156,10 +160,13 @@ std::vector<Evaluated> learnt_samples(std::span<const Evaluated> samples, int mo
 }
 
 Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettings& settings, const Predictors& base) {
-  const LogSamples all = logarithms(samples, settings.learned);
+  const LearnedSettings& learned = settings.learned;
   const std::size_t stage = settled_samples(samples.size());
-  if (settings.learned.predictor == "networks") return fit_networks(all, stage, settings, base);
-  const LogSamples learnt = logarithms(learnt_samples(samples, settings.learned.most_samples), settings.learned);
+  // What networks were trained on in full must not move, or they would be trained anew at every batch (minutes).
+  if (learned.predictor == "networks") return fit_networks(logarithms(samples, stage, learned), stage, settings, base);
+  const LogSamples all = logarithms(samples, samples.size(), learned);
+  const std::vector<Evaluated> chosen = learnt_samples(samples, learned.most_samples);
+  const LogSamples learnt = logarithms(chosen, chosen.size(), learned);
   const auto fit = [&](const std::vector<double> LogSamples::*property, surrogate::PriorMean prior_mean,
                        const std::shared_ptr<const Predictor>& of_base) {
     return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), prior_mean},

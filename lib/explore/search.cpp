@@ -39,6 +39,13 @@ void check_settings(const SearchSettings& settings) {
 
 }  // namespace
 
+std::vector<optimize::Performance> performances_of(std::span<const Evaluated> samples) {
+  std::vector<optimize::Performance> performances;
+  performances.reserve(samples.size());
+  for (const Evaluated& sample : samples) performances.push_back(sample.performance);
+  return performances;
+}
+
 std::vector<pattern::Pattern> Search::ask_with(std::span<const pattern::Pattern> answer) {
   std::vector<pattern::Pattern> batch = ask();
   // One may be longer: the other was the last of a smaller budget.

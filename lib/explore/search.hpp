@@ -21,12 +21,16 @@ struct Evaluated {
   bool operator==(const Evaluated&) const = default;
 };
 
+/// Performances of samples, in their order.
+std::vector<optimize::Performance> performances_of(std::span<const Evaluated> samples);
+
 /// How `learned` learns and chooses. The defaults are what docs/studies/search.md found best; `thesis_learning()` is
 /// the form of 2.3.3.
 struct LearnedSettings {
   std::string predictor = "patches";   ///< patches: Gaussian process on neighbourhoods; networks: residual networks
   std::string choice = "improvement";  ///< improvement: expected hypervolume improvement; rank: non-dominated sorting
-  int barred_start = 40;          ///< patterns with rigid bars that follow the random ones (none with `former` samples)
+  int barred_start = 40;          ///< patterns with rigid bars that follow the random ones (none with `former` samples,
+                                  ///< nor where `known` ones are as many as both)
   int barred_candidates = 2000;   ///< of them that every batch may be chosen from, beside what the search visits
   int generations = 60;           ///< of the search on the predictor
   int population = 100;           ///< of that search

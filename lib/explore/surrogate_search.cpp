@@ -8,13 +8,6 @@
 
 namespace nacre::explore {
 
-std::vector<optimize::Performance> performances_of(std::span<const Evaluated> samples) {
-  std::vector<optimize::Performance> performances;
-  performances.reserve(samples.size());
-  for (const Evaluated& sample : samples) performances.push_back(sample.performance);
-  return performances;
-}
-
 std::vector<Evaluated> best_by_rank(std::span<const Evaluated> samples, std::size_t count) {
   const std::vector<optimize::Performance> performances = performances_of(samples);
   const std::vector<int> ranks = optimize::non_dominated_ranks(performances);

@@ -26,7 +26,4 @@ std::vector<Evaluated> search_believed(const Believed& believed, std::span<const
 /// The best of `samples` by rank, then crowding; all of them when there are no more than `count`.
 std::vector<Evaluated> best_by_rank(std::span<const Evaluated> samples, std::size_t count);
 
-/// Performances of samples.
-std::vector<optimize::Performance> performances_of(std::span<const Evaluated> samples);
-
 }  // namespace nacre::explore

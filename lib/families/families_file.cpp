@@ -66,7 +66,7 @@ std::vector<Family> parse_families(std::string_view text, const std::string& sou
       refuse(source, node, fmt::format("family '{}' stands here for the second time", families.back().name));
     for (const pattern::Pattern& seed : families.back().seeds)
       if (!seeds.insert(seed).second)
-        refuse(source, node, fmt::format("seed '{}' belongs to two families", seed.key()));
+        refuse(source, node, fmt::format("seed '{}' stands here for the second time", seed.key()));
   }
   return families;
 }

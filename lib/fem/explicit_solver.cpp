@@ -56,6 +56,11 @@ double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3) {
   return std::sqrt(stiffest / density_kg_per_m3);
 }
 
+double longest_step_s(const Grid& grid, double density_kg_per_m3) {
+  constexpr double kStabilityShare = 0.8;
+  return kStabilityShare * grid.element_size_m / fastest_wave_m_per_s(grid, density_kg_per_m3);
+}
+
 template <class Real>
 ExplicitSolver<Real>::ExplicitSolver(const Grid& grid, const ExplicitSettings& settings)
     : grid_(grid), settings_(settings), storage_(grid.columns, grid.rows, settings.keep_ledger) {

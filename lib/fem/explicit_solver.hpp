@@ -22,6 +22,9 @@ namespace nacre::fem {
 /// extended law that of its stiffest state before failure.
 double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3);
 
+/// The longest step that waves allow with some reserve: 0.8 of the stability limit h / c.
+double longest_step_s(const Grid& grid, double density_kg_per_m3);
+
 /// How a grid is loaded and integrated. The bottom row of nodes is held vertically, the top row moves at
 /// strain_rate x height; horizontal motion is free. Velocities start from the linear profile between the grips, so that
 /// nothing is shocked, displacements from the uniform stretch `initial_strain`.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include <toml++/toml.h>
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "base/toml_file.hpp"
 #include "game/scenario_keys.hpp"
 
 namespace nacre::game {
@@ -16,15 +16,6 @@ namespace {
 /// Where something stands, `demo.toml:12`.
 std::string place(std::string_view source, const toml::node& node) {
   return fmt::format("{}:{}", source, node.source().begin.line);
-}
-
-/// A value as a person wrote it, on one line.
-std::string shown(const toml::node& node) {
-  std::ostringstream out;
-  node.visit([&](const auto& value) { out << value; });
-  std::string text = out.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
 }
 
 std::string names_in_table(std::string_view table) {

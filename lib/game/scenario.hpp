@@ -44,7 +44,7 @@ struct FarmSettings {
 
 struct DiagnosisSettings {
   bool enabled = true;
-  int discrimination_orders = 2;  ///< extra specimens a round that separate rival causes
+  int discrimination_orders = 2;  ///< extra tests a round that separate rival causes
   int bootstraps = 2000;
   bool operator==(const DiagnosisSettings&) const = default;
 };

@@ -287,8 +287,9 @@ std::vector<ScenarioKey> make_remaining_keys() {
   return {
       flag("diagnosis", "enabled", "ask each round what the simulation gets wrong and why",
            at(diagnosis, &DiagnosisSettings::enabled)),
-      whole_number<int>("diagnosis", "discrimination_orders", "extra specimens a round that tell rival causes apart", 0,
-                        20, at(diagnosis, &DiagnosisSettings::discrimination_orders)),
+      whole_number<int>("diagnosis", "discrimination_orders",
+                        "extra tests a round, each with its replicates, that tell rival causes apart", 0, 20,
+                        at(diagnosis, &DiagnosisSettings::discrimination_orders)),
       whole_number<int>("diagnosis", "bootstraps", "resamplings behind the decision threshold", 1000, 1'000'000,
                         at(diagnosis, &DiagnosisSettings::bootstraps)),
       flag("laboratory", "virtual_lab", "true: the virtual laboratory measures; false: a person does (nacre inject)",

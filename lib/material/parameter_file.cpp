@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "base/files.hpp"
+#include "base/toml_file.hpp"
 #include "material/extensions.hpp"
 #include "material/parameters.hpp"
 
@@ -17,8 +18,9 @@ namespace {
 struct Place {
   std::string file;
   [[nodiscard]] InputError error(const toml::node& node, std::string_view key, std::string_view expected) const {
-    return InputError::format("{}:{}:{}: {}: {}", file, node.source().begin.line, node.source().begin.column, key,
-                              expected);
+    const std::string value = node.is_value() ? " = " + shown(node) : "";
+    return InputError::format("{}:{}:{}: {}{}: {}", file, node.source().begin.line, node.source().begin.column, key,
+                              value, expected);
   }
 };
 

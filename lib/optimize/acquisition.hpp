@@ -24,8 +24,6 @@ class PenalisedImprovement {
   /// Logarithm of the penalised expected improvement.
   double operator()(const Eigen::VectorXd& at) const;
   double operator()(const Eigen::VectorXd& at, const GaussianProcess::Prediction& predicted) const;
-  /// Largest slope of the posterior mean that was found over the cube.
-  double lipschitz() const { return lipschitz_; }
 
  private:
   struct Pending {

@@ -6,6 +6,7 @@
 
 #include "base/result.hpp"
 #include "optimize/batch_optimizer.hpp"
+#include "optimize/recorded_optimizer.hpp"
 #include "optimize/replay.hpp"
 #include "optimize/space_filling.hpp"
 
@@ -68,25 +69,11 @@ class NloptOptimizer final : public BatchOptimizer {
   double worst_ = 0.0;  ///< largest value of a success
 };
 
-void check(bool within, std::string_view key, int value) {
-  if (!within) throw InputError::format("optimiser: {} = {}, expected at least 1", key, value);
-}
-
 NloptOptimizer::NloptOptimizer(const BatchOptimizerSettings& settings)
     : settings_(settings), space_filling_(settings.dimension, settings.seed) {
-  check(settings.dimension >= 1, "dimension", settings.dimension);
-  check(settings.batch >= 1, "batch", settings.batch);
+  check_settings(settings_);
   std::vector<Point>& starts = settings_.starts;
   if (starts.empty()) starts.push_back(Point(static_cast<std::size_t>(settings.dimension), 0.5));
-  for (Point& start : starts) {
-    if (static_cast<int>(start.size()) != settings.dimension) {
-      throw InputError::format("optimiser: a start has {} coordinates, expected {}", start.size(), settings.dimension);
-    }
-    for (double& coordinate : start) {
-      if (!std::isfinite(coordinate)) throw InputError("optimiser: a start has a coordinate that is no number");
-      coordinate = std::clamp(coordinate, 0.0, 1.0);
-    }
-  }
 }
 
 std::vector<Point> NloptOptimizer::ask() {

@@ -19,11 +19,12 @@ std::vector<std::string_view> split_name(std::string_view name) {
   return parts;
 }
 
-/// A number of pixels; 0 where there is none.
+/// A number of pixels; 0 where there is none that a unit holds.
 int pixels_of(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() ? value : 0;
+  const bool is_one = error == std::errc{} && end == text.data() + text.size() && value <= kSide;
+  return is_one ? value : 0;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct Gap {
 
 /// What random bars leave between them: runs of rows without one.
 std::vector<Gap> gaps_between_bars(RandomStream& random) {
-  constexpr int kFewest = 2, kMost = 6;  // beside the outer row
+  constexpr int kFewest = 2, kMost = 6;  // beside the outer row; what six leave soft is never enough
   std::array<bool, kQuarter> is_bar{true};
   for (int left = kFewest + random.index(kMost - kFewest + 1); left > 0;) {
     bool& row = is_bar[static_cast<std::size_t>(1 + random.index(kQuarter - 1))];

@@ -23,7 +23,7 @@ Pattern random_pattern(int rigid_percent, RandomStream& random);
 /// A pattern with a random whole percentage of rigid pixels from 50 to 85.
 Pattern random_pattern(RandomStream& random);
 
-/// A pattern with rigid bars: two to six random rows of the quarter's nine inner ones are rigid throughout, as are the
+/// A pattern with rigid bars: two to five random rows of the quarter's nine inner ones are rigid throughout, as are the
 /// outer row and, by symmetry, the same columns; each of the rectangles that they leave between them is soft with one
 /// probability, drawn from 0.2 to 0.9 for the whole pattern. Bars make a pattern stiff and send a crack round corners:
 /// of what searches find good most has three to five of them (docs/studies/search.md).

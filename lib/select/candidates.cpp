@@ -55,9 +55,7 @@ std::vector<explore::Evaluated> candidates(std::span<const explore::Evaluated> g
                                            std::span<const pattern::Pattern> measured,
                                            std::span<const optimize::Performance> benchmark, int maximum_rank) {
   if (gamut.empty()) return {};
-  std::vector<optimize::Performance> performances;
-  performances.reserve(gamut.size());
-  for (const explore::Evaluated& sample : gamut) performances.push_back(sample.performance);
+  const std::vector<optimize::Performance> performances = explore::performances_of(gamut);
   const std::vector<int> ranks = optimize::non_dominated_ranks(performances);
   const double lowest_toughness_pa = stiffest_sample_toughness_pa(gamut);
 

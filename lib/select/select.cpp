@@ -90,21 +90,16 @@ std::string empty_bins_clause(const std::vector<Choice>& choices, int count) {
 
 std::string difference_clause(const pattern::Pattern& pattern, std::span<const pattern::Pattern> measured,
                               std::span<const pattern::Pattern> other_choices) {
-  std::string clause = measured.empty() ? std::string("nothing is measured yet")
-                                        : fmt::format("differs by {} pixels or more from everything measured",
-                                                      smallest_difference(pattern, measured));
-  if (!other_choices.empty()) {
-    clause += fmt::format(", by {} or more from the other choices", smallest_difference(pattern, other_choices));
+  const bool alone = other_choices.empty();
+  const int from_choices = alone ? 0 : smallest_difference(pattern, other_choices);
+  if (measured.empty()) {
+    constexpr const char* kNothing = "nothing is measured yet";
+    return alone ? kNothing
+                 : fmt::format("{}; differs by {} pixels or more from the other choices", kNothing, from_choices);
   }
-  return clause;
-}
-
-/// Why the homogeneous line was given up for a sample: below it, or above it and not near the edge of the gamut.
-std::string_view reserve_clause(const optimize::Performance& predicted,
-                                std::span<const optimize::Performance> benchmark) {
-  return above_polyline(predicted, benchmark)
-             ? "above the homogeneous line, farther inside the gamut, where too few samples lie at its edge: "
-             : "below the homogeneous line, where too few samples lie above it: ";
+  const std::string clause = fmt::format("differs by {} pixels or more from everything measured",
+                                         smallest_difference(pattern, measured));
+  return alone ? clause : fmt::format("{}, by {} or more from the other choices", clause, from_choices);
 }
 
 void erase_patterns(std::vector<explore::Evaluated>& samples, const std::vector<pattern::Pattern>& patterns) {
@@ -150,9 +145,8 @@ std::vector<Selected> select_with_reserve(std::vector<explore::Evaluated> gamut,
   const int missing = count - static_cast<int>(chosen.size());
   if (missing <= 0 || benchmark.empty()) return chosen;
   for (const Selected& each : chosen) measured.push_back(each.pattern);
-  erase_patterns(gamut, measured);
   for (Selected& each : select_designs(gamut, measured, {}, {.count = missing})) {
-    each.reason.insert(0, reserve_clause(each.predicted, benchmark));
+    each.reason.insert(0, "below the homogeneous line, where too few samples lie above it: ");
     chosen.push_back(std::move(each));
   }
   return chosen;

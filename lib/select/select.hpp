@@ -32,9 +32,9 @@ std::vector<Selected> select_designs(std::span<const explore::Evaluated> gamut,
                                      std::span<const optimize::Performance> benchmark,
                                      const SelectionSettings& settings);
 
-/// select_designs() among the samples that are not among `measured`; where too few of them lie above the homogeneous
-/// line, the rest is chosen without it, and the reason says on which side of it they lie: a model that sees nothing
-/// better must be measured, too.
+/// select_designs() among the samples that are not among `measured`; where too few of the first ranks lie above the
+/// homogeneous line, the rest of the choice is made below it, and the reason says so: a model that sees nothing better
+/// must be measured, too.
 std::vector<Selected> select_with_reserve(std::vector<explore::Evaluated> gamut, std::vector<pattern::Pattern> measured,
                                           std::span<const optimize::Performance> benchmark, int count);
 

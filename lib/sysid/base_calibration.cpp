@@ -288,7 +288,8 @@ struct BaseCalibration::State {
                                modulus ? std::optional(*modulus / measured[item].modulus_pa) : std::nullopt);
         ++material.modulus_evaluations;
         const double wanted_pa = measured[item].modulus_pa;
-        if (relative_error(modulus, wanted_pa) < relative_error(material.modulus_prediction_pa, wanted_pa)) {
+        if (!material.modulus_prediction_pa ||
+            relative_error(modulus, wanted_pa) < relative_error(material.modulus_prediction_pa, wanted_pa)) {
           material.modulus_prediction_pa = modulus;
         }
       } else {
@@ -319,7 +320,18 @@ struct BaseCalibration::State {
     result.parameters.toughness = material::toughness_from_vector(eta);
   }
 
+  /// Each material meets what was measured of it, whatever its scatter: no intervals are known.
+  void add_estimates(std::string_view table, std::span<const std::string_view> names,
+                     std::span<const ParameterRange> ranges, std::span<const double> values) {
+    for (std::size_t j = 0; j < values.size(); ++j)
+      result.estimates.push_back(
+          {fmt::format("{}.{}", table, names[j]), values[j], ranges[j].minimum, ranges[j].maximum, false});
+  }
+
   void conclude() {
+    add_estimates("modulus", material::modulus_parameter_names(), theta_ranges(), to_vector(result.parameters.modulus));
+    add_estimates("toughness", material::toughness_parameter_names(), eta_ranges(),
+                  to_vector(result.parameters.toughness));
     const std::vector<double> equal(measured.size(), 1.0);
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);

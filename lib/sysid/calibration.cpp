@@ -96,10 +96,8 @@ struct Calibration::State {
   static Vector from_point(const Point& point, const Point& start_point, Vector vector,
                            std::span<const ParameterRange> ranges) {
     for (std::size_t j = 0; j < point.size(); ++j) {
-      const bool start_inside = vector[j] >= ranges[j].minimum && vector[j] <= ranges[j].maximum;
-      if (point[j] != start_point[j] || !start_inside) {
+      if (point[j] != start_point[j])
         vector[j] = std::clamp(from_unit(ranges[j], point[j]), ranges[j].minimum, ranges[j].maximum);
-      }
     }
     return vector;
   }

@@ -145,7 +145,7 @@ struct Calibrated {
   double toughness_objective_before = 0.0, toughness_objective_after = 0.0;
   std::vector<Prediction> predictions;  ///< of `parameters`, per measured design
   /// All of theta and eta, in the order of their vectors. Intervals hold near the optimum (a linear model of the
-  /// residuals, in which misfit counts as noise). None from BaseCalibration.
+  /// residuals, in which misfit counts as noise). From BaseCalibration whole ranges, none determined.
   std::vector<ParameterEstimate> estimates;
   /// Objective of every parameter set evaluated, in order: how the search converged. None from BaseCalibration.
   std::vector<double> modulus_objectives, toughness_objectives;

@@ -53,7 +53,8 @@ ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& meas
     modulus.add(design.modulus_count, design.modulus_pa, design.modulus_sd_pa);
     toughness.add(design.toughness_count, design.toughness_pa, design.toughness_sd_pa);
   }
-  return {modulus.deviation(otherwise.log_modulus), toughness.deviation(otherwise.log_toughness)};
+  return {modulus.deviation(otherwise.log_modulus), toughness.deviation(otherwise.log_toughness), modulus.freedom,
+          toughness.freedom};
 }
 
 double modulus_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,

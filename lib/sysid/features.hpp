@@ -25,6 +25,7 @@ std::optional<double> peak_of(const measurement::Replicates& measured);
 /// several.
 struct ReplicateScatter {
   double log_modulus = 0.0, log_toughness = 0.0;
+  int modulus_freedom = 0, toughness_freedom = 0;  ///< 0: assumed
 };
 /// `otherwise` where no design was measured twice.
 ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& measured,

@@ -17,24 +17,28 @@ class Residuals {
     result_.fit.chi_squared += residual * residual / variance;
     result_.fit.chi_squared_replicates += residual * residual / replicate_variance;
     result_.deviance += residual * residual / variance + std::log(variance);
+    known_ += variance * variance / (replicate_variance * replicate_variance);
   }
-  Likelihood conclude(int determined) {
+  /// `scatter_freedom`: how well the scatter of replicates is known; an assumed one counts as one degree.
+  Likelihood conclude(int determined, int scatter_freedom) {
     if (result_.fit.count == 0) return result_;
     result_.fit.freedom = std::max(1, result_.fit.count - determined);
-    result_.fit.p_value = chi_squared_tail(result_.fit.chi_squared, result_.fit.freedom);
+    // Satterthwaite: the floor's part of the variances is known, whatever the replicates' is worth.
+    const double freedom_below = std::max(1, scatter_freedom) * known_ / result_.fit.count;
+    result_.fit.p_value = f_tail(result_.fit.chi_squared / result_.fit.freedom, result_.fit.freedom, freedom_below);
     return result_;
   }
 
  private:
   Likelihood result_;
+  double known_ = 0.0;
 };
 
 }  // namespace
 
-double chi_squared_tail(double value, int freedom) {
-  const double share = 2.0 / (9.0 * freedom);
-  const double z = (std::cbrt(value / freedom) - (1.0 - share)) / std::sqrt(share);
-  return normal_cdf(-z);
+double f_tail(double value, double freedom_above, double freedom_below) {
+  const double above = 2.0 / (9.0 * freedom_above), below = 2.0 / (9.0 * freedom_below), root = std::cbrt(value);
+  return normal_cdf(-((1.0 - below) * root - (1.0 - above)) / std::sqrt(below * root * root + above));
 }
 
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
@@ -49,7 +53,7 @@ Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& mea
     residuals.add(std::log(*simulated / measured[i].modulus_pa), modulus_variance(measured[i], scatter, floor),
                   modulus_variance(measured[i], scatter, none));
   }
-  return residuals.conclude(determined);
+  return residuals.conclude(determined, scatter.modulus_freedom);
 }
 
 Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& measured,
@@ -64,7 +68,7 @@ Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& m
     residuals.add(std::log(*simulated / measured[i].toughness_pa), toughness_variance(measured[i], scatter, floor),
                   toughness_variance(measured[i], scatter, none));
   }
-  return residuals.conclude(determined);
+  return residuals.conclude(determined, scatter.toughness_freedom);
 }
 
 }  // namespace nacre::sysid

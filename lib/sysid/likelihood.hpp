@@ -13,7 +13,7 @@ struct Likelihood {
 
 /// Residuals of log E or log T of the designs that were measured and simulated; `determined`: parameters that these
 /// data determine. Their covariance is that of replicates (pooled over designs) and floor, and the deviance contains
-/// its logarithm.
+/// its logarithm. Few replicates say little of the scatter: the chance of so large a chi squared is that of an F.
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                  const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                  int determined);
@@ -21,8 +21,8 @@ Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& m
                                    const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                    int determined);
 
-/// Chance that chi squared with this many degrees of freedom is at least `value` (Wilson and Hilferty's cube root;
-/// within 0.002).
-double chi_squared_tail(double value, int freedom);
+/// Chance that F with these degrees of freedom is at least `value` (Paulson's cube roots; within 0.002 from ten
+/// degrees below on; with fewer too large, so that less is called a misfit).
+double f_tail(double value, double freedom_above, double freedom_below);
 
 }  // namespace nacre::sysid

@@ -166,7 +166,7 @@ void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const materia
                    const material::Extensions& extensions, const material::LawExtensions& laws,
                    const TestConditions& conditions, int refinement) {
   const bool turned = conditions.orientation_deg == 90.0;
-  const LaidDown& made = laid_down(turned ? layout.rotated() : layout, extensions, refinement);
+  const LaidDown& made = laid_down(layout, extensions, refinement);
   const double printer_anisotropy = material::extension_value(extensions, "interface_anisotropy");
   const double anisotropy = turned ? -printer_anisotropy : printer_anisotropy;
   const double confinement = material::plane_strain_share(extensions, conditions.thickness_mm);

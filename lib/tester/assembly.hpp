@@ -17,8 +17,8 @@ enum class AssemblyTarget { modulus, toughness };
 /// The grid of a specimen of units_x x units_y units, every element split into refinement x refinement (same physical
 /// geometry, thresholds times refinement so that the fracture energy is shared), with all material-side extensions that
 /// act on the assignment of properties. No notch. columns = 40 * units_x * refinement, rows likewise; the pulling
-/// direction is the grid's y; orientation 90 assembles the specimen that was printed lying along x, turned upright.
-/// The parameters must be usable (material::parameter_fault empty) and the orientation 0 or 90.
+/// direction is the grid's y; orientation 90 is the same specimen, outline and layout, printed lying along the
+/// printer's x. The parameters must be usable (material::parameter_fault empty) and the orientation 0 or 90.
 fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& parameters,
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y,
                    int refinement = 1);

@@ -8,15 +8,13 @@
 namespace nacre::tester {
 namespace {
 
-/// Share of the stability limit h / c at which the solver runs.
-constexpr double kStabilityShare = 0.8;
 /// Steps over which a specimen is judged to be at rest: 0.1 ms, in which motion that is not overdamped decays by e^-5
 /// at gamma = 1e5 /s, so that an oscillation cannot pass for rest.
 constexpr int kRestSteps = 1000;
 constexpr int kMostSteps = 1'000'000;
 
 Result<fem::ExplicitSolver<double>> stretched_specimen(const fem::Grid& grid, double gamma_per_s) {
-  const double wave_limit = kStabilityShare * grid.element_size_m / fem::fastest_wave_m_per_s(grid, thesis::kDensity);
+  const double wave_limit = fem::longest_step_s(grid, thesis::kDensity);
   return fem::ExplicitSolver<double>::create(grid, {.density_kg_per_m3 = thesis::kDensity,
                                                     .time_step_s = std::min(wave_limit, thesis::kModulusTimeStep.value),
                                                     .strain_rate_per_s = 0.0,

@@ -53,11 +53,14 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
 }  // namespace
 
 std::string simulation_key(const Simulation& simulation, TestKind kind) {
+  // Kept answers to a turned coupon may be those of its layout turned against the pull, as testers once understood it.
+  const bool is_turned_coupon = simulation.conditions.orientation_deg == 90.0 && simulation.design.layout() &&
+                                !simulation.design.layout()->has_eightfold_symmetry();
   const std::string question =
-      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}\nparameters{}\n{}", kKernelVersion,
+      fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}", kKernelVersion,
                   to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
-                  exact(simulation.conditions.orientation_deg), parameter_text(simulation.parameters, kind),
-                  model_text(simulation, kind));
+                  exact(simulation.conditions.orientation_deg), is_turned_coupon ? " with its layout" : "",
+                  parameter_text(simulation.parameters, kind), model_text(simulation, kind));
   return content_hash(question);
 }
 

@@ -16,8 +16,6 @@
 namespace nacre::tester {
 namespace {
 
-/// Share of the stability limit h / c at which the solver runs.
-constexpr double kStabilityShare = 0.8;
 /// Largest alpha = gamma dt of the filter (2.4). It multiplies the velocity of the shortest waves by 1 - 4 alpha / 3 in
 /// every step; where that is negative (alpha > 3/4), symplectic Euler amplifies them without bound, however small the
 /// step is for the waves. At 1/2 T is within 15 % of its limit for the strongest damping allowed, and within 2 % for
@@ -29,7 +27,7 @@ constexpr double kSampleStrain = 1e-4;
 /// The thesis' 2e-7 s, or less where waves or the filter demand it. Pure soft material, which is pulled much further,
 /// and the smaller fidelities take what both allow: it changes their T by about 1 % and halves their time.
 double time_step_s(const fem::Grid& grid, double gamma_per_s, bool capped) {
-  const double wave_limit = kStabilityShare * grid.element_size_m / fem::fastest_wave_m_per_s(grid, thesis::kDensity);
+  const double wave_limit = fem::longest_step_s(grid, thesis::kDensity);
   const double limit = std::min(wave_limit, kLargestAlpha / gamma_per_s);
   return capped ? std::min(limit, thesis::kTimeStep.value) : limit;
 }

@@ -1,5 +1,6 @@
 // nacre calibrate: parameters that make the testers agree with a measurement set.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -126,9 +127,22 @@ void print_errors(const std::string& name, const sysid::PredictionErrors& before
              percent(after.toughness_count, after.toughness_mean), after.modulus_count, after.toughness_count);
 }
 
+/// What the figures do not say by themselves.
+void print_reservations(const sysid::OfflineCalibration& result) {
+  for (const sysid::ParameterEstimate& estimate : result.calibrated.estimates) {
+    const bool whole_range = !estimate.determined;
+    if (whole_range && (estimate.value == estimate.low90 || estimate.value == estimate.high90))
+      remark(fmt::format("{} stands at the end of its range: other materials may need a wider one", estimate.name));
+  }
+  const auto repeated = [](const measurement::Replicates& r) { return r.modulus_count > 1 || r.toughness_count > 1; };
+  if (std::ranges::none_of(result.measured, repeated))
+    remark("no design was measured twice: how much replicates scatter is assumed, 1 % of E and 5 % of T");
+}
+
 void print_table(const sysid::OfflineCalibration& result) {
-  print_errors("fitted", result.before_fitted, result.after_fitted);
+  // What the fit has not seen comes first: that is what a model is worth.
   if (!result.held_out.empty()) print_errors("held out", result.before_held_out, result.after_held_out);
+  print_errors("fitted", result.before_fitted, result.after_fitted);
   for (const sysid::ParameterEstimate& estimate : result.calibrated.estimates) {
     fmt::print("{:<28} {:>12.5g}  90 %: {:.5g} to {:.5g}{}\n", estimate.name, estimate.value, estimate.low90,
                estimate.high90, estimate.determined ? "" : "  (not determined)");
@@ -136,6 +150,7 @@ void print_table(const sysid::OfflineCalibration& result) {
   if (result.ensemble_held_out.toughness_count > 0) {
     fmt::print("held out, mean of the ensemble: T {:.1f} %\n", 100.0 * result.ensemble_held_out.toughness_mean);
   }
+  print_reservations(result);
   print_fit("E", result.calibrated.modulus_fit);
   print_fit("T", result.calibrated.toughness_fit);
   fmt::print("{} simulations", result.simulations);
@@ -147,9 +162,8 @@ int calibrate(const Options& options) {
   prepare_output_file(options.out);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
-  const material::ParameterSet defaults = material::default_parameters();
   sysid::OfflineSettings settings;
-  settings.calibration.start = options.start.empty() ? defaults : material::read_parameters(options.start, defaults);
+  settings.calibration.start = parameters_from_option(options.start, material::default_parameters());
   settings.calibration.toughness_budget = options.budget;
   settings.calibration.modulus_budget = options.modulus_budget;
   settings.calibration.seed = options.seed;

@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
+#include "fabricate/job.hpp"
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
 #include "output.hpp"
@@ -33,6 +34,15 @@ struct Options {
   bool json = false, plan = false, fracture = false;
 };
 
+/// Orientation, and what is unlike the usual test: " at 90 degrees, at 0.00617 /s, 1.6 mm thick".
+std::string conditions_in_words(const tester::TestConditions& c) {
+  const tester::TestConditions usual;
+  std::string words = fmt::format(" at {:.0f} degrees", c.orientation_deg);
+  if (c.strain_rate_per_s != usual.strain_rate_per_s) words += fmt::format(", at {:.3g} /s", c.strain_rate_per_s);
+  if (c.thickness_mm != usual.thickness_mm) words += fmt::format(", {:.3g} mm thick", c.thickness_mm);
+  return words;
+}
+
 void print_candidates(const diagnosis::Diagnosis& d) {
   for (const diagnosis::Candidate& c : d.candidates) {
     fmt::print("  {:<22} {:<10} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:.1f}\n", c.name, c.status,
@@ -43,8 +53,8 @@ void print_candidates(const diagnosis::Diagnosis& d) {
                d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    fmt::print("  next: {} of {} at {:.0f} degrees, {} specimens: {}\n", tester::to_string(e.test), e.design.name(),
-               e.conditions.orientation_deg, e.replicates, e.reason);
+    fmt::print("  next: {} of {}{}, {} specimens: {}\n", tester::to_string(e.test), fabricate::readable_name(e.design),
+               conditions_in_words(e.conditions), e.replicates, e.reason);
   }
 }
 
@@ -66,8 +76,10 @@ int diagnose_table(const Options& options) {
 
 diagnosis::DiagnosisSettings settings_from(const Options& options) {
   diagnosis::DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  if (!options.parameters.empty()) settings.start = material::read_parameters(options.parameters, settings.start);
+  settings.start = parameters_from_option(options.parameters, material::default_parameters());
+  if (!settings.start.extensions.empty())
+    warn(fmt::format("{}: its extensions are left aside: a diagnosis asks what the base model lacks",
+                     options.parameters));
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
@@ -89,10 +101,20 @@ struct TakingPart {
 /// the virtual laboratory.
 TakingPart taking_part(const std::vector<measurement::SpecimenRecord>& specimens, const Options& options) {
   TakingPart part{specimens, ""};
-  const auto notched = [](const measurement::SpecimenRecord& s) { return s.test == tester::TestKind::toughness; };
+  using measurement::SpecimenRecord;
+  using tester::TestKind;
+  const auto is_coupon = [](const SpecimenRecord& s) { return s.valid && s.test == TestKind::tensile; };
+  const auto has_layout = [](const SpecimenRecord& s) { return s.valid && s.design.layout(); };
+  const auto homogeneous = std::ranges::count_if(
+      specimens, [](const SpecimenRecord& s) { return s.valid && s.test == TestKind::modulus && s.design.mixture(); });
+  if (homogeneous > 0 && std::ranges::none_of(specimens, is_coupon) && std::ranges::any_of(specimens, has_layout))
+    part.left_out = fmt::format(
+        " {} moduli of homogeneous specimens were left out: without tensile coupons they say nothing of layouts.",
+        homogeneous);
+  const auto notched = [](const SpecimenRecord& s) { return s.test == TestKind::toughness; };
   if (options.fracture || std::ranges::all_of(specimens, notched)) return part;
   if (const auto count = std::erase_if(part.specimens, notched); count > 0)
-    part.left_out = fmt::format(
+    part.left_out += fmt::format(
         " {} toughness specimens were left out: what acts on fracture alone is not looked for (--fracture takes them "
         "in).",
         count);
@@ -122,7 +144,9 @@ int plan(const Options& options) {
   progress.end();
   if (!part.left_out.empty()) remark(part.left_out.substr(1));
   if (options.json) {
-    print_json(nlohmann::ordered_json::parse(to_json(plan)));
+    auto document = nlohmann::ordered_json::parse(to_json(plan));
+    document["rejected"] = rejected_json(set.rejected);
+    print_json(document);
     return 0;
   }
   fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and named\n", plan.specimens, plan.groups);

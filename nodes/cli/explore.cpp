@@ -42,8 +42,7 @@ struct Options {
 };
 
 void print_summary(const std::vector<explore::Evaluated>& gamut, const Options& options, int failed) {
-  std::vector<optimize::Performance> points;
-  for (const auto& sample : gamut) points.push_back(sample.performance);
+  const std::vector<optimize::Performance> points = explore::performances_of(gamut);
   const double hypervolume = optimize::hypervolume_staircase_gpa_mpa(points);
   const std::size_t front_size = optimize::pareto_front(points).size();
   if (options.json) {
@@ -65,14 +64,16 @@ explore::SearchSettings search_settings(const Options& options) {
   settings.population = options.population;
   settings.batch = options.batch;
   settings.seed = options.seed;
+  if (!options.former.empty() && options.algorithm != "learned")
+    throw InputError::format("--former: `{}` learns nothing from former samples, expected --algorithm learned",
+                             options.algorithm);
   if (!options.former.empty()) settings.former = explore::read_gamut_csv(options.former);
   return settings;
 }
 
 int explore_gamut(const Options& options) {
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
-  const material::ParameterSet defaults = material::default_parameters();
-  const auto parameters = options.params.empty() ? defaults : material::read_parameters(options.params, defaults);
+  const auto parameters = parameters_from_option(options.params, material::default_parameters());
   explore::SearchSettings settings = search_settings(options);
   settings.modulus_of = explore::modulus_by_tester(parameters, fidelity, 0);
   const auto search = explore::make_search(settings);

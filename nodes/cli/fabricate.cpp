@@ -171,6 +171,9 @@ int fabricate_job(const Options& options) {
   const fabricate::JobRequest request = request_of(options);
   if (request.wanted.empty()) {
     remark("every order of the game is printed or measured");
+    if (options.json)
+      print_json(
+          {{"trays", 0}, {"models", nlohmann::ordered_json::array()}, {"specimens", nlohmann::ordered_json::array()}});
     return 1;
   }
   const fabricate::Job job = fabricate::plan_job(request);

@@ -367,13 +367,16 @@ void print_proposed(const std::vector<Family>& proposed, const std::filesystem::
 
 int find_families(const Options& options) {
   Beginning beginning = options.set.empty() ? beginning_of_run(options) : beginning_of_set(options);
-  if (!options.params.empty()) beginning.parameters = material::read_parameters(options.params, beginning.parameters);
+  beginning.parameters = parameters_from_option(options.params, beginning.parameters);
   std::vector<families::Member> members;
   for (const measurement::Replicates& group : beginning.measured)
     members.push_back({*game::eightfold_pattern(group.design), {group.modulus_pa, group.toughness_pa}});
   const std::vector<families::Member> near = families::near_pareto(members, options.rank);
   if (near.empty()) {
     remark("no pattern has been measured in both tests yet");
+    nlohmann::ordered_json none = nlohmann::ordered_json::array();
+    if (options.propose) none = {{"families", nlohmann::ordered_json::array()}};
+    if (options.json) print_json(none);
     return 1;
   }
   std::erase_if(beginning.measured, [&](const measurement::Replicates& group) {

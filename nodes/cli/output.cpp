@@ -11,6 +11,21 @@
 
 namespace nacre::cli {
 
+namespace {
+
+template <class Vector>
+void warn_about_units(const std::string& file, std::string_view table, std::span<const std::string_view> names,
+                      const Vector& values, std::span<const material::ParameterRange> ranges) {
+  constexpr double kFar = 100.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= ranges[i].minimum / kFar && values[i] <= ranges[i].maximum * kFar) continue;
+    warn(fmt::format("{}: {}.{} = {:g} lies far outside {:g} to {:g}, where it is fitted: is the unit right?", file,
+                     table, names[i], values[i], ranges[i].minimum, ranges[i].maximum));
+  }
+}
+
+}  // namespace
+
 void print_json(const nlohmann::ordered_json& document) {
   fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
@@ -47,6 +62,17 @@ nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>
 void check_standard_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw InputError::format("standard output: cannot be written: {}", std::strerror(errno));
+}
+
+material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start) {
+  if (file.empty()) return start;
+  const material::ParameterSet set = material::read_parameters(file, start);
+  constexpr auto kTarget = material::FitTarget::base;
+  warn_about_units(file, "modulus", material::modulus_parameter_names(), to_vector(set.modulus),
+                   material::modulus_ranges(kTarget));
+  warn_about_units(file, "toughness", material::toughness_parameter_names(), to_vector(set.toughness),
+                   material::toughness_ranges(kTarget));
+  return set;
 }
 
 tester::Fidelity fidelity_from_option(const std::string& name) {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
 
@@ -38,6 +39,10 @@ nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>
 
 /// Throws InputError unless all that was written to standard output has arrived (full disk, closed pipe).
 void check_standard_output();
+
+/// The parameter file given, what it leaves out from `start`; `start` where none is given. Warns of a value that is a
+/// hundred times outside the range in which it is fitted: its unit may be another. Throws InputError.
+material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start);
 
 /// A fidelity as typed; throws InputError with the choices.
 tester::Fidelity fidelity_from_option(const std::string& name);

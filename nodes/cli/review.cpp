@@ -129,11 +129,16 @@ int judge(const Options& options, const std::vector<Judgement>& judgements) {
   return reviewed.size() == judgements.size() ? 0 : 1;
 }
 
-std::vector<SpecimenRecord> specimens_to_review(const Options& options) {
-  if (options.set.empty()) return view_laboratory(open_run(options.run)).facts.book.specimens();
-  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
-  warn_about(set, options.set);
-  return set.specimens;
+/// Those of the run, where nothing is rejected, or of the set.
+measurement::MeasurementSet specimens_to_review(const Options& options) {
+  measurement::MeasurementSet set;
+  if (options.set.empty()) {
+    set.specimens = view_laboratory(open_run(options.run)).facts.book.specimens();
+  } else {
+    set = measurement::read_measurement_set(options.set);
+    warn_about(set, options.set);
+  }
+  return set;
 }
 
 nlohmann::ordered_json to_json(const ReplicateGroup& group) {
@@ -177,22 +182,26 @@ void print_group(const ReplicateGroup& group) {
   }
 }
 
-void print_review(const std::vector<ReplicateGroup>& groups, const std::vector<measurement::HistoryEffect>& history,
-                  bool json) {
-  if (json) {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array(), effects = all;
-    for (const auto& group : groups) all.push_back(to_json(group));
-    for (const auto& effect : history) {
-      effects.push_back({{"factor", effect.factor},
-                         {"level", effect.level},
-                         {"test", std::string(tester::to_string(effect.test))},
-                         {"relative", effect.relative},
-                         {"standard_error", effect.standard_error},
-                         {"specimens", effect.specimens},
-                         {"notable", effect.notable()}});
-    }
-    return print_json({{"groups", all}, {"history", effects}});
-  }
+nlohmann::ordered_json to_json(const measurement::HistoryEffect& effect) {
+  return {{"factor", effect.factor},
+          {"level", effect.level},
+          {"test", std::string(tester::to_string(effect.test))},
+          {"relative", effect.relative},
+          {"standard_error", effect.standard_error},
+          {"specimens", effect.specimens},
+          {"notable", effect.notable()}};
+}
+
+void print_review_json(const std::vector<ReplicateGroup>& groups,
+                       const std::vector<measurement::HistoryEffect>& history,
+                       const std::vector<measurement::RejectedRow>& rejected) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array(), effects = all;
+  for (const auto& group : groups) all.push_back(to_json(group));
+  for (const auto& effect : history) effects.push_back(to_json(effect));
+  print_json({{"groups", all}, {"history", effects}, {"rejected", rejected_json(rejected)}});
+}
+
+void print_review(const std::vector<ReplicateGroup>& groups, const std::vector<measurement::HistoryEffect>& history) {
   for (const auto& group : groups) print_group(group);
   for (const auto& effect : history) {
     if (!effect.notable()) continue;
@@ -212,10 +221,11 @@ int review(const Options& options) {
     return judge(options, {{options.specimen, options.valid, options.why}});
   }
   if (options.valid || options.invalid) throw InputError("nacre review: expected a specimen to judge");
-  const std::vector<SpecimenRecord> specimens = specimens_to_review(options);
-  const std::vector<ReplicateGroup> groups = measurement::review_replicates(specimens);
+  const measurement::MeasurementSet set = specimens_to_review(options);
+  const std::vector<ReplicateGroup> groups = measurement::review_replicates(set.specimens);
   if (!options.accept) {
-    print_review(groups, measurement::history_effects(specimens), options.json);
+    const std::vector<measurement::HistoryEffect> history = measurement::history_effects(set.specimens);
+    options.json ? print_review_json(groups, history, set.rejected) : print_review(groups, history);
     return 0;
   }
   std::vector<Judgement> judgements;

@@ -222,8 +222,7 @@ void check_output_options(const Options& options) {
 
 int simulate(const Options& options) {
   std::vector<Specimen> specimens = read_specimens(options.patterns);
-  material::ParameterSet parameters = material::default_parameters();
-  if (!options.params.empty()) parameters = material::read_parameters(options.params, parameters);
+  const material::ParameterSet parameters = parameters_from_option(options.params, material::default_parameters());
   check_output_options(options);
   run_tests(specimens, options, parameters);
   write_files(specimens, options);

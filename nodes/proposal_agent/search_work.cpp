@@ -1,6 +1,7 @@
 #include "proposal_agent/search_work.hpp"
 
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -83,6 +84,7 @@ explore::Question question_from(const std::string& spec) {
 }  // namespace
 
 std::string search_spec(const explore::Question& question, const wire::AdoptedModel& model) {
+  assert(question.settings.learned == explore::LearnedSettings{});
   return runtime::pack({question.settings.algorithm, std::to_string(question.settings.seed),
                         std::to_string(question.count), packed(question.evaluated), packed(question.lost),
                         packed(question.settings.former), std::to_string(question.settings.population),

@@ -10,8 +10,8 @@
 
 namespace nacre::proposal_agent {
 
-/// Spec of a Compute of kind "search": the question whole and the model that it is asked of, so that the answer is a
-/// function of the spec.
+/// Spec of a Compute of kind "search": the question and the model that it is asked of, so that the answer is a function
+/// of the spec. `learned` learns as by default in a game; other settings do not travel.
 std::string search_spec(const explore::Question& question, const wire::AdoptedModel& model);
 
 /// Kind "search": explore::answer_to() of the question.

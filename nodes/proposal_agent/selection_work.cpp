@@ -32,10 +32,9 @@ Selection selection_from(const std::string& spec) {
 std::string work(const std::string& spec) {
   const Selection selection = selection_from(spec);
   std::vector<explore::Evaluated> gamut;
-  std::vector<optimize::Performance> performances;
   for (const wire::GamutChunk& chunk : selection.gamut)
     gamut.insert(gamut.end(), chunk.samples.begin(), chunk.samples.end());
-  for (const explore::Evaluated& sample : gamut) performances.push_back(sample.performance);
+  const std::vector<optimize::Performance> performances = explore::performances_of(gamut);
   wire::Proposal proposal;
   proposal.round = selection.model.round;
   proposal.fidelity = selection.model.fidelity;

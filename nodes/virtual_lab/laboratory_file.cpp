@@ -9,6 +9,7 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "base/toml_file.hpp"
 #include "virtual_lab/truth.hpp"
 
 namespace nacre::virtual_laboratory {
@@ -19,7 +20,8 @@ constexpr std::size_t kMostEffects = 2;
 
 InputError fault_at(std::string_view source, const toml::node& node, std::string_view key,
                     const std::string& expected) {
-  return InputError::format("{}: line {}, {}: expected {}", source, node.source().begin.line, key, expected);
+  const std::string value = node.is_value() ? " = " + shown(node) : "";
+  return InputError::format("{}: line {}, {}{}: expected {}", source, node.source().begin.line, key, value, expected);
 }
 
 /// A table of which every key must be asked for, so that unknown ones are found.

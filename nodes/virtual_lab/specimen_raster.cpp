@@ -213,8 +213,7 @@ UnitElements unit_elements(const Constants& constants, const Truth& truth, const
                           element_constants(constants, mixture->rigid_fraction, 1.0, effects, making));
     return unit;
   }
-  // Orientation 90: the design lies in the printer's axes, the specimen is pulled along the printer's x.
-  const pattern::Layout layout = making.orientation_deg == 90.0 ? design.layout()->rotated() : *design.layout();
+  const pattern::Layout& layout = *design.layout();  // outline and layout are turned together when printed
   const Unit printed = unit_of(layout, effects);
   unit.rigid_fraction = printed.rigid_fraction;
   for (int row = 0; row < kUnitElements; ++row) {

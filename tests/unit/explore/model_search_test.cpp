@@ -315,6 +315,16 @@ TEST(BatchLog, RefusesTheBatchesOfAnotherSearch) {
     return "no error";
   };
   EXPECT_THAT(message(settings("nsga2", 2, 40)), HasSubstr("line 1: it is \"batches of nsga2 seed=1"));
+  const std::string before = read_file(path);
+  std::ofstream(path, std::ios::app) << "cut off by a cra";
+  EXPECT_THAT(message(settings("nsga2", 2, 40)), HasSubstr("line 1"));
+  EXPECT_EQ(read_file(path), before + "cut off by a cra") << "a file that is refused stays as it is";
+  std::ofstream(path) << "a note without an end of line";
+  EXPECT_THAT(message(settings("nsga2", 1, 40)), HasSubstr("line 1: it is \"a note without"));
+  EXPECT_EQ(read_file(path), "a note without an end of line");
+  std::ofstream(path) << before.substr(0, 20);  // a crash while it was begun
+  EXPECT_EQ(message(settings("nsga2", 1, 40)), "no error");
+  EXPECT_EQ(read_file(path), before);
   std::ofstream(path, std::ios::app) << "577fffe9fffdef xyz\n";
   EXPECT_THAT(message(settings("nsga2", 1, 40)), HasSubstr("line 2: \"xyz\", expected the key of a pattern"));
   std::filesystem::remove(path);

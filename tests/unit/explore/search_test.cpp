@@ -111,6 +111,16 @@ TEST_P(EverySearch, KnownPatternsComeFirstAndAreNotAskedFor) {
   EXPECT_EQ(patterns.size(), 90u);
 }
 
+TEST_P(EverySearch, GoesOnWhereHalfOfItsStartIsKnown) {
+  const auto earlier = make_search(settings(GetParam(), 3, 10));
+  run(*earlier);
+  SearchSettings resumed = settings(GetParam(), 3, 40);
+  resumed.known = earlier->evaluated();
+  const auto search = make_search(resumed);
+  run(*search);
+  EXPECT_EQ(search->evaluated().size(), 50u);
+}
+
 TEST_P(EverySearch, MisuseIsOurBugAndIsAsserted) {
   const auto search = make_search(settings(GetParam(), 1));
   const std::vector<std::optional<optimize::Performance>> one(1);

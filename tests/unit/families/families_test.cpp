@@ -185,7 +185,7 @@ TEST(FamiliesFile, ComesBackAsItWasWritten) {
   refused(
       "[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = "
       "[\"577fffe9fffdef\"]\n",
-      "families.toml:4: seed '577fffe9fffdef' belongs to two families");
+      "families.toml:4: seed '577fffe9fffdef' stands here for the second time");
 }
 
 }  // namespace

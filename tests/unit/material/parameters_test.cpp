@@ -121,7 +121,8 @@ TEST(ParameterFile, ErrorsNameFileLineKeyAndWhatWasExpected) {
   EXPECT_THAT(negative, HasSubstr(".toml:3:"));
   EXPECT_THAT(negative, HasSubstr("modulus.e_vw_pa"));
   EXPECT_THAT(negative, HasSubstr("expected a positive finite number"));
-  EXPECT_THAT(error_of("[toughness]\nnu_tb = 0.51\n"), HasSubstr("expected a number from 0 to 0.5"));
+  EXPECT_THAT(error_of("[toughness]\nnu_tb = 0.51\n"),
+              HasSubstr("toughness.nu_tb = 0.51: expected a number from 0 to 0.5"));
   EXPECT_THAT(error_of("[toughness]\ne_tb_pa = \"soft\"\n"), HasSubstr("toughness.e_tb_pa"));
   EXPECT_THAT(error_of("[toughness]\ne_tb_pa = nan\n"), HasSubstr("positive finite"));
   EXPECT_THAT(error_of("[modulus]\nw_tb_j_per_m3 = 1e5\n"), HasSubstr("unknown key, expected one of e_tb_pa"));

@@ -48,7 +48,8 @@ TEST(Coupons, NamesReadBack) {
   }
   EXPECT_FALSE(coupon_from_name("577fffe9fffdef"));
   EXPECT_FALSE(coupon_name(Layout{}));
-  for (const char* wrong : {"checkerboard:3", "checkerboard", "laminate:z:1:1", "laminate:x:3:3", "laminate:x:1"}) {
+  for (const char* wrong : {"checkerboard:2147483647", "laminate:x:2147483647:3", "checkerboard:3", "checkerboard",
+                            "laminate:z:1:1", "laminate:x:3:3", "laminate:x:1"}) {
     const auto refused = coupon_from_name(wrong);
     ASSERT_TRUE(refused) << wrong;
     EXPECT_FALSE(*refused) << wrong;

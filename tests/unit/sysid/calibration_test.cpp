@@ -493,6 +493,11 @@ TEST(BaseCalibration, MeetsEveryMaterialByItself) {
     EXPECT_EQ(result.predictions[m].modulus_pa, base_answer(measured[m], result.parameters, true).modulus_pa);
   }
   EXPECT_LT(result.simulations, 60);
+  ASSERT_EQ(result.estimates.size(), 17u);
+  EXPECT_EQ(result.estimates.front().name, "modulus.e_tb_pa");
+  EXPECT_EQ(result.estimates.front().value, result.parameters.modulus.e_tb_pa);
+  EXPECT_EQ(result.estimates.back().value, result.parameters.toughness.gamma_per_s);
+  for (const ParameterEstimate& each : result.estimates) EXPECT_FALSE(each.determined) << each.name;
 }
 
 TEST(BaseCalibration, KeepsWhatHasNoBudget) {

@@ -59,11 +59,36 @@ TEST(Likelihood, StaysFiniteWhereReplicatesAgreeExactly) {
   EXPECT_TRUE(likelihood.fit.misfit());
 }
 
-TEST(Likelihood, HasTheTailOfChiSquared) {
+TEST(Likelihood, HasTheTailOfF) {
   // Quantiles of the tables: 5 % and 1 % points.
-  EXPECT_NEAR(chi_squared_tail(3.841, 1), 0.05, 0.005);
-  EXPECT_NEAR(chi_squared_tail(18.307, 10), 0.05, 0.001);
-  EXPECT_NEAR(chi_squared_tail(23.209, 10), 0.01, 0.001);
+  constexpr double kMany = 1e6;  // chi squared over its degrees of freedom
+  EXPECT_NEAR(f_tail(3.841, 1, kMany), 0.05, 0.005);
+  EXPECT_NEAR(f_tail(1.8307, 10, kMany), 0.05, 0.001);
+  EXPECT_NEAR(f_tail(2.3209, 10, kMany), 0.01, 0.001);
+  EXPECT_NEAR(f_tail(2.978, 10, 10), 0.05, 0.002);
+  EXPECT_NEAR(f_tail(4.849, 10, 10), 0.01, 0.001);
+  EXPECT_GT(f_tail(27.23, 10, 3), 0.01) << "with few degrees below too large";
+  EXPECT_LT(f_tail(27.23, 10, 3), 0.02);
+}
+
+// Designs of one truth whose replicates scatter by 2 %; a misfit is called at 1 %.
+TEST(GoodnessOfFit, CallsFewMisfitsHoweverLittleIsKnownOfTheScatter) {
+  RandomStream random(5, "scatter");
+  constexpr int kDesigns = 12, kSets = 400;
+  for (const int replicated : {0, 1, 3, kDesigns}) {
+    int misfits = 0;
+    for (int set = 0; set < kSets; ++set) {
+      std::vector<Replicates> measured;
+      for (int i = 0; i < kDesigns; ++i) {
+        const double a = 1e9 * (1.0 + 0.02 * random.normal()), b = 1e9 * (1.0 + 0.02 * random.normal());
+        measured.push_back(i < replicated ? measured_modulus(0.5 * (a + b), std::abs(a - b) / std::sqrt(2.0), 2)
+                                          : measured_modulus(a, 0.0, 1));
+      }
+      const std::vector<Prediction> truth(kDesigns, modulus(1e9));
+      misfits += modulus_likelihood_of(measured, truth, NumericsFloor::none(), 0).fit.misfit();
+    }
+    EXPECT_LE(misfits, kSets / 40) << replicated << " designs with replicates";
+  }
 }
 
 TEST(GoodnessOfFit, CallsResidualsOfTheSizeOfScatterNoMisfitAndLargerOnesOne) {

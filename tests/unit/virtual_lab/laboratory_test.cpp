@@ -231,7 +231,7 @@ TEST(MeasureSet, KeepsTheTruthOfASetThatWasMovedAway) {
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-TEST(Campaign, TurnedTwinsAreMeasuredAcrossAndHomogeneousCouponsOnce) {
+TEST(Campaign, TurnedTwinsAreThoseOfLayoutsAndHomogeneousCouponsAreMeasuredOnce) {
   const Truth truth = parse_laboratory("seed = 3\nfidelity = \"tiny\"\nreplicates = 2\n", "a");
   std::string text;
   for (int row = 0; row < 20; ++row) text += "11111000001111100000\n";
@@ -245,7 +245,7 @@ TEST(Campaign, TurnedTwinsAreMeasuredAcrossAndHomogeneousCouponsOnce) {
   for (const auto& record : both) {
     if (record.design == designs[0]) modulus_pa[record.conditions.orientation_deg] = record.modulus_pa.value();
   }
-  EXPECT_GT(modulus_pa.at(0.0), 3.0 * modulus_pa.at(90.0)) << "stripes along the load against stripes across";
+  EXPECT_NEAR(modulus_pa.at(90.0) / modulus_pa.at(0.0), 1.0, 0.2) << "stripes lie along the load either way";
   for (auto record : straight) {
     const auto same = std::ranges::find(both, record.specimen, &measurement::SpecimenRecord::specimen);
     ASSERT_NE(same, both.end());
