@@ -62,4 +62,16 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
+double student_beyond(double t, int degrees) {
+  const double angle = std::atan(std::abs(t) / std::sqrt(degrees)), cosine = std::cos(angle);
+  double sum = 0.0, term = degrees % 2 == 0 ? 1.0 : cosine;
+  for (int k = degrees % 2; k <= degrees - 2; k += 2) {
+    sum += term;
+    term *= cosine * cosine * (k + 1.0) / (k + 2.0);
+  }
+  const double within = std::sin(angle) * sum;
+  const double share = degrees % 2 == 0 ? within : 2.0 / std::numbers::pi * (angle + within);
+  return std::clamp(1.0 - share, 0.0, 1.0);
+}
+
 }  // namespace nacre

@@ -28,4 +28,8 @@ double rank_correlation(std::span<const double> a, std::span<const double> b);
 /// Share of a standard normal distribution below x.
 double normal_cdf(double x);
 
+/// Chance that Student's t of so many degrees of freedom (at least 1) lies beyond t on either side (Abramowitz and
+/// Stegun 26.7.3 and 26.7.4: exact).
+double student_beyond(double t, int degrees);
+
 }  // namespace nacre

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
 #include "base/statistics.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -21,9 +24,32 @@ double value_of(const SpecimenRecord& specimen) {
   return value.value_or(0.0);
 }
 
-double peak_of(const SpecimenRecord& specimen) {
-  const auto& stress = specimen.curve.stress_pa;
-  return stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
+double peak_of(const tester::Curve& curve) {
+  return curve.empty() ? 0.0 : *std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
+}
+
+/// The forward curves of replicates, as far as they say the same: how far a coupon is pulled is the operator's choice,
+/// and a modulus test's curve says nothing but the modulus. Empty where there is nothing to compare.
+std::vector<tester::Curve> comparable_curves(const Members& members) {
+  std::vector<tester::Curve> curves;
+  double common_strain = std::numeric_limits<double>::infinity();
+  for (const SpecimenRecord* member : members) {
+    const bool is_modulus = member->test == tester::TestKind::modulus;
+    curves.push_back(is_modulus ? tester::Curve{} : forward_part(member->curve));
+    if (member->test == tester::TestKind::tensile && !curves.back().empty())
+      common_strain = std::min(common_strain, curves.back().strain.back());
+  }
+  for (tester::Curve& curve : curves) {
+    if (curve.empty() || curve.strain.back() <= common_strain) continue;
+    const double end_pa = tester::stress_at(curve, common_strain);
+    while (!curve.empty() && curve.strain.back() >= common_strain) {
+      curve.strain.pop_back();
+      curve.stress_pa.pop_back();
+    }
+    curve.strain.push_back(common_strain);
+    curve.stress_pa.push_back(end_pa);
+  }
+  return curves;
 }
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
@@ -40,17 +66,20 @@ double scatters_from_others(double value, const std::vector<double>& others, dou
 /// Holds the valid members of one group against each other.
 class Jury {
  public:
-  Jury(Members members, const ConsistencySettings& settings) : members_(std::move(members)), settings_(settings) {
-    for (const SpecimenRecord* member : members_) forward_.push_back(forward_part(member->curve));
-  }
+  Jury(Members members, const ConsistencySettings& settings)
+      : members_(std::move(members)), settings_(settings), forward_(comparable_curves(members_)) {}
 
   std::vector<OutlierReason> reasons_against(std::size_t suspect) const {
     std::vector<OutlierReason> reasons;
-    const SpecimenRecord& one = *members_[suspect];
-    const bool is_modulus = one.test == tester::TestKind::modulus;
-    compare(suspect, is_modulus ? "modulus" : "toughness", value_of,
-            is_modulus ? settings_.usual_modulus_scatter : settings_.usual_toughness_scatter, reasons);
-    compare(suspect, "peak", peak_of, settings_.usual_peak_scatter, reasons);
+    const tester::TestKind test = members_[suspect]->test;
+    std::vector<double> values, peaks;
+    for (const SpecimenRecord* member : members_) values.push_back(value_of(*member));
+    for (const tester::Curve& curve : forward_) peaks.push_back(peak_of(curve));
+    if (test == tester::TestKind::modulus)
+      compare(suspect, "modulus", values, settings_.usual_modulus_scatter, reasons);
+    if (test == tester::TestKind::toughness)
+      compare(suspect, "toughness", values, settings_.usual_toughness_scatter, reasons);
+    compare(suspect, "peak", peaks, settings_.usual_peak_scatter, reasons);
     compare_curve(suspect, reasons);
     compare_path(suspect, reasons);
     std::stable_sort(reasons.begin(), reasons.end(),
@@ -60,13 +89,12 @@ class Jury {
 
  private:
   /// A positive figure on the scale of its logarithm.
-  void compare(std::size_t suspect, const char* kind, double (*figure)(const SpecimenRecord&), double usual,
+  void compare(std::size_t suspect, const char* kind, const std::vector<double>& figures, double usual,
                std::vector<OutlierReason>& reasons) const {
-    const double own = figure(*members_[suspect]);
+    const double own = figures[suspect];
     std::vector<double> others;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      const double value = figure(*members_[i]);
-      if (i != suspect && value > 0.0) others.push_back(std::log(value));
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      if (i != suspect && figures[i] > 0.0) others.push_back(std::log(figures[i]));
     }
     if (own <= 0.0 || others.size() < 2) return;
     const double distance = scatters_from_others(std::log(own), others, usual);
@@ -101,9 +129,14 @@ class Jury {
                      100.0 * median(own), 100.0 * median(among_others))});
   }
 
+  /// In plain words without punctuation: persons spell one course in many ways.
   static std::string path_of(const SpecimenRecord& specimen) {
     const auto noted = specimen.other_columns.find("path");
-    return noted == specimen.other_columns.end() ? "" : noted->second;
+    if (noted == specimen.other_columns.end()) return "";
+    std::string path = noted->second;
+    std::replace_if(
+        path.begin(), path.end(), [](unsigned char letter) { return std::ispunct(letter) != 0; }, ' ');
+    return plain_words(path);
   }
 
   void compare_path(std::size_t suspect, std::vector<OutlierReason>& reasons) const {

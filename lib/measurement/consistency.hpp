@@ -57,8 +57,9 @@ struct ReplicateGroup {
 };
 
 /// Every group, sorted by design, test and conditions. Each valid specimen is held against the others of its group: its
-/// modulus or toughness, the peak of its curve, the area between its curve and theirs, and the course of the crack that
-/// a person noted (column `path`) against the most common one. At most as many are proposed as leave
+/// modulus, or its toughness, the peak of its curve and the area between its curve and theirs (of coupons peak and
+/// curve, up to the largest strain that all were pulled to), and the course of the crack that a person noted (column
+/// `path`, but for case, blanks and punctuation) against the most common one. At most as many are proposed as leave
 /// `fewest_consistent`, the worst first; where more are out of line the group is inconsistent.
 std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>& specimens,
                                               const ConsistencySettings& settings = {});
@@ -71,11 +72,13 @@ struct HistoryEffect {
   double relative = 0.0;        ///< exp(mean difference of log) - 1
   double standard_error = 0.0;  ///< of it
   int specimens = 0;
-  bool notable() const { return relative > 3.0 * standard_error || relative < -3.0 * standard_error; }
+  double chance = 1.0;  ///< of any of the effects being as large where there are none: Student's t, by Bonferroni
+  bool notable() const { return chance < 0.05; }
 };
 
 /// Effects of the specimens' history on modulus and toughness, each against the mean of its own design, so that it does
-/// not matter which designs were in a batch. Levels that share no design with others say nothing and are left out.
+/// not matter which designs were in a batch. Means of designs and levels cost the scatter degrees of freedom. Levels
+/// that share no design with others say nothing and are left out.
 std::vector<HistoryEffect> history_effects(const std::vector<SpecimenRecord>& specimens);
 
 }  // namespace nacre::measurement

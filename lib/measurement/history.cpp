@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 #include <tuple>
 
 #include "base/statistics.hpp"
@@ -52,29 +51,49 @@ std::vector<Residual> residuals_of(const std::vector<SpecimenRecord>& specimens,
   return residuals;
 }
 
-/// Levels of a factor, each against the rest.
+/// An effect on the logarithm, `left` degrees of freedom behind its error; `chance` is that of this one alone.
+HistoryEffect effect_of(double difference, double error, int left) {
+  HistoryEffect effect;
+  effect.relative = std::expm1(difference);
+  effect.standard_error = std::exp(difference) * error;
+  effect.chance = error > 0.0 ? student_beyond(difference / error, left) : difference != 0.0 ? 0.0 : 1.0;
+  return effect;
+}
+
+/// Levels of a factor, each against the mean of its designs.
 void add_levels(const std::vector<Residual>& residuals, const std::string& factor, tester::TestKind test,
                 std::vector<HistoryEffect>& effects) {
-  std::map<std::size_t, std::set<std::string>> levels_of_group;
-  for (const Residual& each : residuals) levels_of_group[each.group].insert(level_of(*each.specimen, factor));
+  std::map<std::size_t, std::map<std::string, double>> counts;  // of the specimens of a level, by group
+  for (const Residual& each : residuals) ++counts[each.group][level_of(*each.specimen, factor)];
+  std::erase_if(counts, [](const auto& group) { return group.second.size() < 2; });
   std::map<std::string, std::vector<double>> levels;
+  std::map<std::string, double> own;  // what is left of a level's variance beside its groups' means, times its count
   for (const Residual& each : residuals) {
     const std::string level = level_of(*each.specimen, factor);
-    if (!level.empty() && levels_of_group[each.group].size() > 1) levels[level].push_back(each.value);
+    const auto group = counts.find(each.group);
+    if (level.empty() || group == counts.end()) continue;
+    double of_group = 0.0;
+    for (const auto& [name, count] : group->second) of_group += count;
+    levels[level].push_back(each.value);
+    own[level] += 1.0 - group->second[level] / of_group;
   }
   if (levels.size() < 2) return;
   std::vector<double> within;
   for (const auto& [level, values] : levels) {
     for (const double value : values) within.push_back(value - mean(values));
   }
-  const int lost = static_cast<int>(levels.size());
-  if (static_cast<int>(within.size()) <= lost) return;
+  const int lost = static_cast<int>(counts.size() + levels.size()) - 1;  // the levels' mean is the groups' own
+  const int left = static_cast<int>(within.size()) - lost;
+  if (left <= 0) return;
   const double scatter = root_mean_square(within, lost);
   for (const auto& [level, values] : levels) {
-    const double difference = mean(values);
-    effects.push_back({factor, level, test, std::expm1(difference),
-                       std::exp(difference) * scatter / std::sqrt(static_cast<double>(values.size())),
-                       static_cast<int>(values.size())});
+    const double count = static_cast<double>(values.size());
+    HistoryEffect effect = effect_of(mean(values), scatter * std::sqrt(own[level]) / count, left);
+    effect.factor = factor;
+    effect.level = level;
+    effect.test = test;
+    effect.specimens = static_cast<int>(values.size());
+    effects.push_back(effect);
   }
 }
 
@@ -105,8 +124,12 @@ void add_trend(const std::vector<Residual>& residuals, tester::TestKind test, st
   for (std::size_t i = 0; i < order.size(); ++i) left.push_back(value[i] - slope * order[i]);
   const double error = root_mean_square(left, lost) / std::sqrt(squares);
   constexpr double kPer = 10.0;
-  effects.push_back({"print_order", "per 10 specimens", test, std::expm1(kPer * slope), kPer * error,
-                     static_cast<int>(order.size())});
+  HistoryEffect effect = effect_of(kPer * slope, kPer * error, static_cast<int>(order.size()) - lost);
+  effect.factor = "print_order";
+  effect.level = "per 10 specimens";
+  effect.test = test;
+  effect.specimens = static_cast<int>(order.size());
+  effects.push_back(effect);
 }
 
 }  // namespace
@@ -119,6 +142,8 @@ std::vector<HistoryEffect> history_effects(const std::vector<SpecimenRecord>& sp
     for (const char* factor : {"batch", "operator", "machine", "date"}) add_levels(residuals, factor, test, effects);
     add_trend(residuals, test, effects);
   }
+  for (HistoryEffect& effect : effects)
+    effect.chance = std::min(1.0, effect.chance * static_cast<double>(effects.size()));
   return effects;
 }
 

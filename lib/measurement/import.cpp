@@ -152,7 +152,8 @@ void set_values(const ReducedTest& test, SpecimenRecord& record) {
 }
 
 tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, const TesterRecord& from,
-                                                       const std::string& shown_file, const ImportSettings& settings) {
+                                                       const std::string& shown_file, const ImportSettings& settings,
+                                                       std::vector<std::string>& warnings) {
   const auto fault = [&](std::string column, std::string reason) {
     return tl::unexpected(
         ImportFault{shown_file, from.line.empty() ? 0 : from.line.front(), std::move(column), std::move(reason)});
@@ -169,12 +170,17 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   if (test->curve.size() < kFewestCurveRows)
     return fault("", fmt::format("{} points are left after the toe, expected at least {}", test->curve.size(),
                                  kFewestCurveRows));
-  if (test->toughness_pa <= 0.0)
+  // Of a modulus test that is unloaded the area is what noise leaves of it; its sign linear_part() has seen.
+  if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
   ImportedSpecimen imported{
       .record = row.record, .file = shown_file, .line = row.line, .maker = from.maker, .test = *test};
-  if (const auto rate = strain_rate(from.time_s, curve.strain); rate && !row.rate_is_given)
-    imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
+  const auto rate = strain_rate(from.time_s, curve);
+  if (rate && !row.rate_is_given) imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
+  if (!rate && !row.rate_is_given && !from.time_s.empty()) {
+    warnings.push_back(fmt::format("specimen {}: its times tell no strain rate; {} 1/s is assumed",
+                                   imported.record.specimen, imported.record.conditions.strain_rate_per_s));
+  }
   set_values(*test, imported.record);
   keep_history(from, *test, imported.record);
   return imported;
@@ -199,10 +205,24 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   const std::string who = fmt::format("specimen {}", one.record.specimen);
   if (!one.test.separated && one.record.test == tester::TestKind::toughness)
     warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
-  constexpr double kLargestToe = 0.01, kSlowest = 1e-6, kFastest = 1.0;
-  if (one.test.toe_strain > kLargestToe)
-    warnings.push_back(fmt::format("{}: a toe of {:.2f} % strain was taken off: was the specimen slack in its grips?",
-                                   who, 100.0 * one.test.toe_strain));
+  constexpr double kSlowest = 1e-6, kFastest = 1.0, kStiff = 1.25;
+  if (one.test.toe_kept != 0.0) {
+    warnings.push_back(fmt::format(
+        "{}: its straight part meets zero stress at {:.2f} % strain; of more than {} % nothing is taken off: "
+        "was the specimen slack in its grips, or loaded before?",
+        who, 100.0 * one.test.toe_kept, 100.0 * kLargestToe));
+  }
+  if (one.test.stiffening > kStiff) {
+    warnings.push_back(
+        fmt::format("{}: its peak stress is {:.1f} times what its first straight part leads to: does it "
+                    "stiffen, or was it slack in its grips?",
+                    who, one.test.stiffening));
+  }
+  if (one.test.modulus_error_pa > kSureModulus * one.test.modulus_pa) {
+    warnings.push_back(fmt::format(
+        "{}: initial modulus {:.3g} Pa has a standard error of {:.1f} %: is the force noisy, or the curve bent?", who,
+        one.test.modulus_pa, 100.0 * one.test.modulus_error_pa / one.test.modulus_pa));
+  }
   if (const std::string doubt = doubt_of_size(row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
   if (one.test.failure_strain > kMostUsualStrain)
     warnings.push_back(fmt::format("{}: failure strain {:.3g} is no usual one: are extension and gauge ({} mm) right?",
@@ -237,7 +257,7 @@ Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_
     for (const std::string& warning : record->warnings) {
       if (warned.insert(warning).second) import.warnings.push_back(warning);
     }
-    auto imported = import_one(row, *record, row.file, settings);
+    auto imported = import_one(row, *record, row.file, settings, import.warnings);
     if (!imported) {
       import.rejected.push_back(imported.error());
       continue;

@@ -14,9 +14,9 @@ struct Limits {
 };
 
 /// Below: no printed material, but most likely GPa or MPa written as Pa, or MJ/m3 as J/m3. One such value in a game
-/// makes relative errors of a million and more, and the model follows it. Above: no material at all.
-inline constexpr Limits kModulusPa{1e4, 1e13};
-inline constexpr Limits kToughnessPa{10.0, 1e13};
+/// makes relative errors of a million and more, and the model follows it. Above: Pa written as MPa, or no material.
+inline constexpr Limits kModulusPa{1e4, 1e12};
+inline constexpr Limits kToughnessPa{10.0, 1e9};
 
 inline constexpr Limits kStressPa{-1e13, 1e13};
 inline constexpr Limits kStrain{-100.0, 100.0};

@@ -50,6 +50,10 @@ struct MeasurementSet {
 /// bad row does not lose the others. Throws InputError when the folder or the table cannot be read or no row is usable.
 MeasurementSet read_measurement_set(const std::filesystem::path& folder);
 
+/// The same for whoever computes with the values: valid rows outside kModulusPa and kToughnessPa are rejected, too, for
+/// one modulus in GPa draws a whole fit after it. Throws InputError also when none is left.
+MeasurementSet read_plausible_set(const std::filesystem::path& folder);
+
 /// Writes measurements.csv and curves/SPECIMEN.csv, or SPECIMEN~2.csv and so on where a file of that name is there:
 /// only the table is written over. Throws InputError when the folder cannot be written.
 void write_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens);

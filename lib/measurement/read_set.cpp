@@ -114,11 +114,14 @@ void collect_warnings(const SpecimenRecord& record, const std::string& place, st
   collect_curve_warnings(record, place, warnings);
 }
 
+/// What a row must say: a test alone, a value of it, or a value that can be true.
+enum class Demand { planned, measured, plausible };
+
 /// Reads rows one after another into a set, and keeps specimen names unique.
 class SetBuilder {
  public:
-  SetBuilder(std::filesystem::path folder, std::string table, bool planned)
-      : folder_(std::move(folder)), table_(std::move(table)), planned_(planned) {}
+  SetBuilder(std::filesystem::path folder, std::string table, Demand demand)
+      : folder_(std::move(folder)), table_(std::move(table)), demand_(demand) {}
 
   MeasurementSet read(std::string_view text) {
     CsvLimits limits;
@@ -129,7 +132,7 @@ class SetBuilder {
       if (!reader.next(row)) throw InputError::format("{}: is empty, expected a heading and rows", table_);
     } while (row.blank());
     const Heading heading = read_heading(row, table_, set_.warnings);
-    require_columns(heading, table_, row.line, planned_);
+    require_columns(heading, table_, row.line, demand_ == Demand::planned);
     while (reader.next(row)) {
       if (!row.blank()) add(heading, row);
     }
@@ -143,9 +146,15 @@ class SetBuilder {
       throw InputError::format("{}:{}: the curves have more than {} points together, expected at most that many",
                                table_, row.line, kMostSetPoints);
     }
-    const tl::expected<SpecimenRecord, RejectedRow> record = parse_row(folder_, heading, row, planned_);
+    const tl::expected<SpecimenRecord, RejectedRow> record =
+        parse_row(folder_, heading, row, demand_ == Demand::planned);
     if (!record) {
       set_.rejected.push_back(record.error());
+      return;
+    }
+    if (auto implausible = implausible_value(*record); implausible && demand_ == Demand::plausible && record->valid) {
+      implausible->line = row.line;
+      set_.rejected.push_back(*std::move(implausible));
       return;
     }
     const std::string place = fmt::format("{}:{}", table_, row.line);
@@ -177,7 +186,7 @@ class SetBuilder {
 
   std::filesystem::path folder_;
   std::string table_;
-  bool planned_;
+  Demand demand_;
   MeasurementSet set_;
   std::size_t point_count_ = 0;
   std::map<std::string, std::pair<std::size_t, int>> index_of_;  ///< specimen -> index, line
@@ -187,7 +196,7 @@ class SetBuilder {
 
 namespace {
 
-MeasurementSet read_set(const std::filesystem::path& folder, bool planned) {
+MeasurementSet read_set(const std::filesystem::path& folder, Demand demand) {
   if (!std::filesystem::is_directory(folder)) {
     throw InputError::format("{}: is no folder, expected a measurement set: a folder with {}", folder.string(),
                              kTableName);
@@ -195,13 +204,15 @@ MeasurementSet read_set(const std::filesystem::path& folder, bool planned) {
   const Result<std::filesystem::path> table = file_inside(folder, kTableName);
   const std::string shown_name = (folder / kTableName).string();
   if (!table) throw InputError::format("{}: {}", shown_name, table.error().message);
-  return SetBuilder(folder, shown_name, planned).read(read_file_up_to(*table, kMostTableBytes));
+  return SetBuilder(folder, shown_name, demand).read(read_file_up_to(*table, kMostTableBytes));
 }
 
 }  // namespace
 
-MeasurementSet read_measurement_set(const std::filesystem::path& folder) { return read_set(folder, false); }
+MeasurementSet read_measurement_set(const std::filesystem::path& folder) { return read_set(folder, Demand::measured); }
 
-MeasurementSet read_planned_set(const std::filesystem::path& folder) { return read_set(folder, true); }
+MeasurementSet read_plausible_set(const std::filesystem::path& folder) { return read_set(folder, Demand::plausible); }
+
+MeasurementSet read_planned_set(const std::filesystem::path& folder) { return read_set(folder, Demand::planned); }
 
 }  // namespace nacre::measurement

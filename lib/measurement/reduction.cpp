@@ -3,69 +3,185 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/statistics.hpp"
+
 namespace nacre::measurement {
 namespace {
 
-constexpr double kWindow = 0.2, kHighestWindow = 0.6, kWindowStep = 0.02;  // of the peak stress
-constexpr double kAsSteep = 0.98;
-constexpr double kSeparated = 0.02;      // of the peak stress
-constexpr double kMostGivenBack = 0.05;  // of the largest strain: noise and recoil of the grips
+constexpr double kWindow = 0.2, kHighestStart = 0.6, kHighestEnd = 0.8, kStartStep = 0.02;  // of the peak stress
+constexpr double kLongestWindow = 0.02;  // strain: a soft coupon locks within a fifth of its peak stress
+constexpr double kStartStepStrain = 0.1 * kLongestWindow;
+constexpr double kStraight = 0.01;  // share by which the halves of a straight part may differ in slope
+constexpr double kVague = 0.2;      // standard error over slope of what slack may be
+// Standard errors up to which a bend is taken for noise. A toe that is missed lowers the modulus, a straight part that
+// is missed costs points alone; noise that cuts windows short would choose among their slopes.
+constexpr double kErrorsOfToe = 0.5, kErrorsOfBend = 1.0, kErrorsWhileVague = 2.5;
+constexpr double kWidened = 1.25;           // how much longer a window becomes at once
+constexpr double kSeparated = 0.02;         // of the peak stress
+constexpr double kMostGivenBack = 0.05;     // of the largest strain: noise and recoil of the grips
+constexpr std::size_t kMostStretches = 20;  // of a record, each with a rate of its own
 constexpr std::size_t kFewestPoints = 3, kEnoughPoints = 5;
 
 struct Line {
-  double slope = 0.0;
+  double slope = 0.0, slope_error = 0.0;
   double zero = 0.0;
 };
 
-/// Least squares through points first..last of `path`, indices of the curve.
-std::optional<Line> fit(const tester::Curve& curve, const std::vector<std::size_t>& path, std::size_t first,
-                        std::size_t last) {
-  const double count = static_cast<double>(last - first + 1);
-  double mean_strain = 0.0, mean_stress = 0.0, squares = 0.0, products = 0.0;
-  for (std::size_t k = first; k <= last; ++k) {
-    mean_strain += curve.strain[path[k]] / count;
-    mean_stress += curve.stress_pa[path[k]] / count;
+/// The part of a curve on the way to its peak that is loaded for the first time, loops of unloading left out.
+struct Loading {
+  std::vector<std::size_t> index;  ///< of the curve
+  std::vector<double> strain, stress_pa;
+  std::vector<double> risen_pa;  ///< the stress that never falls which is nearest by least squares
+  std::size_t size() const { return index.size(); }
+  double peak_pa() const { return risen_pa.back(); }
+};
+
+/// Pools neighbours that fall. A level that noise crosses to and fro is then reached once, neither early nor late.
+std::vector<double> nearest_rising(const std::vector<double>& values) {
+  struct Block {
+    double sum;
+    std::size_t count;
+    double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Block> blocks;
+  for (const double value : values) {
+    Block block{value, 1};
+    while (!blocks.empty() && blocks.back().mean() >= block.mean()) {
+      block = {block.sum + blocks.back().sum, block.count + blocks.back().count};
+      blocks.pop_back();
+    }
+    blocks.push_back(block);
   }
-  for (std::size_t k = first; k <= last; ++k) {
-    const double strain = curve.strain[path[k]] - mean_strain;
-    squares += strain * strain;
-    products += strain * (curve.stress_pa[path[k]] - mean_stress);
-  }
-  if (squares <= 0.0 || products <= 0.0) return std::nullopt;
-  const double slope = products / squares;
-  return Line{slope, mean_strain - mean_stress / slope};
+  std::vector<double> rising;
+  for (const Block& block : blocks) rising.insert(rising.end(), block.count, block.mean());
+  return rising;
 }
 
-/// Indices up to the peak along which strain is larger than ever before: loops of unloading are left out.
-std::vector<std::size_t> first_loading(const tester::Curve& curve, std::size_t peak) {
-  std::vector<std::size_t> path;
+Loading first_loading(const tester::Curve& curve, std::size_t peak) {
+  Loading path;
   for (std::size_t i = 0; i <= peak; ++i) {
-    if (path.empty() || curve.strain[i] > curve.strain[path.back()]) path.push_back(i);
+    if (path.size() > 0 && curve.strain[i] <= path.strain.back()) continue;
+    path.index.push_back(i);
+    path.strain.push_back(curve.strain[i]);
+    path.stress_pa.push_back(curve.stress_pa[i]);
   }
+  path.risen_pa = nearest_rising(path.stress_pa);
   return path;
 }
 
+/// Points first..last of a loading.
 struct Window {
   std::size_t first = 0, last = 0;
-  double slope = 0.0;
+  std::size_t points() const { return last - first + 1; }
 };
 
-/// The window from `low` of the peak on, made longer until it holds five points; nothing at the end of the path.
-std::optional<Window> window_at(const tester::Curve& curve, const std::vector<std::size_t>& path, double low,
-                                double peak_pa) {
-  const auto reached = [&](double stress_pa) {
-    std::size_t k = 0;
-    while (k < path.size() && curve.stress_pa[path[k]] < stress_pa) ++k;
-    return k;
-  };
-  Window window{reached(low * peak_pa), 0, 0.0};
-  window.last =
-      std::min(std::max(reached((low + kWindow) * peak_pa), window.first + kEnoughPoints - 1), path.size() - 1);
-  if (window.last < window.first + kFewestPoints - 1) return std::nullopt;
-  const auto line = fit(curve, path, window.first, window.last);
-  if (!line) return std::nullopt;
-  window.slope = line->slope;
-  return window;
+/// Least squares; the slope's error is that of its residuals.
+Line fit(const std::vector<double>& x, const std::vector<double>& y, Window window) {
+  const double count = static_cast<double>(window.points());
+  double mean_x = 0.0, mean_y = 0.0, squares = 0.0, products = 0.0, left = 0.0;
+  for (std::size_t k = window.first; k <= window.last; ++k) {
+    mean_x += x[k] / count;
+    mean_y += y[k] / count;
+  }
+  for (std::size_t k = window.first; k <= window.last; ++k) {
+    squares += (x[k] - mean_x) * (x[k] - mean_x);
+    products += (x[k] - mean_x) * (y[k] - mean_y);
+  }
+  const double slope = products / squares;
+  for (std::size_t k = window.first; k <= window.last; ++k)
+    left += std::pow(y[k] - mean_y - slope * (x[k] - mean_x), 2);
+  const double error = count > 2.0 ? std::sqrt(left / (count - 2.0) / squares) : 0.0;
+  return {slope, error, mean_x - mean_y / slope};
+}
+
+Line fit(const Loading& path, Window window) { return fit(path.strain, path.stress_pa, window); }
+
+/// How much steeper the second half of a window is than the first, over the slope of the whole, and the standard error
+/// of that.
+struct Bend {
+  double steeper = 0.0, error = 0.0;
+  /// What is left of it beyond so many errors.
+  double beyond(double errors) const {
+    return std::copysign(std::max(0.0, std::abs(steeper) - errors * error), steeper);
+  }
+};
+
+Bend bend_of(const Loading& path, Window window) {
+  const std::size_t middle = window.first + (window.last - window.first) / 2;
+  const Line first = fit(path, {window.first, middle}), second = fit(path, {middle, window.last});
+  const double slope = std::abs(fit(path, window).slope);
+  return {(second.slope - first.slope) / slope, std::hypot(first.slope_error, second.slope_error) / slope};
+}
+
+/// Windows that begin somewhere on the way up.
+class Windows {
+ public:
+  explicit Windows(const Loading& path)
+      : path_(path), end_(std::min(reached(kHighestEnd * path.peak_pa()), path.size() - 1)) {}
+
+  /// A fifth of the peak stress or 2 % strain, whichever is shorter, made longer while straight until its slope is
+  /// known to 1 %.
+  std::optional<Window> from(std::size_t first) const {
+    const std::size_t enough = std::min(reached(path_.risen_pa[first] + kWindow * path_.peak_pa()),
+                                        strained(path_.strain[first] + kLongestWindow));
+    Window window{first, std::min(std::max(enough, first + kEnoughPoints - 1), path_.size() - 1)};
+    if (window.points() < kFewestPoints) return std::nullopt;
+    const auto is_vague = [&] {
+      const Line line = fit(path_, window);
+      return line.slope_error > kSureModulus * line.slope;
+    };
+    while (window.last < end_ && is_vague() &&
+           std::abs(bend_of(path_, widened(window)).beyond(kErrorsWhileVague)) <= kStraight)
+      window = widened(window);
+    return window;
+  }
+
+  /// The same, made longer as long as its second half is as steep as its first.
+  Window straight(Window window) const {
+    while (window.last < end_ && bend_of(path_, widened(window)).beyond(kErrorsOfBend) >= -kStraight)
+      window = widened(window);
+    return window;
+  }
+
+  std::size_t next(std::size_t first) const {
+    return std::max(first + 1, std::min(reached(path_.risen_pa[first] + kStartStep * path_.peak_pa()),
+                                        strained(path_.strain[first] + kStartStepStrain)));
+  }
+
+ private:
+  static std::size_t first_at(const std::vector<double>& rising, double level) {
+    return static_cast<std::size_t>(std::lower_bound(rising.begin(), rising.end(), level) - rising.begin());
+  }
+  std::size_t reached(double stress_pa) const { return first_at(path_.risen_pa, stress_pa); }
+  std::size_t strained(double strain) const { return first_at(path_.strain, strain); }
+  Window widened(Window window) const {
+    const auto longer = static_cast<std::size_t>(kWidened * static_cast<double>(window.points()));
+    return {window.first, std::min(std::max(window.first + longer, window.last + 1), end_)};
+  }
+
+  const Loading& path_;
+  std::size_t end_;
+};
+
+/// The first window beyond the toe: its second half is not steeper than its first, and it rises by more than noise.
+/// Where there is none, the first of those that grow steeper least. Nothing where the curve does not rise.
+std::optional<Window> first_plateau(const Loading& path) {
+  const Windows windows(path);
+  std::optional<Window> straightest;
+  double least = 0.0;
+  for (std::size_t first = 0; first < path.size() && path.risen_pa[first] <= kHighestStart * path.peak_pa();
+       first = windows.next(first)) {
+    const auto window = windows.from(first);
+    if (!window) break;
+    const Line line = fit(path, *window);
+    if (!(line.slope > 0.0)) continue;
+    const double growth = std::max(0.0, bend_of(path, *window).beyond(kErrorsOfToe));
+    if (growth <= kStraight && line.slope_error <= kVague * line.slope) return windows.straight(*window);
+    if (straightest && growth >= least) continue;
+    straightest = window;
+    least = growth;
+  }
+  return straightest;
 }
 
 /// First index after the peak from which the stress stays at or below 2 % of it; the curve's size when there is none.
@@ -85,15 +201,22 @@ bool is_unloaded(const tester::Curve& curve, std::size_t end) {
   return curve.strain[end] < (1.0 - kMostGivenBack) * largest_strain(curve, end);
 }
 
-/// The curve from the linear part on, strain counted from where that part meets zero stress.
-tester::Curve compensated(const tester::Curve& curve, const LinearPart& part) {
+/// Where strain counts from. A line that meets zero stress before the record began tells of a preload, which the first
+/// stress shows, or of a curve that bends, which shifts nothing.
+double toe_of(const tester::Curve& curve, const LinearPart& part) {
+  return std::max(part.zero_strain, std::min(0.0, -curve.stress_pa.front() / part.slope_pa));
+}
+
+/// The curve with strain counted from `toe_strain`; what a toe recorded before the linear part gives way to its line.
+tester::Curve compensated(const tester::Curve& curve, const LinearPart& part, double toe_strain) {
+  const std::size_t begin = toe_strain > 0.0 ? part.first : 0;
   tester::Curve shifted;
-  if (curve.strain[part.first] > part.zero_strain) {
+  if (curve.strain[begin] > toe_strain) {
     shifted.strain.push_back(0.0);
     shifted.stress_pa.push_back(0.0);
   }
-  for (std::size_t i = part.first; i < curve.size(); ++i) {
-    shifted.strain.push_back(curve.strain[i] - part.zero_strain);
+  for (std::size_t i = begin; i < curve.size(); ++i) {
+    shifted.strain.push_back(curve.strain[i] - toe_strain);
     shifted.stress_pa.push_back(curve.stress_pa[i]);
   }
   return shifted;
@@ -119,20 +242,13 @@ Result<LinearPart> linear_part(const tester::Curve& curve) {
   if (-*std::min_element(curve.stress_pa.begin(), curve.stress_pa.end()) > peak_pa)
     return fail("tension counts as positive: the force is negative, expected an export with its sign reversed");
   if (peak_pa <= 0.0) return fail("the force never becomes positive, expected tension to count as positive");
-  const std::vector<std::size_t> path = first_loading(curve, peak);
-  std::vector<Window> windows;
-  for (double low = 0.0; low <= kHighestWindow + 1e-9; low += kWindowStep) {
-    if (const auto window = window_at(curve, path, low, peak_pa)) windows.push_back(*window);
-  }
-  if (windows.empty()) return fail("only {} points on the way to the peak, expected a curve that rises", path.size());
-  const auto steeper = [](const Window& a, const Window& b) { return a.slope < b.slope; };
-  const auto steepest = std::max_element(windows.begin(), windows.end(), steeper);
-  auto begin = steepest, end = steepest;
-  while (begin != windows.begin() && std::prev(begin)->slope >= kAsSteep * steepest->slope) --begin;
-  while (std::next(end) != windows.end() && std::next(end)->slope >= kAsSteep * steepest->slope) ++end;
-  const auto line = fit(curve, path, begin->first, end->last);
-  if (!line) return fail("no straight part on the way to the peak, expected a curve that rises");
-  return LinearPart{line->slope, line->zero, path[begin->first], path[end->last]};
+  const Loading path = first_loading(curve, peak);
+  if (path.size() < kFewestPoints)
+    return fail("only {} points on the way to the peak, expected a curve that rises", path.size());
+  const std::optional<Window> part = first_plateau(path);
+  if (!part) return fail("no straight part on the way to the peak, expected a curve that rises");
+  const Line line = fit(path, *part);
+  return LinearPart{line.slope, line.slope_error, line.zero, path.index[part->first], path.index[part->last]};
 }
 
 Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
@@ -140,12 +256,17 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
   if (!part) return tl::unexpected(part.error());
   ReducedTest test;
   test.modulus_pa = part->slope_pa;
-  test.curve = toe == Toe::compensate ? compensated(curve, *part) : curve;
-  test.toe_strain = toe == Toe::compensate ? part->zero_strain : 0.0;
+  test.modulus_error_pa = part->slope_error_pa;
+  const double found = toe == Toe::compensate ? toe_of(curve, *part) : 0.0;
+  const bool is_small = std::abs(found) <= kLargestToe;
+  (is_small ? test.toe_strain : test.toe_kept) = found;
+  test.curve = toe == Toe::compensate && is_small ? compensated(curve, *part, found) : curve;
   const auto& stress = test.curve.stress_pa;
   const auto peak = static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());
   test.peak_stress_pa = stress[peak];
   test.residual_share = stress.back() / stress[peak];
+  if (const double line_pa = test.modulus_pa * test.curve.strain[peak]; line_pa > 0.0)
+    test.stiffening = stress[peak] / line_pa;
   const std::size_t end = release(test.curve, peak);
   test.unloaded = end < test.curve.size() && is_unloaded(test.curve, end);
   test.separated = end < test.curve.size() && !test.unloaded;
@@ -158,16 +279,24 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
   return test;
 }
 
-std::optional<double> strain_rate(const std::vector<double>& time_s, const std::vector<double>& strain) {
-  std::vector<double> rates;
-  for (std::size_t i = 1; i < std::min(time_s.size(), strain.size()); ++i) {
-    const double passed_s = time_s[i] - time_s[i - 1];
-    if (passed_s > 0.0) rates.push_back(std::abs(strain[i] - strain[i - 1]) / passed_s);
+std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve) {
+  const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -
+                                             curve.stress_pa.begin());
+  std::vector<double> times, strains;  // where the clock ticks: rows between two ticks have no time of their own
+  for (std::size_t i = 0; i < std::min(time_s.size(), peak + 1); ++i) {
+    if (!times.empty() && time_s[i] <= times.back()) continue;
+    times.push_back(time_s[i]);
+    strains.push_back(curve.strain[i]);
   }
-  if (rates.empty()) return std::nullopt;
-  const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2);
-  std::nth_element(rates.begin(), middle, rates.end());
-  return *middle > 0.0 ? std::optional(*middle) : std::nullopt;
+  if (times.size() < kFewestPoints) return std::nullopt;
+  const std::size_t stretches = std::clamp<std::size_t>(times.size() / kEnoughPoints, 1, kMostStretches);
+  std::vector<double> rates;
+  for (std::size_t i = 0; i < stretches; ++i) {
+    const Window stretch{i * times.size() / stretches, (i + 1) * times.size() / stretches - 1};
+    rates.push_back(std::abs(fit(times, strains, stretch).slope));
+  }
+  const double rate_per_s = quantile(std::move(rates), 0.5);
+  return rate_per_s > 0.0 ? std::optional(rate_per_s) : std::nullopt;
 }
 
 }  // namespace nacre::measurement

@@ -160,7 +160,7 @@ void print_table(const sysid::OfflineCalibration& result) {
 
 int calibrate(const Options& options) {
   prepare_output_file(options.out);
-  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   sysid::OfflineSettings settings;
   settings.calibration.start = parameters_from_option(options.start, material::default_parameters());

@@ -182,7 +182,7 @@ int diagnose(const Options& options) {
   if (!options.table.empty()) return diagnose_table(options);
   if (options.set.empty())
     throw InputError("nacre diagnose needs a measurement set, or --table with --measured and --predicted");
-  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");

@@ -74,7 +74,7 @@ std::filesystem::path folder_of(const Options& options) {
 }
 
 Beginning beginning_of_set(const Options& options) {
-  const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
+  const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   return {.measured = game::patterns_with_both(set.specimens),
           .parameters = material::default_parameters(),

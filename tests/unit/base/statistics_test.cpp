@@ -45,5 +45,14 @@ TEST(Statistics, TheNormalDistributionIsTheTables) {
   EXPECT_NEAR(normal_cdf(-6.0) / 9.865876e-10, 1.0, 1e-6);
 }
 
+TEST(Statistics, StudentsChanceIsThatOfTheTables) {
+  EXPECT_NEAR(student_beyond(12.706, 1), 0.05, 1e-5);
+  EXPECT_NEAR(student_beyond(-9.925, 2), 0.01, 1e-5);
+  EXPECT_NEAR(student_beyond(5.841, 3), 0.01, 1e-5);
+  EXPECT_NEAR(student_beyond(2.228, 10), 0.05, 1e-4);
+  EXPECT_NEAR(student_beyond(2.0, 100000), 2.0 * normal_cdf(-2.0), 1e-5);
+  EXPECT_EQ(student_beyond(0.0, 5), 1.0);
+}
+
 }  // namespace
 }  // namespace nacre

@@ -89,6 +89,41 @@ TEST(Replicates, TheUncommonCourseOfACrackIsProposed) {
   EXPECT_THAT(groups[0].proposed[0].reasons[0].text, HasSubstr("`into the grip`, that of 3 others `straight`"));
 }
 
+TEST(Replicates, OneCourseMayBeSpeltInManyWays) {
+  std::vector<SpecimenRecord> specimens = agreeing();
+  specimens[0].other_columns["path"] = specimens[1].other_columns["path"] = "along the notch";
+  specimens[2].other_columns["path"] = "Along  the notch";
+  specimens[3].other_columns["path"] = "along the notch.";
+  EXPECT_THAT(review_replicates(specimens)[0].proposed, IsEmpty());
+}
+
+/// A straight test to `last_strain`.
+SpecimenRecord pulled(const std::string& name, tester::TestKind test, double modulus_pa, double last_strain) {
+  SpecimenRecord record;
+  record.specimen = name;
+  record.design = *pattern::design_from_name("rigid");
+  record.test = test;
+  for (int i = 0; i <= 50; ++i) {
+    record.curve.strain.push_back(last_strain * i / 50);
+    record.curve.stress_pa.push_back(modulus_pa * record.curve.strain.back());
+  }
+  if (test == tester::TestKind::modulus) record.modulus_pa = modulus_pa;
+  return record;
+}
+
+TEST(Replicates, HowFarABarOrACouponIsPulledIsNotHeldAgainstIt) {
+  for (const auto test : {tester::TestKind::modulus, tester::TestKind::tensile}) {
+    std::vector<SpecimenRecord> specimens = {pulled("A1", test, 2e9, 0.0060), pulled("A2", test, 2.01e9, 0.0060),
+                                             pulled("A3", test, 1.99e9, 0.0062), pulled("A4", test, 2e9, 0.0100)};
+    EXPECT_THAT(review_replicates(specimens)[0].proposed, IsEmpty()) << tester::to_string(test);
+    specimens[3] = pulled("A4", test, 1.0e9, 0.0120);  // the same peak, but softer
+    const auto proposed = review_replicates(specimens)[0].proposed;
+    ASSERT_EQ(proposed.size(), 1U) << tester::to_string(test);
+    EXPECT_EQ(proposed[0].specimen, "A4");
+    EXPECT_EQ(proposed[0].reasons.size(), test == tester::TestKind::modulus ? 1U : 2U) << "peak and curve of coupons";
+  }
+}
+
 TEST(Replicates, AsManyAreProposedAsLeaveThree) {
   // Two against two: nobody can say which behaviour is the common one.
   const auto groups = review_replicates(
@@ -184,6 +219,33 @@ TEST(History, ABatchThatIsStifferOnTheSameDesignsIsNotable) {
     EXPECT_TRUE(effect.notable()) << effect.level;
     EXPECT_NEAR(effect.relative, effect.level == "b" ? 0.05 : -0.05, 0.015);  // against the mean of both batches
   }
+}
+
+/// Share of sets without any effect in which one is notable: `designs` in two batches, `copies` of each in each.
+double false_alarms(int designs, int copies) {
+  RandomStream random(7, "nulls");
+  int alarms = 0;
+  constexpr int kSets = 1000;
+  for (int set = 0; set < kSets; ++set) {
+    std::vector<SpecimenRecord> specimens;
+    for (int i = 0; i < 2 * designs * copies; ++i) {
+      const std::string design = "mix:0." + std::to_string(50 + i % designs);
+      specimens.push_back(bar("S" + std::to_string(i), design, 1e9 * std::exp(0.02 * random.normal()),
+                              i < designs * copies ? "a" : "b", i + 1));
+    }
+    const auto effects = history_effects(specimens);
+    alarms += std::any_of(effects.begin(), effects.end(), [](const auto& effect) { return effect.notable(); });
+  }
+  return static_cast<double>(alarms) / kSets;
+}
+
+// Three designs with one specimen in each of two batches leave two degrees of freedom, not four, and two degrees ask
+// for more than three standard errors: 9 % of the first had something notable.
+TEST(History, ChanceMakesFewBatchesNotable) {
+  EXPECT_LE(false_alarms(3, 1), 0.06);
+  EXPECT_LE(false_alarms(2, 2), 0.06);
+  EXPECT_LE(false_alarms(6, 2), 0.06);
+  EXPECT_GE(false_alarms(6, 2), 0.01) << "asked no more than that";
 }
 
 TEST(History, BatchesWithoutACommonDesignSayNothing) {

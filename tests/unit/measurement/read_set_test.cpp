@@ -193,6 +193,13 @@ TEST_F(SetOnDisk, ValuesOfAnotherUnitAreWarnedAbout) {
   ASSERT_EQ(set.warnings.size(), 2u);
   EXPECT_THAT(set.warnings[0], HasSubstr(":2: column modulus_pa: 0.4 Pa, expected 10000"));
   EXPECT_THAT(set.warnings[1], HasSubstr(":4: column toughness_pa: 1.1 Pa, expected 10 "));
+  const MeasurementSet plausible = read_plausible_set(folder_);
+  EXPECT_EQ(plausible.lines, (std::vector<int>{5, 6}));
+  EXPECT_TRUE(plausible.warnings.empty());
+  ASSERT_EQ(plausible.rejected.size(), 2u);
+  EXPECT_EQ(plausible.rejected[0].line, 2);
+  EXPECT_EQ(plausible.rejected[0].column, "modulus_pa");
+  EXPECT_EQ(rejected("specimen,pattern,test,modulus_pa,toughness_pa", "S,rigid,toughness,,1.65e11").column, "toughness_pa");
 }
 
 TEST_F(SetOnDisk, IdenticalRepeatIsIgnoredAndADifferentOneIsAnError) {
