@@ -58,6 +58,15 @@ T or_refuse(Result<T> result) {
   return std::move(*result);
 }
 
+/// A database that cannot be read must not take the nodes from the page.
+bool knows_that_it_is_over(RunData& data) {
+  try {
+    return is_over(*data.record());
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 Response binary(std::shared_ptr<const std::string> bytes) {
   return {.type = "application/octet-stream", .body = *bytes, .headers = {}};
 }
@@ -135,7 +144,8 @@ Response Dashboard::live(const Request&) {
   const auto nodes = desk_.nodes();
   bool playing = false;
   for (const NodeReport& report : nodes) playing = playing || report.age_s < kPlaying_s;
-  return json_response({{"playing", playing}, {"data", data_.version()}, {"nodes", nodes_json(nodes)}});
+  return json_response(
+      {{"playing", playing}, {"data", data_.version()}, {"nodes", nodes_json(nodes, knows_that_it_is_over(data_))}});
 }
 
 Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
@@ -279,7 +289,7 @@ Response Dashboard::answered(Answer answer) {
   const int status = answer == Answer::unanswered ? 504 : answer == Answer::conflicting ? 409 : 200;
   Json json = {{"answer", to_string(answer)}};
   if (answer == Answer::unanswered)
-    json["error"] = "the validation agent did not answer: does the game play? Handing it in again is safe.";
+    json["error"] = "not every node answered: does the game play? Handing it in again is safe.";
   if (answer == Answer::conflicting)
     json["error"] = "the run has another measurement of this name, which stays: take a new name, or judge the old one";
   return json_response(json, status);

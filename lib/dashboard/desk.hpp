@@ -18,10 +18,10 @@ namespace nacre::dashboard {
 
 /// What became of something that was handed in.
 enum class Answer {
-  accepted,     ///< the validation agent has it
-  repeated,     ///< it had it already
+  accepted,     ///< every node that listens has it
+  repeated,     ///< the validation agent had it already
   conflicting,  ///< it has a specimen of this name with other content, which stays
-  unanswered,   ///< it did not answer in time
+  unanswered,   ///< a node did not answer in time
 };
 std::string_view to_string(Answer answer);
 

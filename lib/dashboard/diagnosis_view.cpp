@@ -2,6 +2,7 @@
 
 #include "dashboard/views.hpp"
 #include "material/extensions.hpp"
+#include "store/misfit.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -61,6 +62,7 @@ Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t
   if (found == run.rounds.end() || !found->second.diagnosis) return nullptr;
   Json json = of_database(*found->second.diagnosis);
   json["round"] = round;
+  json["against"] = store::misfit_beside_verdict(found->second);
   json["next_experiments"] = message ? next_experiments(*message) : Json::array();
   if (message && message->has_gain && json["gain"].is_object()) {
     json["gain"]["relative_reduction"] = message->relative_reduction;

@@ -9,19 +9,21 @@ namespace {
 /// A node that has been silent for so long is not running.
 constexpr double kSilent_s = 4.0;
 
-std::string_view state_of(const NodeReport& report) {
-  if (report.age_s > kSilent_s) return "silent";
-  return report.status.finished ? "finished" : report.status.ready ? "running" : "starting";
+/// A node that has finished, or whose run is over, has every right to be silent.
+std::string_view state_of(const NodeReport& report, bool is_over) {
+  if (report.status.finished) return "finished";
+  if (report.age_s > kSilent_s) return is_over ? "ended" : "silent";
+  return report.status.ready ? "running" : "starting";
 }
 
 }  // namespace
 
-Json nodes_json(const std::vector<NodeReport>& nodes) {
+Json nodes_json(const std::vector<NodeReport>& nodes, bool is_over) {
   Json array = Json::array();
   for (const NodeReport& report : nodes) {
     const node_status_t& s = report.status;
     Json node = {{"node", report.node},
-                 {"state", state_of(report)},
+                 {"state", state_of(report, is_over)},
                  {"age_s", report.age_s},
                  {"phase", s.phase},
                  {"round", s.round},

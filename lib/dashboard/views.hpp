@@ -47,7 +47,11 @@ Json laboratory_json(const Laboratory& laboratory);
 /// The verdict of a round: from the message where there is one, else from the database; null when there is neither.
 Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t>& message, int round);
 
-/// Nodes with state, progress, time left and counters.
-Json nodes_json(const std::vector<NodeReport>& nodes);
+/// Nodes with state, progress, time left and counters. `is_over`: the run's last round is closed, so that nobody need
+/// speak.
+Json nodes_json(const std::vector<NodeReport>& nodes, bool is_over);
+
+/// Whether the last round is closed, and with it the family stage where there is one.
+bool is_over(const store::RunRecord& run);
 
 }  // namespace nacre::dashboard

@@ -62,7 +62,8 @@ std::string models_table(const Job& job, const std::vector<WrittenModel>& writte
         written[i].count.columns, written[i].count.rows, model.wanted.design.rigid_fraction(),
         rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted), escaped(model.wanted.loading));
   }
-  return "<h2>Models</h2>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
+  return "<h2>Models</h2>\n<p>Pictures (preview.png): soft is black, rigid white, what is not printed "
+         "blue.</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
          "<th>slices</th><th>rigid, designed</th><th>rigid, counted in the slices</th><th>test speed, "
          "mm/min</th><th>pull</th></tr>"
          "\n" +

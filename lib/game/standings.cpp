@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "base/random.hpp"
 #include "base/statistics.hpp"
@@ -99,6 +102,30 @@ std::vector<measurement::Replicates> calibration_set(const std::vector<measureme
            (each.modulus_count == 0 && each.toughness_count == 0);
   });
   return set;
+}
+
+std::vector<std::string> specimens_to_name(const std::vector<measurement::SpecimenRecord>& specimens,
+                                           std::size_t most_bytes) {
+  std::map<std::string, std::string> question;  // that a specimen answers, by its name
+  for (const measurement::SpecimenRecord& each : measurement::at_nominal_conditions(specimens)) {
+    if (!each.valid) continue;
+    const tester::TestConditions& tested = each.conditions;
+    question[each.specimen] = fmt::format("{} {} {} {} {}", each.design.name(), tester::to_string(each.test),
+                                          tested.orientation_deg, tested.strain_rate_per_s, tested.thickness_mm);
+  }
+  std::map<std::string, int> count;                       // of replicates, by question
+  std::vector<std::pair<int, std::string>> by_replicate;  // number, name
+  for (const auto& [name, asked] : question) by_replicate.emplace_back(count[asked]++, name);
+  std::ranges::sort(by_replicate);
+  std::vector<std::string> names;
+  constexpr std::size_t kLengthAndEnd = 5;
+  for (const auto& [number, name] : by_replicate) {
+    if (name.size() + kLengthAndEnd > most_bytes) break;
+    most_bytes -= name.size() + kLengthAndEnd;
+    names.push_back(name);
+  }
+  std::ranges::sort(names);
+  return names;
 }
 
 std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design) {

@@ -41,6 +41,12 @@ std::vector<optimize::Performance> benchmark_line(const std::vector<measurement:
 /// answer the same nominal question are replicates even where callipers read 3.17 and 3.24 mm.
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens);
 
+/// Names, sorted, of the valid specimens that one question about all of them can list: every one where `most_bytes`
+/// hold the names as LCM writes them (5 bytes more than letters), else of each design in each test under each nominal
+/// conditions equally many replicates, the first by name, as many as fit.
+std::vector<std::string> specimens_to_name(const std::vector<measurement::SpecimenRecord>& specimens,
+                                           std::size_t most_bytes);
+
 /// The pattern of a design with eightfold symmetry; nothing for other layouts and mixtures.
 std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design);
 

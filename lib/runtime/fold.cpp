@@ -33,18 +33,21 @@ Result<void> Fold::feed(const LogRecord& record) {
     if (on_message_input) on_message_input(message);
     return input(record, message);
   }
-  const bool single = record.channel == kTickChannel || record.channel == kJournalChannel;
-  const std::size_t field_count = single ? 1 : record.channel == kAckedChannel ? 3 : 2;
+  if (record.channel == kJournalChannel) {  // no input: read when the journal is opened
+    const auto fields = unpack(record.data);
+    if (!fields) return fail("{}: {}", place(record), fields.error().message);
+    return {};
+  }
+  const std::size_t field_count = record.channel == kTickChannel ? 1 : record.channel == kAckedChannel ? 3 : 2;
   const auto fields = fields_of(record, field_count);
   if (!fields) return tl::unexpected(fields.error());
   if (record.channel == kTickChannel) return input(record, Tick{std::stoll(fields->at(0))});
   if (record.channel == kWorkChannel) return work_done(record, *fields);
   if (record.channel == kAckedChannel) {
     if (on_acknowledged) on_acknowledged(fields->at(0), fields->at(1), std::stoll(fields->at(2)));
-  } else if (record.channel != kJournalChannel) {
-    return fail("{}: a record of an unknown kind", place(record));
+    return {};
   }
-  return {};
+  return fail("{}: a record of an unknown kind", place(record));
 }
 
 Result<void> Fold::input(const LogRecord& record, const Input& input) {

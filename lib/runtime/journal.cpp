@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "base/hash.hpp"
@@ -58,15 +59,17 @@ void sync_folder(const std::filesystem::path& folder) {
 struct Found {
   std::int64_t records = 0;
   std::int64_t identity = 0;
+  std::string boot;     ///< that the identity was begun in; empty in journals of before it was written down
   std::string warning;  ///< what was cut off
 };
 
-std::int64_t identity_in(const std::filesystem::path& path, const LogRecord& record) {
+void take_identity(const std::filesystem::path& path, const LogRecord& record, Found& found) {
   const auto fields = unpack(record.data);
   if (!fields || fields->empty()) {
     throw InputError::format("{}: record {} at byte {} is damaged", path.string(), record.number, record.offset);
   }
-  return std::stoll(fields->front());
+  found.identity = std::stoll(fields->front());
+  found.boot = fields->size() > 1 ? fields->at(1) : "";
 }
 
 /// Walks through the journal and cuts its torn tail off.
@@ -75,7 +78,7 @@ Found read_and_mend(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return found;
   LogReader reader(path);
   for (; const auto record = reader.next(); ++found.records) {
-    if (record->channel == kJournalChannel) found.identity = identity_in(path, *record);
+    if (record->channel == kJournalChannel) take_identity(path, *record, found);
   }
   const LogEnd end = reader.end();
   if (end.torn_bytes == 0) return found;
@@ -113,7 +116,15 @@ Result<std::vector<std::string>> unpack(std::string_view record) {
   return fields;
 }
 
-std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std::int64_t now_utime) {
+std::string boot_of_machine() {
+  std::string boot;
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::getline(file, boot);
+  return boot;
+}
+
+std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std::int64_t now_utime,
+                                       const std::string& boot) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (problem) throw InputError::format("{}: cannot be created: {}", folder.string(), problem.message());
@@ -127,10 +138,12 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   journal->bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(journal->path_));
   // What the process before wrote may not be on disk yet, and this one will call it known.
   if (const auto on_disk = journal->writer_->sync(); !on_disk) throw InputError(on_disk.error().message);
-  if (journal->identity_ == 0 || !journal->warning_.empty()) {
+  if (journal->identity_ == 0 || !journal->warning_.empty() || found.boot != boot) {
     // What a torn tail held may have been acknowledged (a disk that lies, a machine that failed): begin a new identity.
+    // So may what a machine lost that went down: most records are not on disk when they are acknowledged, and the rest
+    // may end with a whole one.
     journal->identity_ = now_utime;
-    const auto written = journal->append(now_utime, kJournalChannel, pack({std::to_string(now_utime)}), true);
+    const auto written = journal->append(now_utime, kJournalChannel, pack({std::to_string(now_utime), boot}), true);
     if (!written) throw InputError(written.error().message);
     sync_folder(folder);
   }

@@ -16,7 +16,7 @@ namespace nacre::runtime {
 
 // Channels of the journal's own records. Inputs from the bus stand under their own channel with the bytes that came.
 inline constexpr std::string_view kJournalChannel =
-    "~journal";                                            ///< identity of the journal: begins it, and follows a cut
+    "~journal";  ///< identity of the journal, boot it was begun in: begins it, follows a cut or another boot
 inline constexpr std::string_view kTickChannel = "~tick";  ///< input: utime
 inline constexpr std::string_view kWorkChannel = "~work";  ///< input: id, result
 inline constexpr std::string_view kOutPrefix =
@@ -29,15 +29,21 @@ std::string pack(const std::vector<std::string>& fields);
 /// The fields again; the error says that the record is damaged.
 Result<std::vector<std::string>> unpack(std::string_view record);
 
+/// Name that the machine's kernel gives itself at each start; empty where it has none.
+std::string boot_of_machine();
+
 /// A node's journal, opened for going on: locked against a second process, torn tail cut off.
 class Journal {
  public:
   /// Opens FOLDER/journal.lcm. Throws InputError: locked by another process, damaged in the middle, not writable.
-  static std::unique_ptr<Journal> open(const std::filesystem::path& folder, std::int64_t now_utime);
+  /// `boot`: since when what is written is in the machine's memory at least.
+  static std::unique_ptr<Journal> open(const std::filesystem::path& folder, std::int64_t now_utime,
+                                       const std::string& boot = boot_of_machine());
   ~Journal();
   /// To read what stands in it: LogReader(journal.path()).
   const std::filesystem::path& path() const { return path_; }
-  /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off.
+  /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off and after each
+  /// start of the machine, which may have lost the tail whole.
   std::int64_t identity() const { return identity_; }
   /// Its length.
   std::int64_t bytes() const { return bytes_; }

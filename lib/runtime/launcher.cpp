@@ -7,7 +7,9 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/ranges.h>
@@ -136,6 +138,7 @@ class Launch {
   bool is_announced_ = false;
   bool is_stopping_ = false;
   bool heard_last_round_ = false;
+  std::set<std::pair<int, bool>> shown_rounds_;  // number, whether it was the last
   Clock::time_point said_waiting_ = Clock::now();
   Clock::time_point looked_for_end_ = Clock::now();
 };
@@ -169,12 +172,13 @@ void Launch::start_nodes() {
           SupervisedNode::Settings{.name = name, .command = {}, .log_file = {}, .restarts = {}}));
       continue;
     }
-    nodes_.push_back(std::make_unique<SupervisedNode>(SupervisedNode::Settings{
-        .name = name,
-        .command = {program_of(options_, name).string(), "--run-dir", run_.path().string(), "--scenario",
-                    run_.scenario_file().string(), "--port", std::to_string(port_->port())},
-        .log_file = run_.node_folder(name) / "output.log",
-        .restarts = options_.restarts}));
+    nodes_.push_back(std::make_unique<SupervisedNode>(
+        SupervisedNode::Settings{.name = name,
+                                 .command = {program_of(options_, name).string(), "--run-dir", run_.path().string(),
+                                             "--scenario", run_.scenario_file().string(), "--run-id",
+                                             run_.manifest().run_id, "--port", std::to_string(port_->port())},
+                                 .log_file = run_.node_folder(name) / "output.log",
+                                 .restarts = options_.restarts}));
     nodes_.back()->start();
   }
 }
@@ -189,7 +193,8 @@ void Launch::take_message(const Received& received) {
   if (received.message.channel == "ROUND") {
     const auto round = wire::decode_safe<round_summary_t>(received.message.payload);
     if (!round) return;
-    display_.say(in_words(*round));
+    // A ROUND is repeated until everybody has it; the last one is said once more when families followed it.
+    if (shown_rounds_.emplace(round->round, round->last).second) display_.say(in_words(*round));
     heard_last_round_ = heard_last_round_ || round->last;
     return;
   }
@@ -197,7 +202,10 @@ void Launch::take_message(const Received& received) {
   const auto status = wire::decode_safe<node_status_t>(received.message.payload);
   if (!status) return;
   for (const auto& node : nodes_) {
-    if (node->name() == received.header.node) node->saw(*status, received.header.epoch, Clock::now());
+    if (node->name() != received.header.node) continue;
+    node->saw(*status, received.header.epoch, Clock::now());
+    // What it said once in a game that is resumed it does not say again.
+    heard_last_round_ = heard_last_round_ || (node->name() == "validation_agent" && node->state() == State::finished);
   }
 }
 
@@ -260,23 +268,25 @@ bool Launch::guests_part_is_over() const {
   });
 }
 
-/// Every node says that it has finished, and the validation agent has written the last round down.
+/// Every node says that it has finished, and the validation agent, where it runs here, has written the last round down:
+/// it says so itself only then.
 bool Launch::game_is_over() {
   if (is_guest()) return guests_part_is_over();
   const bool all_finished =
       std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->state() == State::finished; });
   if (!all_finished || Clock::now() - looked_for_end_ < std::chrono::milliseconds(500)) return false;
   looked_for_end_ = Clock::now();
-  if (!is_started_here(options_, "validation_agent")) return heard_last_round_;
+  if (!is_started_here(options_, "validation_agent")) return true;
   const std::vector<round_summary_t> rounds = read_rounds(run_.path());
   return !rounds.empty() && rounds.back().last;
 }
 
+/// What the recorder writes is for people: the game goes on without it.
 bool Launch::has_failed() const {
   const auto failed = [](const auto& node) { return node->state() == State::failed; };
   const auto gone = [](const auto& node) { return node->state() == State::stopped || node->runs_elsewhere(); };
   return std::any_of(nodes_.begin(), nodes_.end(), failed) || std::all_of(nodes_.begin(), nodes_.end(), gone) ||
-         (recorder_ && recorder_->state() == State::failed);
+         (!is_announced_ && recorder_ && recorder_->state() == State::failed);
 }
 
 /// SIGINT, five seconds, SIGTERM, five seconds, SIGKILL; a further Ctrl-C goes to the next signal at once.

@@ -1,8 +1,6 @@
 #include "runtime/recorder.hpp"
 
-#include <atomic>
 #include <bit>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -12,9 +10,6 @@
 
 namespace nacre::runtime {
 namespace {
-
-std::atomic<bool> recorder_stop = false;
-extern "C" void request_recorder_stop(int) { recorder_stop = true; }
 
 /// Cuts a torn tail off an existing log; returns the number of records in it.
 std::int64_t mend(const std::filesystem::path& path) {
@@ -106,11 +101,7 @@ Result<void> Recorder::pump(int timeout_ms) {
 
 RecorderCounters Recorder::counters() const { return state_->counters; }
 
-int run_recorder(const RecorderOptions& options, const std::atomic<bool>* stop, bool handle_signals) {
-  if (handle_signals) {
-    std::signal(SIGINT, request_recorder_stop);
-    std::signal(SIGTERM, request_recorder_stop);
-  }
+int run_recorder(const RecorderOptions& options, const std::function<bool()>& is_over) {
   const auto say = [&](LogLevel level, const std::string& text) {
     if (options.report) {
       options.report(level, text);
@@ -120,15 +111,17 @@ int run_recorder(const RecorderOptions& options, const std::atomic<bool>* stop, 
   };
   try {
     Recorder recorder(options);
-    while (!(handle_signals && recorder_stop) && !(stop && stop->load())) {
+    if (options.ready) options.ready();
+    int turns_left = 4;  // for what is still on its way when it is over
+    while (!is_over() || turns_left-- > 0) {
       if (const Result<void> written = recorder.pump(50); !written) {
         say(LogLevel::error, written.error().message);
         return 1;
       }
     }
-    for (int i = 0; i < 4; ++i) {  // what is still on its way
-      if (!recorder.pump(20)) return 1;
-    }
+    const RecorderCounters counters = recorder.counters();
+    say(LogLevel::info,
+        fmt::format("recorded {} messages, {} bytes, {} lost", counters.messages, counters.bytes, counters.lost));
     return 0;
   } catch (const InputError& problem) {
     say(LogLevel::error, problem.what());

@@ -2,7 +2,6 @@
 // Records everything on the bus of a run in RUN/run.lcm, for people: bursts without loss, flushed on a timer, gaps
 // reported.
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,6 +17,7 @@ struct RecorderOptions {
   std::string url;
   double flush_every_s = 0.2;
   std::function<void(LogLevel, const std::string&)> report = {};
+  std::function<void()> ready = {};  ///< nothing that is published from now on is missed
 };
 
 struct RecorderCounters {
@@ -41,7 +41,8 @@ class Recorder {
   std::unique_ptr<State> state_;
 };
 
-/// Records until `stop` or SIGINT/SIGTERM (when `handle_signals`). Exit status as of a node.
-int run_recorder(const RecorderOptions& options, const std::atomic<bool>* stop = nullptr, bool handle_signals = true);
+/// Records until `is_over` says so. Exit status as of a node: 1 where the log cannot be written, which may pass; 2
+/// where there is something to mend first.
+int run_recorder(const RecorderOptions& options, const std::function<bool()>& is_over);
 
 }  // namespace nacre::runtime

@@ -54,19 +54,30 @@ void SupervisedNode::rotate_log() {
   constexpr long kLargest = 5 << 20;
   constexpr int kOldFiles = 3;
   if (std::ftell(log_) < kLargest) return;
-  std::fclose(log_);
-  log_ = nullptr;
   const auto old = [&](int number) { return fmt::format("{}.{}", settings_.log_file.string(), number); };
   std::error_code ignored;  // a file that cannot be renamed is written on
   for (int number = kOldFiles - 1; number >= 1; --number)
     std::filesystem::rename(old(number), old(number + 1), ignored);
   std::filesystem::rename(settings_.log_file, old(1), ignored);
-  open_log();
+  std::FILE* const full = log_;
+  try {
+    open_log();
+    std::fclose(full);
+  } catch (const InputError&) {
+    log_ = full;
+  }
+}
+
+/// Not fmt::print, which throws where the disk is full: a line that is lost must not end the run.
+void SupervisedNode::write_log(const std::string& line) {
+  std::fwrite(line.data(), 1, line.size(), log_);
+  std::fputc('\n', log_);
 }
 
 void SupervisedNode::start() {
   if (log_ == nullptr) open_log();
-  fmt::print(log_, "# {:%Y-%m-%dT%H:%M:%SZ} {}\n", fmt::gmtime(std::time(nullptr)), fmt::join(settings_.command, " "));
+  write_log(
+      fmt::format("# {:%Y-%m-%dT%H:%M:%SZ} {}", fmt::gmtime(std::time(nullptr)), fmt::join(settings_.command, " ")));
   std::fflush(log_);
   epoch_before_ = epoch_;
   process_ = std::make_unique<ChildProcess>(settings_.command);
@@ -77,7 +88,7 @@ std::vector<std::string> SupervisedNode::take_output() {
   if (!process_) return {};
   std::vector<std::string> lines = process_->read_lines();
   for (const std::string& line : lines) {
-    fmt::print(log_, "{}\n", line);
+    write_log(line);
     if (!line.empty()) last_line_ = line;
   }
   if (!lines.empty()) {
@@ -97,36 +108,47 @@ std::optional<std::string> SupervisedNode::supervise(Clock::time_point now) {
   if (!restart_at_ || now < *restart_at_ || end_is_expected_) return std::nullopt;
   restart_at_.reset();
   ++restarts_;
-  start();
+  try {
+    start();
+  } catch (const InputError& problem) {  // its program is being replaced, no process or file is left: that may pass
+    return restart_or_fail(problem.what(), now);
+  }
   return fmt::format("{} started again", name());
 }
 
 std::string SupervisedNode::take_end(const ProcessEnd& end, Clock::time_point now) {
   take_output();
   process_.reset();
-  fmt::print(log_, "# ended: {}\n", end.in_words());
+  write_log("# ended: " + end.in_words());
   std::fflush(log_);
   constexpr int kBadInput = 2;
-  constexpr int kShownColumns = 300;
-  const std::string said =
-      last_line_.empty() ? "" : fmt::format("; it last said: {}", fitted(last_line_, kShownColumns));
   if (end_is_expected_ || end.orderly()) {
     state_ = State::stopped;
     return fmt::format("{} stopped ({})", name(), end.in_words());
   }
   if (end.exit_status == kBadInput) {
     state_ = State::failed;
-    return fmt::format("{} cannot work ({}){}; all it printed: {}", name(), end.in_words(), said,
+    return fmt::format("{} cannot work ({}){}; all it printed: {}", name(), end.in_words(), last_words(),
                        settings_.log_file.string());
   }
+  return restart_or_fail(end.in_words(), now);
+}
+
+/// After a death, or a start that did not succeed.
+std::string SupervisedNode::restart_or_fail(const std::string& how, Clock::time_point now) {
   if (!budget_.take(now)) {
     state_ = State::failed;
-    return fmt::format("{} died too often ({}){}; it is not started again; all it printed: {}", name(), end.in_words(),
-                       said, settings_.log_file.string());
+    return fmt::format("{} died too often ({}){}; it is not started again; all it printed: {}", name(), how,
+                       last_words(), settings_.log_file.string());
   }
   state_ = State::restarting;
   restart_at_ = now + budget_.delay();
-  return fmt::format("{} died ({}){}; it is started again", name(), end.in_words(), said);
+  return fmt::format("{} died ({}){}; it is started again", name(), how, last_words());
+}
+
+std::string SupervisedNode::last_words() const {
+  constexpr int kShownColumns = 300;
+  return last_line_.empty() ? "" : fmt::format("; it last said: {}", fitted(last_line_, kShownColumns));
 }
 
 bool SupervisedNode::is_silent(Clock::time_point now) const {

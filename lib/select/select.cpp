@@ -97,8 +97,8 @@ std::string difference_clause(const pattern::Pattern& pattern, std::span<const p
     return alone ? kNothing
                  : fmt::format("{}; differs by {} pixels or more from the other choices", kNothing, from_choices);
   }
-  const std::string clause = fmt::format("differs by {} pixels or more from everything measured",
-                                         smallest_difference(pattern, measured));
+  const std::string clause =
+      fmt::format("differs by {} pixels or more from everything measured", smallest_difference(pattern, measured));
   return alone ? clause : fmt::format("{}, by {} or more from the other choices", clause, from_choices);
 }
 

@@ -97,6 +97,12 @@ void keep(SQLite::Database& db, const wire::AdoptedModel& m) {
     run(db, "INSERT OR REPLACE INTO benchmark VALUES (?,?,?,?)", m.round, static_cast<int>(i),
         m.benchmark[i].modulus_pa, m.benchmark[i].toughness_pa);
   }
+  const auto keep_fit = [&](std::string_view property, const sysid::GoodnessOfFit& fit) {
+    run(db, "INSERT OR REPLACE INTO goodness_of_fit VALUES (?,?,?,?,?,?,?)", m.round, property, fit.count, fit.freedom,
+        fit.chi_squared, fit.chi_squared_replicates, fit.p_value);
+  };
+  keep_fit("E", m.provenance.modulus_fit);
+  keep_fit("T", m.provenance.toughness_fit);
 }
 
 void keep(SQLite::Database& db, const wire::GamutChunk& g) {
@@ -249,6 +255,7 @@ RunDatabase::RunDatabase(const std::filesystem::path& path) : path_(path) {
     } else if (version != kRunSchemaVersion) {
       refuse(path_, fmt::format("it has schema version {}, this program writes {}", version, kRunSchemaVersion));
     }
+    database_->exec(kFitSchema);
     database_->exec(kFamilySchema);
     database_->exec(fmt::format(kCrackSchema, "family_crack", "number"));
   } catch (const SQLite::Exception& error) {

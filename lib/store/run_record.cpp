@@ -96,6 +96,21 @@ void read_model(SQLite::Database& db, RunRecord& run) {
            });
 }
 
+void read_fits(SQLite::Database& db, RunRecord& run) {
+  if (!db.tableExists("goodness_of_fit")) return;  // a run of an earlier version
+  each_row(
+      db, "SELECT round, property, designs, freedom, chi_squared, chi_squared_replicates, p_value FROM goodness_of_fit",
+      [&](SQLite::Statement& q) {
+        RoundRecord& round = run.rounds[q.getColumn(0).getInt()];
+        (q.getColumn(1).getString() == "E" ? round.modulus_fit : round.toughness_fit) = {
+            .count = q.getColumn(2).getInt(),
+            .freedom = q.getColumn(3).getInt(),
+            .chi_squared = q.getColumn(4).getDouble(),
+            .chi_squared_replicates = q.getColumn(5).getDouble(),
+            .p_value = q.getColumn(6).getDouble()};
+      });
+}
+
 std::vector<std::int32_t> elements(const SQLite::Column& blob) {
   std::vector<std::int32_t> result(static_cast<std::size_t>(blob.getBytes()) / sizeof(std::int32_t));
   if (!result.empty()) std::memcpy(result.data(), blob.getBlob(), result.size() * sizeof(std::int32_t));
@@ -269,6 +284,7 @@ RunRecord read_run_record(const std::filesystem::path& path, bool with_gamuts) {
     RunRecord run;
     read_summaries(db, run);
     read_model(db, run);
+    read_fits(db, run);
     if (with_gamuts) read_gamuts(db, run);
     read_cracks(db, run);
     read_diagnoses(db, run);

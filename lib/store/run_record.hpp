@@ -55,6 +55,7 @@ struct RecordedCrack {
 struct RoundRecord {
   std::optional<wire::RoundSummary> summary;
   std::map<std::string, double> parameters;
+  sysid::GoodnessOfFit modulus_fit, toughness_fit;  ///< of the calibration; count 0: not known
   std::vector<optimize::Performance> benchmark;
   std::vector<optimize::Performance> gamut;
   std::vector<RecordedProposal> proposals;

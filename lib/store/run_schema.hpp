@@ -60,6 +60,15 @@ inline constexpr const char* kRunSchema = R"sql(
   ) STRICT;
 )sql";
 
+/// Whether the calibration of a round explains E and T; made where absent, as below.
+inline constexpr const char* kFitSchema = R"sql(
+  CREATE TABLE IF NOT EXISTS goodness_of_fit (
+    round INTEGER NOT NULL, property TEXT NOT NULL,  -- E, T
+    designs INTEGER NOT NULL, freedom INTEGER NOT NULL, chi_squared REAL NOT NULL, chi_squared_replicates REAL NOT NULL,
+    p_value REAL NOT NULL, PRIMARY KEY (round, property)
+  ) STRICT;
+)sql";
+
 /// The family stage after the game; made where absent, for runs that an earlier version began.
 inline constexpr const char* kFamilySchema = R"sql(
   CREATE TABLE IF NOT EXISTS family (

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
 
 #include "base/result.hpp"
 #include "store/database_care.hpp"
@@ -13,7 +14,6 @@ namespace nacre::store {
 namespace {
 
 constexpr int kSchemaVersion = 3;
-constexpr int kBusyTimeoutMs = 30'000;  // another run may be writing
 constexpr const char* kSchema = R"sql(
   CREATE TABLE simulation (
     key            TEXT PRIMARY KEY,
@@ -44,13 +44,33 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
       path.string(), reason);
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& path, const SQLite::Exception& error) {
+  constexpr int kPrimary = 0xff;  // of a code that may be extended
+  switch (error.getErrorCode() & kPrimary) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw CacheUnavailable(
+          fmt::format("the simulation cache {} is in use: another program has been writing it for long ({}). Wait for "
+                      "it, or end it; the file is sound",
+                      path.string(), error.what()));
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+      throw CacheUnavailable(
+          fmt::format("the simulation cache {} cannot be read or written: {}. Make room on its disk and start again; "
+                      "nothing that it holds is lost",
+                      path.string(), error.what()));
+    default:
+      refuse(path, error.what());
+  }
+}
+
 // Runs `body` and turns SQLite's exceptions into a sentence.
 template <class Body>
 auto guarded(const std::filesystem::path& path, const Body& body) {
   try {
     return body();
   } catch (const SQLite::Exception& error) {
-    refuse(path, error.what());
+    refuse(path, error);
   }
 }
 
@@ -124,12 +144,12 @@ tester::Curve unpack_curve(const void* bytes, int size) {
 
 }  // namespace
 
-SimulationCache::SimulationCache(const std::filesystem::path& path) : path_(path) {
+SimulationCache::SimulationCache(const std::filesystem::path& path, int busy_timeout_ms) : path_(path) {
   std::error_code ignored;  // the database's own message is clearer
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   guarded(path_, [&] {
-    database_ =
-        std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
+    database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                                                   busy_timeout_ms);
     distrust(*database_);
     database_->exec("PRAGMA journal_mode = WAL");
     // A power cut may lose the newest answers, never the file; they would be simulated again.

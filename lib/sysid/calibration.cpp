@@ -91,25 +91,28 @@ struct Calibration::State {
   std::span<const ParameterRange> modulus_ranges() const { return material::modulus_ranges(settings.target); }
   std::span<const ParameterRange> toughness_ranges() const { return material::toughness_ranges(settings.target); }
 
-  /// `point` as a complete set: coordinates that did not move from the start keep its exact value, in or out of range.
+  /// `point` as a complete set: coordinates that did not move from a start in range, or that may not move (no
+  /// `budget`), keep its exact value.
   template <class Vector>
   static Vector from_point(const Point& point, const Point& start_point, Vector vector,
-                           std::span<const ParameterRange> ranges) {
+                           std::span<const ParameterRange> ranges, int budget) {
     for (std::size_t j = 0; j < point.size(); ++j) {
-      if (point[j] != start_point[j])
+      const bool start_inside = vector[j] >= ranges[j].minimum && vector[j] <= ranges[j].maximum;
+      if (point[j] != start_point[j] || (!start_inside && budget > 0)) {
         vector[j] = std::clamp(from_unit(ranges[j], point[j]), ranges[j].minimum, ranges[j].maximum);
+      }
     }
     return vector;
   }
   material::ModulusParameters modulus_at(const Point& point) const {
     const material::ModulusVector start = to_vector(settings.start.modulus);
-    return material::modulus_from_vector(
-        from_point(point, to_point(start, modulus_ranges(), kModulusDimensions), start, modulus_ranges()));
+    return material::modulus_from_vector(from_point(point, to_point(start, modulus_ranges(), kModulusDimensions), start,
+                                                    modulus_ranges(), settings.modulus_budget));
   }
   material::ToughnessParameters toughness_at(const Point& point) const {
     const material::ToughnessVector start = to_vector(settings.start.toughness);
-    return material::toughness_from_vector(
-        from_point(point, to_point(start, toughness_ranges(), kToughnessDimensions), start, toughness_ranges()));
+    return material::toughness_from_vector(from_point(point, to_point(start, toughness_ranges(), kToughnessDimensions),
+                                                      start, toughness_ranges(), settings.toughness_budget));
   }
 
   void begin() {

@@ -1,8 +1,9 @@
 #include "analyser/analyser_core.hpp"
 
 #include <algorithm>
+#include <iterator>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analyser/works.hpp"
 #include "base/hash.hpp"
@@ -58,7 +59,7 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
     if (scenario_.fidelity != tester::Fidelity::tiny && filmed_families_.insert(family->number).second) {
       std::vector<pattern::Design> designs;
       for (const game::FamilyDesign& each : family->designs) designs.emplace_back(each.pattern);
-      ask_for_films_of(fmt::format("family{}", family->number), family->parameters, std::move(designs));
+      ask_for_films_of(fmt::format("family{}", family->number), family->parameters, designs);
     }
   } else if (message.channel == "MEASUREMENT") {
     accept_measurement(message.payload);
@@ -88,14 +89,18 @@ void AnalyserCore::accept_question(const wire::DiagnoseRequest& request) {
   diagnose_when_complete();
 }
 
+/// Specimens of the diagnosis asked for whose measurements are still on their way.
+std::vector<std::string> AnalyserCore::missing_specimens() const {
+  std::vector<std::string> missing;
+  std::ranges::copy_if(waiting_diagnosis_->specimens, std::back_inserter(missing),
+                       [&](const std::string& specimen) { return !measurements_.contains(specimen); });
+  return missing;
+}
+
 void AnalyserCore::diagnose_when_complete() {
-  if (!waiting_diagnosis_) return;
+  if (!waiting_diagnosis_ || !missing_specimens().empty()) return;
   std::vector<std::string> payloads;
-  for (const std::string& specimen : waiting_diagnosis_->specimens) {
-    const auto found = measurements_.find(specimen);
-    if (found == measurements_.end()) return;  // still on its way
-    payloads.push_back(found->second);
-  }
+  for (const std::string& specimen : waiting_diagnosis_->specimens) payloads.push_back(measurements_.at(specimen));
   outputs_.computes.push_back({.id = fmt::format("diagnose/r{}", waiting_diagnosis_->round),
                                .kind = "diagnose",
                                .spec = diagnosis_spec({.request = *waiting_diagnosis_,
@@ -181,15 +186,19 @@ void AnalyserCore::ask_for_films() {
 }
 
 void AnalyserCore::ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
-                                    std::vector<pattern::Design> designs) {
-  if (designs.empty()) return;
-  wire::SimulateRequest request;
-  request.request_id = fmt::format("analyser/{}/films", whose);
-  request.toughness = request.crack = request.film = true;
-  request.fidelity = scenario_.fidelity;
-  request.parameters = game::material_side(model);
-  request.designs = std::move(designs);
-  ask(request);
+                                    const std::vector<pattern::Design>& designs) {
+  for (std::size_t first = 0; first < designs.size(); first += wire::kMaximumDesigns) {
+    const std::size_t end = std::min(designs.size(), first + wire::kMaximumDesigns);
+    wire::SimulateRequest request;
+    request.request_id = fmt::format("analyser/{}/films", whose);
+    if (first > 0) request.request_id += fmt::format("/{}", first);
+    request.toughness = request.crack = request.film = true;
+    request.fidelity = scenario_.fidelity;
+    request.parameters = game::material_side(model);
+    request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
+                           designs.begin() + static_cast<std::ptrdiff_t>(end));
+    ask(request);
+  }
 }
 
 void AnalyserCore::accept_answer(const wire::SimulateResult& part) {
@@ -251,7 +260,18 @@ void AnalyserCore::accept_work(const runtime::WorkDone& work) {
 }
 
 runtime::Status AnalyserCore::status() const {
-  return {.phase = phase_, .round = round_, .progress = -1.0, .finished = finished_};
+  std::string phase = phase_;
+  if (waiting_diagnosis_) {  // and waits for ever where nobody repeats what it has not got: say what that is
+    constexpr std::size_t kNamed = 3;
+    std::vector<std::string> missing = missing_specimens();
+    if (missing.size() > kNamed) {
+      missing.resize(kNamed);
+      missing.emplace_back("...");
+    }
+    phase =
+        fmt::format("waiting for specimens {} of {}", fmt::join(missing, ", "), waiting_diagnosis_->specimens.size());
+  }
+  return {.phase = std::move(phase), .round = round_, .progress = -1.0, .finished = finished_};
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {

@@ -35,13 +35,14 @@ class AnalyserCore : public runtime::NodeCore {
   void accept_answer(const wire::SimulateResult& part);
   void accept_fracture(const wire::Fracture& fracture);
   void store(const std::string& channel, const std::string& payload);
+  std::vector<std::string> missing_specimens() const;
   void diagnose_when_complete();
   void close_round(const wire::RoundSummary& round);
   void accept_measurement(const std::string& payload);
   void ask_about_measured_designs();
   void ask_for_films();
   void ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
-                        std::vector<pattern::Design> designs);
+                        const std::vector<pattern::Design>& designs);
   void ask(const wire::SimulateRequest& request);
   void close_when_complete(const std::string& request_id);
   void report_when_ready();

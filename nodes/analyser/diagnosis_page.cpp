@@ -23,6 +23,11 @@ using diagnosis::Verdict;
 
 std::string spaced(const std::string& name) { return escaped(material::effect_in_words(name)); }
 
+/// Too few data (diagnosis::undecided): nothing was weighed, only the summary says something.
+bool is_undecided(const Diagnosis& d) {
+  return d.verdict == Verdict::ambiguous && d.possible.empty() && d.candidates.empty();
+}
+
 std::string headline(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::base_sufficient:
@@ -33,7 +38,7 @@ std::string headline(const Diagnosis& d) {
       return "The cause is " + names;
     }
     case Verdict::ambiguous:
-      return "Something is wrong; these data leave several causes";
+      return is_undecided(d) ? "These data cannot tell yet" : "Something is wrong; these data leave several causes";
     case Verdict::unexplained:
       break;
   }
@@ -179,6 +184,16 @@ std::string next_section(const Diagnosis& d) {
       list.empty() ? paragraph("Nothing is open that another specimen would settle.") : "<ol>\n" + list + "</ol>\n");
 }
 
+/// All that was found, and how.
+std::string findings(const Diagnosis& d, tester::Fidelity fidelity) {
+  return where_section(d) + curve_part(d) + cause_section(d) + rivals_section(d) + gain_section(d) + next_section(d) +
+         paragraph(fmt::format("Replicates scatter by {}; the simulation's elements leave {} of a modulus. Fidelity "
+                               "{}; {} fracture simulations. Procedure {}.",
+                               percent(d.replicate_sd), percent(d.numerics_sd), tester::to_string(fidelity),
+                               d.simulations, escaped(d.procedure)),
+                   "quiet");
+}
+
 }  // namespace
 
 std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, tester::Fidelity fidelity) {
@@ -194,12 +209,7 @@ std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, te
     page += paragraph("There are no replicates: all statements hang on an assumed scatter of 2 %.", "warning");
   if (fidelity == tester::Fidelity::tiny)
     page += paragraph("Tiny fidelity: specimens of a single unit. The figures serve tests of the program.", "warning");
-  page += where_section(d) + curve_part(d) + cause_section(d) + rivals_section(d) + gain_section(d) + next_section(d);
-  page += paragraph(fmt::format("Replicates scatter by {}; the simulation's elements leave {} of a modulus. Fidelity "
-                                "{}; {} fracture simulations. Procedure {}.",
-                                percent(d.replicate_sd), percent(d.numerics_sd), tester::to_string(fidelity),
-                                d.simulations, escaped(d.procedure)),
-                    "quiet");
+  if (!is_undecided(d)) page += findings(d, fidelity);
   return page + "</main>\n</body>\n</html>\n";
 }
 

@@ -9,6 +9,7 @@
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
 #include "game/model.hpp"
+#include "store/misfit.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -55,8 +56,10 @@ std::string judgement_in_words(const store::RunRecord& run, const wire::RoundSum
   if (!s.decided_by.empty()) words += fmt::format(" ({})", escaped(s.decided_by));
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.diagnosis) continue;
-    return words + fmt::format("; the diagnosis of round {}: {}.", round->first,
-                               verdict_in_words(round->second.diagnosis->verdict));
+    const std::string against = store::misfit_beside_verdict(round->second);
+    return words + fmt::format("; the diagnosis of round {}: {}.{}", round->first,
+                               verdict_in_words(round->second.diagnosis->verdict),
+                               against.empty() ? "" : " " + escaped(against));
   }
   return words + "; there is no diagnosis yet.";
 }

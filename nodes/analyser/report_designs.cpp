@@ -18,7 +18,9 @@ std::string deviation(double predicted, double measured) {
   return share > 0.0 ? "+" + percent(share) : percent(share);
 }
 
-std::string performance_table(const store::RecordedProposal& proposal, const MeasuredPattern* measured) {
+/// `missing`: what stands for measured values where there are none.
+std::string performance_table(const store::RecordedProposal& proposal, const MeasuredPattern* measured,
+                              const std::string& missing) {
   const optimize::Performance& p = proposal.predicted;
   std::string rows = table_row({"predicted", gpa(p.modulus_pa), mpa(p.toughness_pa)});
   if (measured != nullptr) {
@@ -27,17 +29,19 @@ std::string performance_table(const store::RecordedProposal& proposal, const Mea
     rows += table_row({"off by", deviation(p.modulus_pa, measured->mean.modulus_pa),
                        deviation(p.toughness_pa, measured->mean.toughness_pa)});
   } else {
-    rows += table_row({"measured", "awaited", "awaited"}, "reference");
+    rows += table_row({"measured", missing, missing}, "reference");
   }
   return "<table><thead>" + header_row({"", "E (GPa)", "T (MPa)"}) + "</thead><tbody>" + rows + "</tbody></table>\n";
 }
 
-std::string proposal_card(const store::RecordedProposal& proposal, const std::vector<MeasuredPattern>& measured) {
+std::string proposal_card(const store::RecordedProposal& proposal, const std::vector<MeasuredPattern>& measured,
+                          const std::string& missing) {
   const auto design = pattern::design_from_name(proposal.design);
   const std::string picture = design ? design_picture(*design, 120) : "";
   return fmt::format("<div class=\"card\">{}<div><p>{}</p>\n{}<p class=\"quiet\">{}</p></div></div>\n", picture,
                      design_name(proposal.design),
-                     performance_table(proposal, find_measured(measured, proposal.design)), escaped(proposal.reason));
+                     performance_table(proposal, find_measured(measured, proposal.design), missing),
+                     escaped(proposal.reason));
 }
 
 std::string in_words(const tester::TestConditions& c) {
@@ -72,12 +76,13 @@ std::string specimen_row(const store::MeasuredSpecimen& m) {
 std::string proposal_section(const store::RunRecord& run) {
   constexpr std::string_view kHeading = "Proposed patterns";
   const auto measured = measured_patterns(run, newest_round(run).value_or(0));
+  const std::string missing = is_over(run) ? "not measured" : "awaited";
   std::string content;
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (round->second.proposals.empty()) continue;
     content += fmt::format("<h3>Round {}</h3>\n<div class=\"cards\">\n", round->first);
     for (const store::RecordedProposal& proposal : round->second.proposals)
-      content += proposal_card(proposal, measured);
+      content += proposal_card(proposal, measured, missing);
     content += "</div>\n";
   }
   if (content.empty()) return section("proposals", kHeading, awaited("the first proposal"));

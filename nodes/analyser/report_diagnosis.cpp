@@ -6,6 +6,7 @@
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
 #include "material/effect_words.hpp"
+#include "store/misfit.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -40,6 +41,12 @@ std::string candidate_table(const std::vector<store::RecordedCandidate>& candida
   return table(header_row({"candidate", "status", "drop of χ²", "p (family-wise)", "absorbed by the base"}), rows);
 }
 
+/// A verdict that the calibration of the same round speaks against does not stand alone.
+std::string disagreement(const store::RoundRecord& round) {
+  const std::string words = store::misfit_beside_verdict(round);
+  return words.empty() ? "" : paragraph(escaped(words), "warning");
+}
+
 }  // namespace
 
 std::string verdict_in_words(const std::string& verdict) {
@@ -58,7 +65,8 @@ std::string diagnosis_section(const store::RunRecord& run) {
     const store::RecordedDiagnosis& d = *round->second.diagnosis;
     // The summary says what a named effect gains on held-out designs (diagnosis::gain_in_words): no second figure here.
     content += fmt::format("<h3>Round {}: {}</h3>\n", round->first, verdict_in_words(d.verdict)) +
-               paragraph(escaped(d.summary)) + effect_table(d.effects) + candidate_table(d.candidates);
+               paragraph(escaped(d.summary)) + disagreement(round->second) + effect_table(d.effects) +
+               candidate_table(d.candidates);
   }
   if (content.empty())
     return section(

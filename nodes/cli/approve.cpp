@@ -101,12 +101,43 @@ std::map<std::string, game::DesignStage> stages_in(const game::LaboratoryFacts& 
   return stages;
 }
 
-/// Designs that nobody proposed, to be measured with the rest. Status 1 when one of them is ordered already.
+/// The round that is played; nothing when the game is over.
+std::optional<int> round_played(const RunAccess& run) {
+  int played = 0;
+  for (const std::string& payload : sent_by_validation_agent(run, "ROUND")) {
+    const auto round = wire::read<wire::RoundSummary>(payload);
+    if (!round) continue;
+    if (round->last) return std::nullopt;
+    played = round->round + 1;
+  }
+  return played;
+}
+
+/// What becomes of a design of a person's own that the validation agent has. Status 1 when it is not measured.
+int say_when_measured(const RunAccess& run, const pattern::Design& design) {
+  const auto played = round_played(run);
+  if (game::is_ordered(view_laboratory(run).facts, design)) {
+    fmt::print("{} added\n", design.name());
+  } else if (played && (*played < run.scenario.rounds || run.scenario.families.enabled)) {
+    fmt::print("{} added, for the next round\n", design.name());
+  } else {
+    remark(fmt::format("{} is not measured: the last round is measured already, none follows", design.name()));
+    return 1;
+  }
+  return 0;
+}
+
+/// Designs that nobody proposed, to be measured with the rest. Status 1 when one of them is ordered already, or no
+/// round is left to measure it in.
 int add_own(const ApproveOptions& options, const RunAccess& run) {
   if (options.designs.empty()) throw InputError("nacre approve --add: expected designs to add");
   if (options.reject || options.all) throw InputError("nacre approve: expected --add alone, without --reject or --all");
   std::vector<pattern::Design> designs;
   for (const std::string& argument : options.designs) designs.push_back(pattern::design_from_argument(argument));
+  if (!round_played(run)) {
+    remark("the game is over: nothing more is measured");
+    return 1;
+  }
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
   const std::map<std::string, game::DesignStage> stages = stages_in(facts);
   int status = 0;
@@ -123,7 +154,7 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
       continue;
     }
     if (!send(options, run, {-1, design, true, options.by, options.why})) return 1;
-    fmt::print("{} added\n", design.name());
+    status = std::max(status, say_when_measured(run, design));
   }
   return status;
 }

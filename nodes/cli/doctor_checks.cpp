@@ -191,6 +191,8 @@ Finding check_cache(const fs::path& logs) {
   } catch (const InputError& error) {
     return {"cache of simulations", Verdict::fault, error.what(),
             fmt::format("mv {0} {0}.broken   # the farm begins a new one", file.string())};
+  } catch (const store::CacheUnavailable& error) {
+    return {"cache of simulations", Verdict::fault, error.what(), "df " + logs.string()};
   }
 }
 
@@ -212,10 +214,15 @@ Finding check_run(const fs::path& run) {
 Finding check_slurm(bool wanted) {
   const Verdict otherwise = wanted ? Verdict::fault : Verdict::remark;
   const auto version = runtime::ask_program({"sbatch", "--version"});
-  if (!version.end.orderly()) {
+  constexpr int kNotFound = 127;  // runtime::ask_program
+  if (version.end.exit_status == kNotFound) {
     if (!wanted) return {"Slurm", Verdict::good, "not installed; only farm.executor = \"slurm\" needs it"};
     return {"Slurm", Verdict::fault, "sbatch is not installed",
             "apt-get install slurm-client   # and the cluster's slurm.conf"};
+  }
+  if (!version.end.orderly()) {
+    return {"Slurm", otherwise, "installed, but it finds no cluster: " + first_line(version.output),
+            "export SLURM_CONF=/path/to/slurm.conf   # the cluster's; Slurm looks for it when it starts"};
   }
   const auto nodes = runtime::ask_program({"sinfo", "--noheader", "--format=%t %D"});
   if (!nodes.end.orderly()) {

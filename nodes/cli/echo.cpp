@@ -10,6 +10,7 @@
 #include "runtime/interrupts.hpp"
 #include "runtime/journal.hpp"
 #include "wire/channels.hpp"
+#include "wire/convert.hpp"
 #include "wire/header.hpp"
 #include "wire/schema.hpp"
 
@@ -23,6 +24,33 @@ struct Options {
   std::int64_t count = std::numeric_limits<std::int64_t>::max();
 };
 
+/// The word for the number of a test or a fidelity; nothing for any other field.
+std::optional<std::string_view> word_for(const std::string& field, const nlohmann::ordered_json& value) {
+  if (!value.is_number_integer()) return std::nullopt;
+  const auto code = value.get<std::int8_t>();
+  if (field == "test") {
+    if (const auto test = wire::test_kind_from_wire(code)) return tester::to_string(*test);
+  } else if (field == "fidelity") {
+    if (const auto fidelity = wire::fidelity_from_wire(code)) return tester::to_string(*fidelity);
+  }
+  return std::nullopt;
+}
+
+/// The message with words behind such numbers: "test":0,"test_name":"modulus".
+nlohmann::ordered_json with_words(const nlohmann::ordered_json& message) {
+  if (!message.is_structured()) return message;
+  auto result = message.is_array() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::object();
+  for (const auto& [field, value] : message.items()) {
+    if (message.is_array()) {
+      result.push_back(with_words(value));
+      continue;
+    }
+    result[field] = with_words(value);
+    if (const auto word = word_for(field, value)) result[field + "_name"] = *word;
+  }
+  return result;
+}
+
 /// A message as JSON; why it cannot be read where it cannot.
 nlohmann::ordered_json to_json(std::string_view channel, std::string_view payload) {
   const wire::Channel* known = wire::find_channel(channel);
@@ -30,7 +58,7 @@ nlohmann::ordered_json to_json(std::string_view channel, std::string_view payloa
   auto message = wire::to_json(known->type, payload);
   if (!message) return {{"error", message.error().message}};
   message->erase("header");
-  return *message;
+  return with_words(*message);
 }
 
 void print_line(const nlohmann::ordered_json& line) {

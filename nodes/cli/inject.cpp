@@ -31,31 +31,25 @@ struct Options {
 
 /// What became of the specimens of a set.
 struct Delivery {
-  int accepted = 0;  ///< new to the validation agent
-  int repeated = 0;  ///< it had them already
-  int unanswered = 0;
+  int accepted = 0;    ///< new to the validation agent
+  int repeated = 0;    ///< it had them already
+  int unanswered = 0;  ///< a node has not got them
+  std::set<std::string> unanswered_by;
   std::vector<std::string> conflicting;  ///< it has other specimens of these names, which stay
   std::vector<measurement::RejectedRow> rejected;
 };
 
-/// Repeats the offered messages until the validation agent has them all; the analyser gets a few seconds more.
-void wait_for_validation_agent(runtime::Endpoint& endpoint, const std::vector<std::string>& hashes, double timeout_s) {
-  constexpr auto kGrace = std::chrono::seconds(5);
+/// Repeats the offered messages until every node that listens has them all. A diagnosis names the specimens that it
+/// rests on: an analyser that had not got them would wait for ever.
+void wait_for_receivers(runtime::Endpoint& endpoint, const std::vector<std::string>& hashes, double timeout_s) {
   const runtime::Interrupts interrupts;
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
-  auto end = deadline;
-  bool agent_has_all = false;
   Progress progress("inject: specimens", static_cast<std::int64_t>(hashes.size()));
-  while (endpoint.unacknowledged() > 0 && Clock::now() < end && !interrupts.any()) {
+  while (endpoint.unacknowledged() > 0 && Clock::now() < deadline && !interrupts.any()) {
     endpoint.pump(50);
-    const auto arrived = std::count_if(hashes.begin(), hashes.end(), [&](const std::string& hash) {
-      return endpoint.waiting_for(hash).count("validation_agent") == 0;
-    });
-    progress.set(arrived);
-    if (agent_has_all || arrived < static_cast<std::int64_t>(hashes.size())) continue;
-    agent_has_all = true;
-    end = std::min(deadline, Clock::now() + kGrace);
+    progress.set(std::count_if(hashes.begin(), hashes.end(),
+                               [&](const std::string& hash) { return endpoint.waiting_for(hash).empty(); }));
   }
 }
 
@@ -69,6 +63,7 @@ void print_delivery(const Delivery& delivery, bool json) {
               {"repeated", delivery.repeated},
               {"conflicting", delivery.conflicting},
               {"unanswered", delivery.unanswered},
+              {"unanswered_by", delivery.unanswered_by},
               {"rejected", rejected_json(delivery.rejected)}});
 }
 
@@ -117,7 +112,7 @@ Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet&
   return offered;
 }
 
-/// Sends a set and waits for the validation agent's answers.
+/// Sends a set and waits for the answers of those that listen.
 Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, const Options& options) {
   const auto endpoint = speak(run, "inject");
   Delivery delivery;
@@ -125,10 +120,11 @@ Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, cons
   const auto [hashes, repeated] = offer_specimens(run, set, options.set, *endpoint, delivery);
   if (hashes.empty() && delivery.conflicting.empty())
     throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
-  wait_for_validation_agent(*endpoint, hashes, options.timeout_s);
+  wait_for_receivers(*endpoint, hashes, options.timeout_s);
   for (const std::string& hash : hashes) {
-    const bool is_answered = endpoint->waiting_for(hash).count("validation_agent") == 0;
-    ++(!is_answered ? delivery.unanswered : repeated.count(hash) > 0 ? delivery.repeated : delivery.accepted);
+    std::set<std::string> missing = endpoint->waiting_for(hash);
+    ++(!missing.empty() ? delivery.unanswered : repeated.count(hash) > 0 ? delivery.repeated : delivery.accepted);
+    delivery.unanswered_by.merge(missing);
   }
   return delivery;
 }
@@ -139,12 +135,7 @@ int inject(const Options& options) {
   warn_about(set, options.set);
   const Delivery delivery = send(run, set, options);
   print_delivery(delivery, options.json);
-  if (delivery.unanswered > 0) {
-    remark(
-        fmt::format("the validation agent did not answer within {} s: does the run play? (nacre status) Repeating the "
-                    "same set is safe.",
-                    options.timeout_s));
-  }
+  if (delivery.unanswered > 0) say_unanswered(delivery.unanswered_by, options.timeout_s);
   return delivery.unanswered > 0 || !delivery.conflicting.empty() ? 1 : 0;
 }
 
@@ -155,7 +146,7 @@ void add_inject(CLI::App& app, Action& action) {
   CLI::App& command = add_command(app, action, "inject", "Bring measurements into a running game", options, inject);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
   add_run_option(command, options->run);
-  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the nodes that take measurements")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

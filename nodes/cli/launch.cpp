@@ -56,17 +56,14 @@ int record(const RecordOptions& options) {
   runtime::RecorderOptions settings;
   settings.log = options.log;
   settings.url = runtime::bus_url(options.port, options.hosts == "lan");
-  settings.report = [](runtime::LogLevel, const std::string& text) { warn(text); };
-  runtime::Recorder recorder(settings);
-  fmt::print("recording into {}\n", options.log);
-  check_standard_output();
-  constexpr int kTurnMs = 100;
-  while (!interrupts.any()) {
-    if (const auto pumped = recorder.pump(kTurnMs); !pumped) throw InputError(pumped.error().message);
-  }
-  const runtime::RecorderCounters counters = recorder.counters();
-  fmt::print("recorded {} messages, {} bytes, {} lost\n", counters.messages, counters.bytes, counters.lost);
-  return 0;
+  settings.report = [](runtime::LogLevel level, const std::string& text) {
+    level >= runtime::LogLevel::warning ? warn(text) : remark(text);
+  };
+  settings.ready = [&] {
+    fmt::print("recording into {}\n", options.log);
+    check_standard_output();
+  };
+  return runtime::run_recorder(settings, [&] { return interrupts.any(); });
 }
 
 }  // namespace

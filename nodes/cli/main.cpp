@@ -10,10 +10,12 @@
 #include "base/result.hpp"
 #include "command.hpp"
 #include "output.hpp"
+#include "store/simulation_cache.hpp"
 
 namespace nacre::cli {
 namespace {
 
+constexpr int kLater = 1;
 constexpr int kBadInput = 2;
 
 /// Letters to be changed, added or left out to make one word of the other.
@@ -83,6 +85,9 @@ int main(int argc, char** argv) {
     return nacre::cli::run(argc, argv);
   } catch (const nacre::InputError& error) {
     std::fprintf(stderr, "nacre: %s\n", error.what());
+  } catch (const nacre::store::CacheUnavailable& error) {
+    std::fprintf(stderr, "nacre: %s\n", error.what());
+    return nacre::cli::kLater;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nacre: unexpected: %s\n", error.what());
   }

@@ -77,9 +77,13 @@ int backup(const BackupOptions& options) {
   const RunAccess run = open_run(options.run);
   const fs::path to = fs::path(options.to) / run.manifest.run_id;
   const runtime::RunCopy copy = runtime::copy_run(run.folder, to, store::copy_database);
-  const fs::path cache = run.folder.parent_path() / "simulations.db";
-  const bool has_cache = fs::exists(cache);
-  if (has_cache) store::copy_database(cache, fs::path(options.to) / "simulations.db");
+  bool has_cache = false;
+  for (const char* name : {"simulations.db", "simulations-cuda.db"}) {  // of threads and of a CUDA device
+    const fs::path cache = run.folder.parent_path() / name;
+    if (!fs::exists(cache)) continue;
+    store::copy_database(cache, fs::path(options.to) / name);
+    has_cache = true;
+  }
   if (options.json) {
     print_json({{"run", to.string()},
                 {"files", copy.files},
@@ -109,7 +113,7 @@ void add_backup(CLI::App& app, Action& action) {
   const auto options = std::make_shared<BackupOptions>();
   CLI::App& command = add_command(app, action, "backup", "Copy a run, also while it plays", options, backup);
   add_run_option(command, options->run);
-  command.add_option("--to", options->to, "Folder that gets RUN and simulations.db")->required();
+  command.add_option("--to", options->to, "Folder that gets RUN and the caches of simulations")->required();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include <fmt/ranges.h>
+
 #include "base/result.hpp"
 #include "output.hpp"
 #include "wire/codec.hpp"
@@ -65,10 +67,16 @@ int deliver(const RunAccess& run, const std::string& name, const runtime::Messag
   const auto endpoint = speak(run, name);
   const auto hash = endpoint->offer(message);
   if (!hash) throw InputError(hash.error().message);
-  endpoint->deliver(timeout_s);
-  if (endpoint->waiting_for(*hash).count("validation_agent") == 0) return 0;
-  remark(fmt::format("the validation agent did not answer within {} s: does the run play? (nacre status)", timeout_s));
+  if (endpoint->deliver(timeout_s)) return 0;
+  say_unanswered(endpoint->waiting_for(*hash), timeout_s);
   return 1;
+}
+
+void say_unanswered(const std::set<std::string>& nodes, double timeout_s) {
+  remark(
+      fmt::format("{} did not answer within {} s: does the run play? (nacre status) Do the same again: it is safe, and "
+                  "a node may wait for what it has not got",
+                  fmt::join(nodes, ", "), timeout_s));
 }
 
 void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent) {

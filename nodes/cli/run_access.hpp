@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,11 @@ std::unique_ptr<runtime::Bus> listen(const RunAccess& run, const std::vector<std
 /// An end point that sends until acknowledged. Throws InputError.
 std::unique_ptr<runtime::Endpoint> speak(const RunAccess& run, const std::string& name);
 
-/// Sends one message and waits for the validation agent. Exit status: 0 it has the message, 1 it did not answer in
-/// time.
+/// Sends one message and waits until every node that listens to it has it. Exit status: 0 they have, 1 not in time.
 int deliver(const RunAccess& run, const std::string& name, const runtime::Message& message, double timeout_s);
+
+/// Says which nodes did not acknowledge what was sent to them.
+void say_unanswered(const std::set<std::string>& nodes, double timeout_s);
 
 /// Who takes a payload (with blank header), by channel.
 using Takers = std::map<std::string, std::function<void(const std::string& payload)>, std::less<>>;

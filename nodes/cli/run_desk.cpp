@@ -73,10 +73,11 @@ Answer RunDesk::hand_in(const runtime::Message& message) {
 Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
   const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
   const auto known = hashes_by_specimen(run_);
-  if (const auto same_name = known.find(specimen.specimen); same_name != known.end())
-    return same_name->second == wire::message_hash(message.channel, message.payload) ? Answer::repeated
-                                                                                     : Answer::conflicting;
-  return hand_in(message);
+  const auto same_name = known.find(specimen.specimen);
+  if (same_name == known.end()) return hand_in(message);
+  if (same_name->second != wire::message_hash(message.channel, message.payload)) return Answer::conflicting;
+  // The validation agent has it, the analyser may have been away.
+  return hand_in(message) == Answer::accepted ? Answer::repeated : Answer::unanswered;
 }
 
 Answer RunDesk::judge(const dashboard::Judgement& judgement) {

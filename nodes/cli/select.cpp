@@ -54,8 +54,10 @@ int select_samples(const Options& options) {
                         {"reason", one.reason},
                         {"bin", one.bin}});
     if (options.json) continue;
+    // As in the reason, bins count from 1; what fills up has none.
+    const std::string bin = one.bin < 0 ? "-" : std::to_string(one.bin + 1);
     fmt::print("{}  E {:.4f} GPa  T {:.4f} MPa  bin {:>2}  {}\n", one.pattern.key(), 1e-9 * one.predicted.modulus_pa,
-               1e-6 * one.predicted.toughness_pa, one.bin, one.reason);
+               1e-6 * one.predicted.toughness_pa, bin, one.reason);
   }
   if (options.json) print_json(document);
   if (selected.empty()) remark("nothing to select: no sample of the gamut lies above the benchmark lines");

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "gpu/batch_tester.hpp"
-#include "runtime/outbox.hpp"
+#include "runtime/work_outbox.hpp"
 #include "runtime/work_pool.hpp"
 #include "store/simulation_cache.hpp"
 
@@ -58,7 +58,7 @@ class GpuExecutor : public runtime::Executor {
   std::shared_ptr<store::SimulationCache> cache_;
   GpuSettings settings_;
   runtime::WorkPool threads_of_processor_;  ///< of the shell's thread alone
-  runtime::Outbox outbox_;                  ///< of what is in this executor's own hands
+  runtime::WorkOutbox outbox_;              ///< of what is in this executor's own hands
 
   // Shared by the shell's thread, the preparer and the puller.
   std::mutex mutex_;

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/outbox.hpp"
+#include "runtime/work_outbox.hpp"
 #include "simulator_farm/batch_plan.hpp"
 #include "simulator_farm/slurm.hpp"
 #include "simulator_farm/spool.hpp"
@@ -93,7 +93,7 @@ class SlurmExecutor : public runtime::Executor {
   void give_up(const std::string& reason);
   double now_s() const;
 
-  runtime::Outbox outbox_;
+  runtime::WorkOutbox outbox_;
 
   // Shared with the shell's thread.
   std::mutex mutex_;

@@ -1,6 +1,7 @@
 #include "validation_agent/order_desk.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/random.hpp"
@@ -42,11 +43,7 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
     if (experiments.empty()) experiments = game::rotated_twins(random_patterns_, scenario_.validation.replicates);
   }
   add(orders_for(approved_of(designs)));
-  std::erase_if(own_, [&](const pattern::Design& each) {
-    return std::find(designs.begin(), designs.end(), each) != designs.end();
-  });
-  for (const pattern::Design& each : own_) add(game::person_orders(scenario_, round, each));
-  own_.clear();
+  add(take_own(designs));
   std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
   if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
   return place(std::move(orders));
@@ -55,7 +52,19 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
 std::vector<game::Order> OrderDesk::open_family_round(int round, std::vector<pattern::Design> designs) {
   round_ = decided_under_ = round;
   is_family_round_ = true;
-  return place(orders_for(approved_of(designs)));
+  std::vector<game::Order> orders = orders_for(approved_of(designs));
+  std::ranges::move(take_own(designs), std::back_inserter(orders));
+  return place(std::move(orders));
+}
+
+/// Orders of what persons added since the last round was measured. A design that is proposed, too, needs no second one.
+std::vector<game::Order> OrderDesk::take_own(const std::vector<pattern::Design>& proposed) {
+  std::vector<game::Order> orders;
+  for (const pattern::Design& each : std::exchange(own_, {})) {
+    if (std::find(proposed.begin(), proposed.end(), each) != proposed.end()) continue;
+    std::ranges::move(game::person_orders(scenario_, round_, each), std::back_inserter(orders));
+  }
+  return orders;
 }
 
 /// Those that may be ordered at once; what a person has still to say something about waits.

@@ -34,7 +34,7 @@ class OrderDesk {
                                       std::vector<game::Experiment> experiments);
 
   /// Opens the round of the family stage: designs chosen of families, which a person decides on under the number of
-  /// this round. Returns the orders that can go out at once.
+  /// this round, and what persons added meanwhile. Returns the orders that can go out at once.
   std::vector<game::Order> open_family_round(int round, std::vector<pattern::Design> designs);
 
   /// A decision about a design of the proposal of `proposal_round`, before or after that round is opened. The first one
@@ -48,6 +48,9 @@ class OrderDesk {
   /// Proposed designs of the open round that still wait for a person.
   int undecided() const { return static_cast<int>(waiting_.size()); }
 
+  /// Designs of persons that wait for the next round.
+  const std::vector<pattern::Design>& own() const { return own_; }
+
   /// Orders of all rounds.
   const std::vector<game::Order>& orders() const { return orders_; }
 
@@ -59,6 +62,7 @@ class OrderDesk {
 
  private:
   std::vector<game::Order> place(std::vector<game::Order> orders);
+  std::vector<game::Order> take_own(const std::vector<pattern::Design>& proposed);
   std::vector<pattern::Design> approved_of(const std::vector<pattern::Design>& designs);
   std::vector<game::Order> orders_for(std::span<const pattern::Design> designs) const;
   bool refused(const pattern::Design& design) const;

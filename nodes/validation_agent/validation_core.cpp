@@ -169,6 +169,10 @@ void ValidationCore::accept_approval(const std::string& payload) {
 }
 
 void ValidationCore::add_own_design(const pattern::Design& design, const approval_t& approval) {
+  if (phase_ == Phase::finished)
+    return say(LogLevel::warning, fmt::format("an APPROVAL changes nothing: no round follows in which {} could be "
+                                              "measured",
+                                              approval.design));
   const auto orders = desk_.add_own(design, phase_ == Phase::measuring);
   if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} adds {}: {}", approval.by, approval.design, approval.why));

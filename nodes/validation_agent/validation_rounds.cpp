@@ -9,6 +9,7 @@
 #include "game/model.hpp"
 #include "game/standings.hpp"
 #include "validation_agent/validation_core.hpp"
+#include "wire/schema.hpp"
 
 namespace nacre::validation_agent {
 
@@ -183,8 +184,14 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
 
 void ValidationCore::diagnose() {
   wire::DiagnoseRequest request{.round = round_, .fidelity = scenario_.fidelity, .parameters = model_, .specimens = {}};
-  for (const measurement::SpecimenRecord& specimen : specimens_) {
-    if (specimen.valid) request.specimens.push_back(specimen.specimen);
+  const std::size_t room = wire::kMaximumBlankPayload - wire::write(request).size();
+  request.specimens = game::specimens_to_name(specimens_, room);
+  const auto valid = std::ranges::count_if(specimens_, &measurement::SpecimenRecord::valid);
+  if (std::cmp_less(request.specimens.size(), valid)) {
+    say(LogLevel::warning,
+        fmt::format("round {}: the diagnosis rests on {} of {} valid specimens, equally many replicates of each test: "
+                    "more names do not fit into one message",
+                    round_, request.specimens.size(), valid));
   }
   phase_ = Phase::diagnosing;
   send("DIAGNOSE", request);
@@ -247,6 +254,8 @@ void ValidationCore::close_round_when_proposed() {
     families_->begin(outputs_);
   } else if (round.last) {
     phase_ = Phase::finished;
+    for (const pattern::Design& each : desk_.own())
+      say(LogLevel::warning, fmt::format("{} is not measured: no round follows", each.name()));
   } else {
     begin_round(round_ + 1);
   }

@@ -46,7 +46,7 @@ void add_journal(const Corpus& corpus) {
   const fs::path file = fs::temp_directory_path() / fmt::format("nacre-seeds-{}.lcm", ::getpid());
   {
     runtime::LogWriter writer(file);
-    const std::string identity = runtime::pack({"1"});
+    const std::string identity = runtime::pack({"1", "boot"});
     if (!writer.append(1, runtime::kJournalChannel, identity) || !writer.append(2, "ACK", "bytes") || !writer.flush()) {
       throw InputError("the seed of the journal cannot be written");
     }

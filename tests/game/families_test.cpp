@@ -14,6 +14,7 @@
 #include "pattern/constraints.hpp"
 #include "stand_ins.hpp"
 #include "validation_agent/family_work.hpp"
+#include "validation_agent/order_desk.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::game_test {
@@ -126,6 +127,20 @@ TEST(FamilyStage, IsPlayedOnRequestAlone) {
   EXPECT_THAT(game.payloads("FAMILY"), IsEmpty());
   EXPECT_THAT(game.work_of("validation_agent"), IsEmpty());
   EXPECT_TRUE(game.said<wire::RoundSummary>("ROUND").back().last);
+}
+
+TEST(FamilyStage, MeasuresWhatAPersonAddedAfterTheLastRoundWasMeasured) {
+  validation_agent::OrderDesk desk(with_families());
+  (void)desk.open_round(1, {}, {});
+  const pattern::Design own = pattern::Pattern(0x577fffe9fffdef), chosen = pattern::Pattern(0x3ffc9b4ad4d2d9);
+  for (const pattern::Design& design : {own, chosen}) EXPECT_THAT(desk.add_own(design, false).value(), IsEmpty());
+  const std::vector<game::Order> orders = desk.open_family_round(2, {chosen});
+  ASSERT_THAT(orders, SizeIs(4)) << "both tests of each; what is chosen is not ordered twice";
+  for (const game::Order& order : orders) {
+    EXPECT_EQ(order.round, 2);
+    EXPECT_EQ(order.reason, order.design == own ? game::OrderReason::person : game::OrderReason::family);
+  }
+  EXPECT_THAT(desk.own(), IsEmpty());
 }
 
 TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {

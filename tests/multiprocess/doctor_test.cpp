@@ -183,9 +183,10 @@ TEST_F(Doctor, ProgramsOfDifferentBuildsAreAFault) {
 /// sbatch and sinfo that say what a cluster in trouble says.
 class FakeCluster {
  public:
-  FakeCluster(const fs::path& folder, const std::string& sinfo) : path_(std::getenv("PATH")) {
+  FakeCluster(const fs::path& folder, const std::string& sinfo, const std::string& sbatch = "echo slurm-wlm 22.05.8")
+      : path_(std::getenv("PATH")) {
     fs::create_directories(folder);
-    write(folder / "sbatch", "echo slurm-wlm 22.05.8");
+    write(folder / "sbatch", sbatch);
     write(folder / "sinfo", sinfo);
     ::setenv("PATH", (folder.string() + ":" + path_).c_str(), 1);
   }
@@ -217,6 +218,18 @@ TEST_F(Doctor, AClusterThatTakesNoTasksIsAFaultWhereTheScenarioWantsOne) {
   }
   const FakeCluster working(folder_ / "working", "echo mix 2; echo drain 1");
   EXPECT_EQ(examine("Slurm", wanted).verdict(), "good");
+}
+
+TEST_F(Doctor, SlurmThatFindsNoClusterIsNotCalledMissing) {
+  std::ofstream(folder_ / "slurm.toml") << "[farm]\nexecutor = \"slurm\"\n";
+  const std::string refusal = "echo 'sbatch: error: DNS SRV lookup failed' >&2; echo 'sbatch: fatal' >&2; exit 1";
+  const FakeCluster lost(folder_ / "lost", refusal, refusal);
+  EXPECT_EQ(examine("Slurm").verdict(), "remark");
+  const Said said = examine("Slurm", {"--scenario", (folder_ / "slurm.toml").string()});
+  EXPECT_EQ(said.verdict(), "fault");
+  EXPECT_THAT(said.finding["found"].get<std::string>(),
+              AllOf(HasSubstr("DNS SRV lookup failed"), Not(HasSubstr("not installed")), Not(HasSubstr("fatal"))));
+  EXPECT_THAT(said.remedy(), HasSubstr("SLURM_CONF"));
 }
 
 TEST(Clock, BeforeTheProgramWasWrittenIsAFaultAndOutOfStepARemark) {

@@ -14,6 +14,7 @@
 #include "short_game.hpp"
 #include "store/database_care.hpp"
 #include "store/run_schema.hpp"
+#include "store/simulation_cache.hpp"
 
 namespace nacre {
 namespace {
@@ -47,6 +48,8 @@ class Durability : public testing::Test {
     game_ = std::make_unique<PlayedGame>(folder_ / "durable.toml", folder_ / "logs", "game");
     game_->play_until([] { return journal_bytes(game_->folder(), "validation_agent") > 20'000; }, kPatienceS);
     is_playing_at_backup_ = !game_->is_over();
+    // A farm with a device keeps a cache of its own.
+    store::SimulationCache(folder_ / "logs" / "simulations-cuda.db").insert("key", {});
     backup_ = run_nacre({"backup", "--run", game_->folder().string(), "--to", (folder_ / "backup").string(), "--json"});
     game_->play_to_end(kPatienceS);
   }
@@ -77,6 +80,7 @@ TEST_F(Durability, ABackupOfAPlayingGamePlaysOnToTheSameEnd) {
   const fs::path run = folder_ / "backup" / "game";
   EXPECT_TRUE(store::check_database(run / "run.db"));
   EXPECT_TRUE(store::check_database(folder_ / "backup" / "simulations.db"));
+  EXPECT_EQ(store::SimulationCache(folder_ / "backup" / "simulations-cuda.db").size(), 1);
   PlayedGame resumed(run);
   ASSERT_TRUE(resumed.play_to_end(kPatienceS)) << resumed.said();
   ASSERT_EQ(resumed.status(), 0) << resumed.said();

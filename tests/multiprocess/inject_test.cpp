@@ -89,6 +89,23 @@ TEST_F(InjectedGame, InjectSaysWhenNobodyAnswers) {
   EXPECT_THAT(outcome.err, HasSubstr("did not answer"));
 }
 
+TEST_F(InjectedGame, InjectSaysWhichNodeHasNotGotTheSpecimensAndASecondTimeBringsThem) {
+  launch("half_heard");
+  person_->wait_for("orders of round 1", [&] { return person_->orders().size() == 2 * 6; });
+  const std::vector<SpecimenRecord> part = {person_->measured_in_laboratory().front()};
+  const int analyser = person_->game().process_of("analyser");
+  ::kill(analyser, SIGSTOP);
+  const fs::path set = fresh_folder("half_heard_set");
+  measurement::write_measurement_set(set, part);
+  const Outcome outcome =
+      run_nacre({"inject", set.string(), "--run", person_->run().string(), "--timeout-s", "2", "--json"});
+  ::kill(analyser, SIGCONT);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("analyser did not answer"), Not(HasSubstr("validation_agent did not"))));
+  EXPECT_THAT(nlohmann::json::parse(outcome.out)["unanswered_by"], testing::ElementsAre("analyser"));
+  EXPECT_EQ(person_->inject("half_heard_again", part)["repeated"], 1);
+}
+
 /// Specimens of a design in one test, by position.
 std::vector<std::size_t> places_of(const std::vector<SpecimenRecord>& specimens, const pattern::Design& design,
                                    TestKind test) {

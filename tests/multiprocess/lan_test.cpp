@@ -103,6 +103,35 @@ TEST(TwoMachines, FarmOnOneAndEverybodyElseOnTheOtherPlayTheGameToItsEnd) {
   EXPECT_FALSE(fs::exists(journal_of(there / "logs/game", "validation_agent")));
 }
 
+TEST(TwoMachines, AGameThatIsOverIsKnownToBeWhereverTheValidationAgentRuns) {
+  const char* isolated = std::getenv("NACRE_ISOLATED");
+  if (isolated == nullptr || std::string(isolated) != "1") GTEST_SKIP() << "network namespaces are not allowed here";
+  const OtherMachine other;
+  if (!other.problem().empty()) GTEST_SKIP() << "a second network is not allowed here: " << other.problem();
+  const fs::path folder = fresh_folder("agent_elsewhere"), run = folder / "logs/game";  // shared by the machines
+  const std::vector<std::string> anew = {written(folder, "lan").string(),
+                                         "--logs",
+                                         (folder / "logs").string(),
+                                         "--run",
+                                         "game",
+                                         "--port",
+                                         std::to_string(kPort)};
+  for (const std::vector<std::string>& what : {anew, {"--resume", run.string()}}) {
+    std::string said_here, said_there;
+    std::vector<std::string> command = {program("nacre"), "launch"};
+    command.insert(command.end(), what.begin(), what.end());
+    command.insert(command.end(), {"--elsewhere", "validation_agent"});
+    ChildProcess host(command);
+    ASSERT_TRUE(wait_until_said(host, "analyser of run game listens", said_here, kPatienceS)) << said_here;
+    ChildProcess guest(
+        other.command({program("nacre"), "launch", "--resume", run.string(), "--only", "validation_agent"}));
+    const auto host_end = wait_for_end(host, said_here, kPatienceS);
+    const auto guest_end = wait_for_end(guest, said_there, kPatienceS);
+    EXPECT_EQ(host_end.exit_status + host_end.signal, 0) << said_here;
+    EXPECT_EQ(guest_end.exit_status + guest_end.signal, 0) << said_there;
+  }
+}
+
 TEST(TwoMachines, NeedAScenarioThatLeavesTheMachineAndAWayOut) {
   const fs::path folder = fresh_folder("one_machine");
   const auto refusal = [&](const std::string& hosts, const std::string& node) {

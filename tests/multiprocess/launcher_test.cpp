@@ -81,7 +81,8 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
   EXPECT_THAT(read_file(run() / "manifest.json"), AllOf(HasSubstr("\"commit\""), HasSubstr("\"port\"")));
   const Outcome recorded = run_nacre({"echo", "--log", (run() / "run.lcm").string()});
   EXPECT_EQ(recorded.status, 0) << recorded.err;
-  EXPECT_THAT(recorded.out, AllOf(HasSubstr("\"channel\":\"RUN\""), HasSubstr("\"channel\":\"ROUND\"")));
+  EXPECT_THAT(recorded.out, AllOf(HasSubstr("\"channel\":\"RUN\""), HasSubstr("\"channel\":\"ROUND\""),
+                                  HasSubstr("\"fidelity_name\":\"")));
 }
 
 TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
@@ -104,6 +105,58 @@ TEST_F(Launcher, NodeThatRefusesItsInputIsNotStartedAgain) {
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("proposal_agent cannot work (exit status 2)"), Not(HasSubstr("started again"))));
+}
+
+TEST_F(Launcher, ProgramThatVanishesEndsTheRunInOrder) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  const std::vector<int> analyser = processes_with("nacre_analyser --run-dir " + run().string());
+  ASSERT_EQ(analyser.size(), 1U);
+  fs::remove(folder_ / "bin" / "nacre_analyser");
+  ::kill(analyser.front(), SIGKILL);
+  const runtime::ProcessEnd end = wait_for_end(*process, said, 30.0);
+  EXPECT_EQ(end.exit_status, 1) << end.in_words() << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("nacre_analyser: cannot be started"), HasSubstr("analyser died too often"),
+                          HasSubstr("validation_agent stopped (exit status 0)")));
+}
+
+TEST_F(Launcher, RecorderThatDiesTooOftenDoesNotEndTheGame) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  const auto recorder = [&] { return processes_with("record --log " + run().string()); };
+  while (said.find("recorder died too often") == std::string::npos) {
+    ASSERT_TRUE(becomes_true([&] { return recorder().size() == 1; }, 10.0)) << said;
+    said.clear();
+    ::kill(recorder().front(), SIGKILL);
+    ASSERT_TRUE(wait_until_said(*process, "recorder died", said)) << said;
+  }
+  EXPECT_EQ(run_nacre({"status", "--run", run().string()}).status, 0) << "the nodes play on";
+  ::kill(process->pid(), SIGINT);
+  wait_for_end(*process, said, 20.0);
+  EXPECT_THAT(said, Not(HasSubstr("a node has failed")));
+}
+
+TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsHeard) {
+  ::setenv("NACRE_FAULTS", "seed=1,duplicate=1", 1);
+  const Outcome outcome = run_nacre(arguments());
+  ::unsetenv("NACRE_FAULTS");
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const std::string live = outcome.out.substr(0, outcome.out.find("the game is over"));
+  const std::size_t first = live.find("round 0: gap");
+  ASSERT_NE(first, std::string::npos) << live;
+  EXPECT_EQ(live.find("round 0: gap", first + 1), std::string::npos) << live;
+}
+
+TEST_F(Launcher, RunFolderUnderAnotherNameIsResumed) {
+  ASSERT_EQ(run_nacre(arguments()).status, 0);
+  fs::copy(run(), logs() / "another name", fs::copy_options::recursive);
+  const Outcome resumed = run_nacre(arguments({"--resume", (logs() / "another name").string()}));
+  EXPECT_EQ(resumed.status, 0) << resumed.out << resumed.err;
+  EXPECT_THAT(resumed.out, HasSubstr("the game is over"));
 }
 
 TEST_F(Launcher, InterruptedRunStopsInOrderAndIsResumed) {

@@ -5,9 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <deque>
 #include <fstream>
 #include <set>
@@ -254,6 +258,39 @@ TEST(Shell, LostJournalsAreMadeUpForByTheOthers) {
   }
 }
 
+/// What a power cut may leave of a journal that was not on disk yet: its first half, whole records, and the machine
+/// comes up in another boot.
+void cut_power(const std::filesystem::path& journal) {
+  std::vector<runtime::LogRecord> records;
+  {
+    runtime::LogReader reader(journal);
+    while (auto record = reader.next()) records.push_back(*std::move(record));
+  }
+  std::filesystem::remove(journal);
+  runtime::LogWriter writer(journal);
+  for (std::size_t i = 0; i < records.size() / 2; ++i) {
+    const runtime::LogRecord& record = records[i];
+    const std::string data = record.channel == runtime::kJournalChannel
+                                 ? runtime::pack({runtime::unpack(record.data)->front(), "the boot before"})
+                                 : record.data;
+    ASSERT_TRUE(writer.append(record.utime, record.channel, data));
+  }
+  ASSERT_TRUE(writer.flush());
+}
+
+TEST(Shell, AJournalThatAPowerCutShortenedToWholeRecordsIsMadeUpForByTheOthers) {
+  for (const std::string& victim : echo::kParticipants) {
+    EchoGame game;
+    game.start_all();
+    ASSERT_TRUE(game.watch(10, [&] { return game.said().size() >= 40; }));
+    for (const std::string& node : echo::kParticipants) game.kill(node);
+    cut_power(game.journal(victim));
+    game.start_all();
+    ASSERT_TRUE(game.play()) << victim;
+    EXPECT_TRUE(game.watch(10, [&] { return game.said() == undisturbed_game(); })) << victim;
+  }
+}
+
 void send_raw_datagrams(int port, int count) {
   const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in group{};
@@ -384,13 +421,35 @@ TEST(Shell, LeavesNoOrphanWhenItsParentDies) {
   }));
 }
 
+TEST(Recorder, AFullDiskIsNoBadInputAndItMayBeStartedAgain) {
+  const TemporaryFolder folder;
+  runtime::RecorderOptions options;
+  options.log = folder.path() / "run.lcm";
+  options.url = runtime::bus_url(test::test_port());
+  const pid_t recorder = ::fork();
+  if (recorder == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4000, 4000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::_exit(runtime::run_recorder(options, [] { return false; }));
+  }
+  EchoGame game;
+  int status = 0;
+  ASSERT_TRUE(game.watch(20, [&] {
+    game.launcher().bus().publish({"ACK", wire::encode(ack_t{})});
+    return ::waitpid(recorder, &status, WNOHANG) == recorder;
+  }));
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
 TEST(Recorder, KeepsABurstOfEveryMessageOnTheBus) {
   const TemporaryFolder folder;
   runtime::RecorderOptions options;
   options.log = folder.path() / "run.lcm";
   options.url = runtime::bus_url(test::test_port());
   std::atomic<bool> stop = false;
-  std::thread recorder([&] { EXPECT_EQ(runtime::run_recorder(options, &stop, false), 0); });
+  std::thread recorder([&] { EXPECT_EQ(runtime::run_recorder(options, [&] { return stop.load(); }), 0); });
   EchoGame game;
   game.start_all();
   EXPECT_TRUE(game.play());

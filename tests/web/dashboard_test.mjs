@@ -42,8 +42,12 @@ test("a live game is shown and followed", async () => {
   await page.locator(".units .unit-button").first().waitFor({ timeout: 60_000 });
   await photograph(page, "game-live");
   await view(page, "nodes");
-  await page.locator("td", { hasText: "validation agent" }).waitFor();
-  assert.equal(await page.locator("tbody tr").count(), 5);
+  await page.locator("td", { hasText: "validation agent" }).first().waitFor();
+  for (const table of ["Nodes", "Messages"]) {
+    const region = page.getByRole("region", { name: table, exact: true });
+    assert.equal(await region.locator("tbody tr").count(), 5);
+    assert.ok(await region.evaluate((on) => on.scrollWidth <= on.clientWidth), `${table} fits the window`);
+  }
   await photograph(page, "nodes");
   await view(page, "game");
 });
@@ -60,6 +64,7 @@ test("a point is clicked and its film plays", async () => {
   const first = await frameOf(page);
   await until(async () => (await frameOf(page)) > first + 5, 20, "the film goes on");
   assert.ok((await painted(page, ".film canvas")).colours > 20);
+  assert.match(await page.getByLabel("colours of the film").innerText(), /soft\s+rigid\s+interface\s+breaking/);
   assert.equal(await page.locator(".design .chart").count(), 1);
   await photograph(page, "game-film");
 });

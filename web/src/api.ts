@@ -17,7 +17,7 @@ export interface RunInfo {
 
 export interface NodeState {
   node: string;
-  state: "starting" | "running" | "finished" | "silent";
+  state: "starting" | "running" | "finished" | "ended" | "silent";
   age_s: number;
   phase: string;
   round: number;
@@ -245,6 +245,8 @@ export interface Diagnosis {
   round: number;
   verdict: string;
   summary: string;
+  /** What the calibration of the round says against the verdict; empty: nothing. */
+  against: string;
   effects: Effect[];
   candidates: Candidate[];
   gain: {

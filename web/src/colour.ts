@@ -78,7 +78,15 @@ export function elementColours(levels: number): Uint32Array[] {
   );
 }
 
+/** Materials as a film shows them unstrained, for its legend. */
+export const UNSTRAINED = {
+  soft: hexOf(MATERIALS[0]),
+  rigid: hexOf(MATERIALS[1]),
+  interface: hexOf(MATERIALS[2]),
+};
+
 export const FAILING = 0xffd69f0a; // what broke since the frame before
+export const BREAKING = "#0a9fd6"; // the same, as a page writes colours
 
 /** A scale from dark blue over green to yellow, of even lightness steps. */
 export function scaleColour(share: number): string {

@@ -119,6 +119,7 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
         </div>
         <h2>{VERDICTS[word.verdict] ?? words(word.verdict)}</h2>
         <p>{word.summary}</p>
+        {word.against && <p class="doubt">{word.against}</p>}
         {word.effects.map((e) => (
           <div key={e.name} class="effect">
             <div>

@@ -1,7 +1,7 @@
 // A fracture film, drawn element by element.
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { elementColours, FAILING } from "./colour";
+import { BREAKING, elementColours, FAILING, UNSTRAINED } from "./colour";
 import type { Film } from "./film";
 import { figure, mpa } from "./numbers";
 import { saveCanvas } from "./save";
@@ -142,6 +142,7 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
         aria-label={`fracture of ${film.design} at strain ${percentOf(shown.strain)}`}
         data-frame={frame}
       />
+      <Legend />
       <div class="controls">
         <button
           type="button"
@@ -186,6 +187,21 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
         </button>
       </div>
     </div>
+  );
+}
+
+/** Films have colours of their own: soft is dark, so that its energy glows. Icons follow the theme. */
+function Legend() {
+  const colours = { ...UNSTRAINED, breaking: BREAKING };
+  return (
+    <ul class="keys" aria-label="colours of the film">
+      {Object.entries(colours).map(([name, colour]) => (
+        <li key={name}>
+          <span class="swatch" style={{ "--c": colour } as never} /> {name}
+        </li>
+      ))}
+      <li>glow: strain energy</li>
+    </ul>
   );
 }
 

@@ -137,6 +137,10 @@ const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
 const someT = (e: { toughness_count: number; toughness_mean: number } | null) =>
   e && e.toughness_count > 0 ? e.toughness_mean : null;
 
+/** Rank correlation: of two designs it says nothing, as in the report. */
+const rankT = (e: { toughness_count: number; toughness_spearman: number } | null) =>
+  e && e.toughness_count >= 3 ? e.toughness_spearman : null;
+
 function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
   const trends = useMemo(() => {
     const [sim, meas, homo] = ["sim", "meas", "homo"].map(themeColour);
@@ -352,8 +356,8 @@ function RoundTable({ rounds }: { rounds: Rounds }) {
         },
         {
           heading: "T rank",
-          show: (r) => (someT(r.summary!.held_out) === null ? "–" : figure(r.summary!.held_out!.toughness_spearman, 2)),
-          value: (r) => r.summary!.held_out?.toughness_spearman ?? "",
+          show: (r) => figure(rankT(r.summary!.held_out), 2),
+          value: (r) => rankT(r.summary!.held_out) ?? "",
         },
         { heading: "E after", show: (r) => percent(someE(r.summary!.after)), value: (r) => someE(r.summary!.after) },
         { heading: "T after", show: (r) => percent(someT(r.summary!.after)), value: (r) => someT(r.summary!.after) },

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "analyser/works.hpp"
+#include "wire/channels.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::analyser {
@@ -184,6 +185,24 @@ TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
   EXPECT_THAT(asked.designs, ElementsAre(pattern::Pattern(5), pattern::Pattern(6)));
 }
 
+TEST(Analyser, MoreDesignsThanARequestHoldsAreFilmedByTwo) {
+  Watched analyser;
+  std::vector<std::uint64_t> patterns(wire::kMaximumDesigns + 2);
+  for (std::size_t i = 0; i < patterns.size(); ++i) patterns[i] = i + 1;
+  analyser.hear("PARAMETERS", model_of(1));
+  analyser.hear("PROPOSAL", proposal_of(1, patterns));
+  const std::vector<Message> requests = analyser.sent_on("SIMULATE");
+  ASSERT_THAT(requests, SizeIs(2));
+  for (const Message& request : requests)
+    EXPECT_TRUE(wire::find_channel("SIMULATE")->validate(request.payload)) << "every receiver would drop it";
+  const auto first = wire::read<wire::SimulateRequest>(requests[0].payload).value();
+  const auto second = wire::read<wire::SimulateRequest>(requests[1].payload).value();
+  EXPECT_NE(first.request_id, second.request_id);
+  EXPECT_EQ(first.designs.front(), pattern::Design(pattern::Pattern(1)));
+  EXPECT_THAT(second.designs,
+              ElementsAre(pattern::Pattern(wire::kMaximumDesigns + 1), pattern::Pattern(wire::kMaximumDesigns + 2)));
+}
+
 TEST(Analyser, TinySpecimensAreNotFilmed) {
   game::Scenario scenario;
   scenario.fidelity = tester::Fidelity::tiny;
@@ -199,8 +218,16 @@ TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
   EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
   analyser.hear("MEASUREMENT", measurement_of("c", 6));
   EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
+  EXPECT_EQ(analyser.core.status().phase, "waiting for specimens b of 2");
   analyser.hear("MEASUREMENT", measurement_of("b", 7));
   EXPECT_THAT(analyser.ids("diagnose"), ElementsAre("diagnose/r1"));
+  EXPECT_EQ(analyser.core.status().phase, "diagnosing round 1");
+}
+
+TEST(Analyser, NamesAFewOfTheSpecimensThatItWaitsFor) {
+  Watched analyser;
+  analyser.hear("DIAGNOSE", question({"a", "b", "c", "d", "e"}));
+  EXPECT_EQ(analyser.core.status().phase, "waiting for specimens a, b, c, ... of 5");
 }
 
 TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {

@@ -75,6 +75,23 @@ TEST(DiagnosisPage, ShowsTheStrongestTrendsFirst) {
   EXPECT_THAT(page, HasSubstr("modulus predicted, MPa"));
 }
 
+TEST(DiagnosisPage, TooFewDataClaimNothing) {
+  const std::string page = render_diagnosis_page(diagnosis::undecided("three groups of layouts have a valid test"),
+                                                 "a-set", tester::Fidelity::full);
+  EXPECT_THAT(page, AllOf(HasSubstr("<h1>These data cannot tell yet</h1>"), HasSubstr("three groups of layouts")));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("Something is wrong")), Not(HasSubstr("<section")), Not(HasSubstr("<ul>")),
+                          Not(HasSubstr("scatter by")), Not(HasSubstr("Procedure"))));
+}
+
+TEST(DiagnosisPage, SeveralCausesAreListed) {
+  Diagnosis d;
+  d.verdict = diagnosis::Verdict::ambiguous;
+  d.possible = {{"machine_compliance"}, {"droplet_mixing"}};
+  d.procedure = "abc";
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full),
+              AllOf(HasSubstr("these data leave several causes"), HasSubstr("<li>"), HasSubstr("Procedure abc.")));
+}
+
 TEST(DiagnosisPage, EveryFeatureHasItsOwnUnit) {
   const std::string gain = gain_section({0.2,
                                          0.1,

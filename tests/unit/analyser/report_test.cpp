@@ -141,6 +141,17 @@ TEST(Report, HeldOutErrorsOfADiagnosisAreSaidByItsSummaryAlone) {
   EXPECT_THAT(diagnosis, AllOf(Not(HasSubstr("8.3 %")), Not(HasSubstr("3.4 %"))));
 }
 
+TEST(Report, AMisfitOfTheCalibrationStandsBesideAVerdictThatFindsNothing) {
+  store::RunRecord run = sample::run();
+  store::RoundRecord& newest = run.rounds.rbegin()->second;
+  newest.diagnosis->verdict = "base_sufficient";
+  EXPECT_THAT(render_report(run, "r"), Not(HasSubstr("own fit does not explain")));
+  newest.modulus_fit = {.count = 12, .freedom = 8, .chi_squared = 1223.4, .p_value = 1e-9};
+  const std::string page = render_report(run, "r"), head = page.substr(0, page.find("</header>"));
+  EXPECT_THAT(head, HasSubstr("does not explain E (chi squared 1223 at 8 degrees of freedom)"));
+  EXPECT_THAT(section_of(page, "diagnosis"), HasSubstr("does not explain E"));
+}
+
 TEST(Report, InvalidSpecimensAreShownButCountNowhere) {
   store::RunRecord run = sample::run(1);
   measurement::SpecimenRecord& record = run.specimens.front().record;
@@ -158,12 +169,19 @@ TEST(Report, InvalidSpecimensAreShownButCountNowhere) {
 }
 
 TEST(Report, ProposalsShowTheirPictureReasonAndMeasurement) {
-  const store::RunRecord run = sample::run(1);
+  store::RunRecord run = sample::run(1);
+  run.rounds.at(1).summary->last = false;
   const std::string proposals = section_of(render_report(run, "r"), "proposals");
   EXPECT_EQ(count_of(proposals, "<svg class=\"unit\""), 8);
   EXPECT_EQ(count_of(proposals, "<td>awaited</td>"), 2 * 4);  // those of round 1 are not measured yet
   EXPECT_EQ(count_of(proposals, "off by"), 4);
   EXPECT_EQ(count_of(proposals, "radial bin 2"), 2);
+}
+
+TEST(Report, NoMeasurementIsAwaitedAfterTheLastRound) {
+  const std::string proposals = section_of(render_report(sample::run(1), "r"), "proposals");
+  EXPECT_THAT(proposals, Not(HasSubstr("awaited")));
+  EXPECT_EQ(count_of(proposals, "<td>not measured</td>"), 2 * 4);
 }
 
 TEST(Report, NewestDesignsComeFirstAmongTheCurves) {

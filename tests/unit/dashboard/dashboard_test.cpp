@@ -80,6 +80,19 @@ TEST_F(DashboardOfARun, EveryReadingIsAnswered) {
   EXPECT_EQ(get("/api/diagnosis", {{"round", "1"}}).status, 200);
 }
 
+TEST_F(DashboardOfARun, AMisfitOfTheCalibrationStandsBesideAVerdictThatFindsNothing) {
+  EXPECT_EQ(json("/api/diagnosis", {{"round", "1"}})["against"], "");
+  wire::AdoptedModel model = wire::samples::model();
+  model.round = 1;
+  model.provenance.modulus_fit.p_value = 1e-9;
+  diagnosis_t nothing = wire::samples::diagnosis();
+  nothing.verdict = "base_sufficient";
+  store::RunDatabase database(folder_ / "run.db");
+  database.project("PARAMETERS", wire::write(model));
+  database.project("DIAGNOSIS", wire::encode(nothing));
+  EXPECT_THAT(json("/api/diagnosis", {{"round", "1"}})["against"].get<std::string>(), HasSubstr("does not explain E"));
+}
+
 TEST_F(DashboardOfARun, AGamutIsColumnsThatABrowserReadsInPlace) {
   const std::string bytes = get("/api/gamut", {{"round", "7"}}).body;
   ASSERT_EQ(bytes.substr(0, 8), "NACREGMT");
@@ -112,6 +125,24 @@ TEST_F(DashboardOfARun, WritesWithinATickOfTheClockAreToldApart) {
     versions.insert(json("/api/live")["data"]);
   }
   EXPECT_EQ(versions.size(), 100);
+}
+
+TEST_F(DashboardOfARun, NodesOfARunThatIsOverAreNotCalledSilent) {
+  node_status_t finished{};
+  finished.finished = true;
+  desk_.reports = {{"analyser", finished, 20.0}, {"simulator_farm", node_status_t{}, 20.0}};
+  const auto states = [&] {
+    std::vector<std::string> found;
+    const Json live = json("/api/live");
+    for (const Json& node : live["nodes"]) found.push_back(node["state"]);
+    return found;
+  };
+  EXPECT_EQ(states(), (std::vector<std::string>{"finished", "silent"}));
+  store::RunDatabase database(folder_ / "run.db");
+  wire::RoundSummary last = wire::samples::round();
+  last.last = true;
+  database.project("ROUND", wire::write(last));
+  EXPECT_EQ(states(), (std::vector<std::string>{"finished", "ended"}));
 }
 
 TEST_F(DashboardOfARun, AnAddressThatCannotBeListenedToIsSaidWithItsCause) {

@@ -47,6 +47,23 @@ TEST(Standings, OnlyUprightValidPatternsCompete) {
   EXPECT_THAT(measured_performances(measured_values(specimens)), ElementsAre(optimize::Performance{2e9, 2e5}));
 }
 
+TEST(Standings, WhereNotAllSpecimensCanBeNamedEveryTestKeepsReplicates) {
+  std::vector<SpecimenRecord> specimens;
+  for (const char* number : {"1", "2", "3"}) {
+    specimens.push_back(modulus(std::string("a/") + number, pattern::Pattern(7), 1e9));
+    specimens.push_back(toughness(std::string("b/") + number, pattern::Pattern(7), 1e5));
+  }
+  specimens[4].conditions.thickness_mm = 3.17;  // as callipers show 3.2
+  SpecimenRecord invalid = modulus("0", pattern::Pattern(9), 1e9);
+  invalid.valid = false;
+  specimens.push_back(invalid);
+  specimens.push_back(modulus("z", pattern::Pattern(9), 1e9));
+  const std::size_t bytes = 6 * (3 + 5) + 1 + 5;
+  EXPECT_THAT(specimens_to_name(specimens, bytes), ElementsAre("a/1", "a/2", "a/3", "b/1", "b/2", "b/3", "z"));
+  EXPECT_THAT(specimens_to_name(specimens, bytes - 1), ElementsAre("a/1", "a/2", "a/3", "b/1", "b/2", "z"));
+  EXPECT_THAT(specimens_to_name(specimens, bytes - 16), ElementsAre("a/1", "a/2", "b/1", "b/2", "z"));
+}
+
 TEST(Standings, HypervolumeErrorOfOneDesignIsThatOfAProductOfMeans) {
   // One design: hv = E T / 1e15, so relative variances of the two means add.
   std::map<pattern::Pattern, MeasuredValues> values;

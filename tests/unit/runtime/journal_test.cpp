@@ -161,6 +161,33 @@ TEST(Journal, CutsATornTailAndTakesANewIdentity) {
   EXPECT_EQ(reader.next()->channel, kJournalChannel);
 }
 
+TEST(Journal, TakesANewIdentityInEveryBootOfTheMachineAndInNoOther) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(Journal::open(folder.path(), 111, "boot 1")->append(1, "A", "kept"));
+  const auto path = folder.path() / "journal.lcm";
+  const std::size_t on_disk = read_file(path).size();
+  ASSERT_TRUE(Journal::open(folder.path(), 222, "boot 1")->append(1, "A", "acknowledged, not on disk"));
+  // The power fails. What is lost ends where a record ends: nothing is torn.
+  overwrite(path, read_file(path).substr(0, on_disk));
+  for (const std::int64_t now : {333, 444}) {
+    const auto again = Journal::open(folder.path(), now, "boot 2");
+    EXPECT_EQ(again->identity(), 333) << "what was lost must come again, and once";
+    EXPECT_EQ(again->warning(), "");
+  }
+  EXPECT_EQ(count_records(path), 3);
+}
+
+TEST(Journal, OfBeforeBootsWereWrittenDownIsReadAndTakesANewIdentityOnce) {
+  const TemporaryFolder folder;
+  {
+    LogWriter writer(folder.path() / "journal.lcm");
+    ASSERT_TRUE(writer.append(111, kJournalChannel, pack({"111"})));
+    ASSERT_TRUE(writer.append(112, "A", "kept"));
+  }
+  for (const std::int64_t now : {222, 333}) EXPECT_EQ(Journal::open(folder.path(), now, "boot")->identity(), 222);
+  EXPECT_EQ(count_records(folder.path() / "journal.lcm"), 3);
+}
+
 TEST(Journal, IsNotOpenedTwice) {
   const TemporaryFolder folder;
   const auto first = Journal::open(folder.path(), 1);

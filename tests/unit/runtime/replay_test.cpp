@@ -77,6 +77,19 @@ class Recording {
   CountingCore core_;
 };
 
+TEST(Replay, IsNotDisturbedByIdentitiesOfTheJournal) {
+  const TemporaryFolder folder;
+  Recording recording(folder.path());
+  recording.review(1);
+  for (const std::vector<std::string>& identity : {std::vector<std::string>{"2"}, {"3", "another boot"}})
+    recording.add(kJournalChannel, pack(identity));
+  recording.review(2);
+  CountingCore core;
+  const ReplayReport report = replay_journal(folder.path() / "journal.lcm", core, kWork, true);
+  EXPECT_TRUE(report.equal) << report.difference;
+  EXPECT_EQ(report.inputs, 3);
+}
+
 TEST(Replay, ReproducesEveryOutputAndEveryResult) {
   const TemporaryFolder folder;
   Recording recording(folder.path());

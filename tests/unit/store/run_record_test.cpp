@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../wire/samples.hpp"
+#include "store/misfit.hpp"
 #include "store/run_database.hpp"
 
 namespace nacre::store {
@@ -33,6 +34,29 @@ TEST_F(RunRecordOfAFile, OnlyAnswersAboutMeasuredDesignsAreWhatTheModelSaysOfThe
   EXPECT_TRUE(read_run_record(file_).rounds[1].simulated.empty());
   project_answer("analyser/r1/measured/0");
   EXPECT_EQ(read_run_record(file_).rounds[1].simulated.size(), 2u);
+}
+
+TEST_F(RunRecordOfAFile, TheFitOfACalibrationIsKeptAndSpeaksAgainstAVerdictThatFindsNothing) {
+  wire::AdoptedModel model = wire::samples::model();
+  model.provenance.modulus_fit = {
+      .count = 12, .freedom = 8, .chi_squared = 1223.4, .chi_squared_replicates = 1500.0, .p_value = 1e-9};
+  database_.project("PARAMETERS", wire::write(model));
+  RoundRecord round = read_run_record(file_).rounds[model.round];
+  EXPECT_EQ(round.modulus_fit, model.provenance.modulus_fit);
+  EXPECT_EQ(round.toughness_fit, model.provenance.toughness_fit);
+  EXPECT_EQ(misfit_beside_verdict(round), "") << "no diagnosis yet";
+  round.diagnosis.emplace().verdict = "base_sufficient";
+  EXPECT_NE(misfit_beside_verdict(round).find("E (chi squared 1223 at 8 degrees of freedom)"), std::string::npos);
+  round.diagnosis->verdict = "unexplained";
+  EXPECT_EQ(misfit_beside_verdict(round), "") << "the two agree";
+  round.diagnosis->verdict = "base_sufficient";
+  round.modulus_fit.p_value = 0.2;
+  EXPECT_EQ(misfit_beside_verdict(round), "");
+}
+
+TEST_F(RunRecordOfAFile, AFileOfAVersionBeforeFitsIsRead) {
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("DROP TABLE goodness_of_fit");
+  EXPECT_TRUE(read_run_record(file_).rounds.empty());
 }
 
 TEST_F(RunRecordOfAFile, CracksBelongToTheRoundOrTheFamilyWhoseModelBrokeThem) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -157,6 +159,43 @@ TEST_F(SimulationCacheFile, AnotherSchemaVersionIsRefused) {
   { SimulationCache cache(path_); }
   SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
   EXPECT_THAT(refusal(), HasSubstr("schema version 99"));
+}
+
+TEST_F(SimulationCacheFile, ACacheThatAnotherProgramWritesAsksForPatienceAndNotForARebuild) {
+  SimulationCache cache(path_, 10);
+  SQLite::Database other(path_.string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  std::string said;
+  try {
+    cache.insert("key", kAnswer);
+  } catch (const CacheUnavailable& error) {
+    said = error.what();
+  }
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("another program"), testing::Not(HasSubstr("rebuild"))));
+  EXPECT_THROW(SimulationCache(path_, 10), CacheUnavailable);
+  other.exec("ROLLBACK");
+  EXPECT_TRUE(cache.insert("key", kAnswer));
+}
+
+TEST_F(SimulationCacheFile, AFullDiskAsksForRoomAndNotForARebuild) {
+  SimulationCache cache(path_);
+  cache.insert("key", kAnswer);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1 << 16, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string said;
+  try {
+    for (int i = 0; i < 1000; ++i) cache.insert("key " + std::to_string(i), kAnswer);
+  } catch (const CacheUnavailable& error) {
+    said = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("Make room"), testing::Not(HasSubstr("rebuild"))));
+  EXPECT_EQ(cache.find("key"), kAnswer);
+  cache.insert("later", kAnswer);
+  EXPECT_EQ(cache.find("later"), kAnswer);
 }
 
 TEST_F(SimulationCacheFile, AFolderInTheWayIsNamed) {

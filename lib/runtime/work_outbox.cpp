@@ -1,20 +1,20 @@
-#include "runtime/outbox.hpp"
+#include "runtime/work_outbox.hpp"
 
 #include <utility>
 
 namespace nacre::runtime {
 
-void Outbox::expect_one() {
+void WorkOutbox::expect_one() {
   const std::lock_guard lock(mutex_);
   ++pending_;
 }
 
-void Outbox::pass_on(int count) {
+void WorkOutbox::pass_on(int count) {
   const std::lock_guard lock(mutex_);
   pending_ -= count;
 }
 
-void Outbox::finish(Compute compute, Result<std::string> result) {
+void WorkOutbox::finish(Compute compute, Result<std::string> result) {
   {
     const std::lock_guard lock(mutex_);
     finished_.push_back({std::move(compute), std::move(result)});
@@ -22,7 +22,7 @@ void Outbox::finish(Compute compute, Result<std::string> result) {
   wake_();
 }
 
-void Outbox::say(LogLevel level, std::string text) {
+void WorkOutbox::say(LogLevel level, std::string text) {
   {
     const std::lock_guard lock(mutex_);
     log_.push_back({level, std::move(text)});
@@ -30,28 +30,28 @@ void Outbox::say(LogLevel level, std::string text) {
   wake_();
 }
 
-void Outbox::set_standing(std::string standing) {
+void WorkOutbox::set_standing(std::string standing) {
   const std::lock_guard lock(mutex_);
   standing_ = std::move(standing);
 }
 
-std::vector<FinishedWork> Outbox::finished() {
+std::vector<FinishedWork> WorkOutbox::finished() {
   const std::lock_guard lock(mutex_);
   pending_ -= static_cast<int>(finished_.size());
   return std::exchange(finished_, {});
 }
 
-int Outbox::pending() const {
+int WorkOutbox::pending() const {
   const std::lock_guard lock(mutex_);
   return pending_;
 }
 
-std::vector<LogLine> Outbox::take_log() {
+std::vector<LogLine> WorkOutbox::take_log() {
   const std::lock_guard lock(mutex_);
   return std::exchange(log_, {});
 }
 
-std::string Outbox::standing() const {
+std::string WorkOutbox::standing() const {
   const std::lock_guard lock(mutex_);
   return standing_;
 }

@@ -11,10 +11,10 @@
 namespace nacre::runtime {
 
 /// Filled by any thread, emptied by the shell's.
-class Outbox {
+class WorkOutbox {
  public:
   /// `wake` is called, from the thread that puts something in, whenever there is something to collect.
-  explicit Outbox(std::function<void()> wake) : wake_(std::move(wake)) {}
+  explicit WorkOutbox(std::function<void()> wake) : wake_(std::move(wake)) {}
 
   /// One more is asked for, or so many are in other hands now.
   void expect_one();
