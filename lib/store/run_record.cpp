@@ -102,12 +102,12 @@ void read_fits(SQLite::Database& db, RunRecord& run) {
       db, "SELECT round, property, designs, freedom, chi_squared, chi_squared_replicates, p_value FROM goodness_of_fit",
       [&](SQLite::Statement& q) {
         RoundRecord& round = run.rounds[q.getColumn(0).getInt()];
-        (q.getColumn(1).getString() == "E" ? round.modulus_fit : round.toughness_fit) = {
-            .count = q.getColumn(2).getInt(),
-            .freedom = q.getColumn(3).getInt(),
-            .chi_squared = q.getColumn(4).getDouble(),
-            .chi_squared_replicates = q.getColumn(5).getDouble(),
-            .p_value = q.getColumn(6).getDouble()};
+        sysid::GoodnessOfFit& fit = q.getColumn(1).getString() == "E" ? round.modulus_fit : round.toughness_fit;
+        fit = {.count = q.getColumn(2).getInt(),
+               .freedom = q.getColumn(3).getInt(),
+               .chi_squared = q.getColumn(4).getDouble(),
+               .chi_squared_replicates = q.getColumn(5).getDouble(),
+               .p_value = q.getColumn(6).getDouble()};
       });
 }
 
