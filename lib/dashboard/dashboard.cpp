@@ -7,6 +7,7 @@
 #include "dashboard/entries.hpp"
 #include "dashboard/gamut_view.hpp"
 #include "runtime/bus.hpp"
+#include "store/measured_patterns.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -61,7 +62,7 @@ T or_refuse(Result<T> result) {
 /// A database that cannot be read must not take the nodes from the page.
 bool knows_that_it_is_over(RunData& data) {
   try {
-    return is_over(*data.record());
+    return store::is_over(*data.record());
   } catch (const InputError&) {
     return false;
   }

@@ -86,11 +86,6 @@ Json errors_json(const sysid::PredictionErrors& e) {
           {"toughness_spearman", e.toughness_spearman}};
 }
 
-bool is_over(const store::RunRecord& run) {
-  const auto closed = store::newest_closed_round(run);
-  return closed && run.rounds.at(*closed).summary->last;
-}
-
 Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes) {
   const auto gamut_size = [&](int round) { return gamut_sizes.contains(round) ? gamut_sizes.at(round) : 0; };
   Json rounds = Json::array();

@@ -51,7 +51,4 @@ Json diagnosis_json(const store::RunRecord& run, const std::optional<diagnosis_t
 /// speak.
 Json nodes_json(const std::vector<NodeReport>& nodes, bool is_over);
 
-/// Whether the last round is closed, and with it the family stage where there is one.
-bool is_over(const store::RunRecord& run);
-
 }  // namespace nacre::dashboard

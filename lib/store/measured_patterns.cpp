@@ -20,6 +20,11 @@ std::optional<int> newest_closed_round(const RunRecord& run) {
   return std::nullopt;
 }
 
+bool is_over(const RunRecord& run) {
+  const auto closed = newest_closed_round(run);
+  return closed && run.rounds.at(*closed).summary->last;
+}
+
 std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round) {
   const int newest = newest_round(run).value_or(0);
   std::vector<measurement::SpecimenRecord> known;

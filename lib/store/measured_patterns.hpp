@@ -26,5 +26,7 @@ std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round);
 std::optional<int> newest_round(const RunRecord& run);
 /// Number of the newest closed round.
 std::optional<int> newest_closed_round(const RunRecord& run);
+/// Whether the last round is closed, and with it the family stage where there is one.
+bool is_over(const RunRecord& run);
 
 }  // namespace nacre::store

@@ -67,11 +67,6 @@ std::optional<double> line_at(std::span<const optimize::Performance> line, doubl
 
 }  // namespace
 
-bool is_over(const store::RunRecord& run) {
-  const auto closed = newest_closed_round(run);
-  return closed && run.rounds.at(*closed).summary->last;
-}
-
 std::vector<optimize::Performance> newest_line(const store::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
     if (!round->second.benchmark.empty()) return round->second.benchmark;

@@ -13,13 +13,11 @@
 
 namespace nacre::analyser {
 
+using store::is_over;
 using store::measured_patterns;
 using store::MeasuredPattern;
 using store::newest_closed_round;
 using store::newest_round;
-
-/// Whether the last round is closed, and with it the family stage where there is one: nothing is awaited any more.
-bool is_over(const store::RunRecord& run);
 
 /// The homogeneous line that the newest model carries.
 std::vector<optimize::Performance> newest_line(const store::RunRecord& run);
