@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
@@ -57,12 +58,123 @@ Hidden faintest(const Score& score) {
                                             [](const Hidden& a, const Hidden& b) { return a.s < b.s; });
 }
 
-template <class Wanted, class Good>
-std::string rate_over(const std::vector<Score>& scores, Wanted wanted, Good good) {
-  int all = 0, right = 0;
-  for (const Score& s : scores)
-    if (wanted(s)) ++all, right += good(s);
-  return rate(right, all);
+// Which trials a rate is over, and what counts as reached in them.
+using Condition = std::function<bool(const Score&)>;
+
+Condition of_kind(std::string_view kind) {
+  return [kind](const Score& s) { return s.trial.kind == kind; };
+}
+Condition visible_of_kind(std::string_view kind) {
+  return [kind](const Score& s) { return s.trial.kind == kind && faintest(s).s >= 8.0; };
+}
+Condition answered(std::string_view verdict) {
+  return [verdict](const Score& s) { return s.answer.verdict == verdict; };
+}
+bool fair(const Score& s) {
+  const Hidden hidden = faintest(s);
+  return s.trial.kind == "effect" && hidden.s >= 8.0 && hidden.s * std::sqrt((1.0 - hidden.rho) / 2.0) >= 2.2;
+}
+bool named_rightly(const Score& s) { return s.right_name; }
+bool named_wrongly(const Score& s) {
+  return s.answer.verdict == "named" && std::ranges::any_of(s.answer.named, [&](const Named& named) {
+           return std::ranges::count(s.trial.hidden, named.effect) == 0;
+         });
+}
+bool named_of_another_family(const Score& s) { return s.answer.verdict == "named" && !s.right_family; }
+
+struct Rate {
+  std::string_view name;
+  Condition over, reached;
+  std::string_view aim;
+};
+
+std::vector<Rate> rates() {
+  const Condition in_set = [](const Score& s) { return s.in_set; };
+  const Condition right_family = [](const Score& s) { return s.right_family; };
+  const Condition right_set = [](const Score& s) { return s.answer.verdict == "ambiguous" && s.in_set; };
+  return {
+      {"nulls: base sufficient", of_kind("null"), answered("base_sufficient"), ">= 97 %"},
+      {"nulls: any name", of_kind("null"), answered("named"), "<= 2 % at the upper bound"},
+      {"right single name, s >= 8 and distance >= 2.2", fair, named_rightly, ">= 95 %"},
+      {"true cause within the set, s >= 8", visible_of_kind("effect"), in_set, ">= 99 %"},
+      {"confident wrong name, all effects", of_kind("effect"), named_wrongly, ""},
+      {"out of library, s >= 8: unexplained", visible_of_kind("outside"), answered("unexplained"), ">= 90 %"},
+      {"out of library, all: unexplained", of_kind("outside"), answered("unexplained"), ""},
+      {"out of library: a name", of_kind("outside"), answered("named"), "<= 3 %"},
+      {"another form of a library effect: a name of another family", of_kind("form"), named_of_another_family, ""},
+      {"another form, s >= 8: its family named", visible_of_kind("form"), right_family, ""},
+      {"two at once, both s >= 8: both named", visible_of_kind("double"), named_rightly, ""},
+      {"two at once: a wrong name", of_kind("double"), named_wrongly, ""},
+      {"alike: right single name", of_kind("alike"), named_rightly, ""},
+      {"pair: reported as a set", of_kind("pair"), right_set, ">= 95 %"},
+      {"pair: resolved by the tests it orders, four at most", of_kind("resolved"), named_rightly, ">= 80 %"},
+  };
+}
+
+std::string row_of(std::string_view name, const std::string& reached, std::string_view aim) {
+  return aim.empty() ? fmt::format("| {} | {} | |\n", name, reached)
+                     : fmt::format("| {} | {} | {} |\n", name, reached, aim);
+}
+
+std::string rate_table(const std::vector<Score>& scores) {
+  std::string text = "| score | reached | aim |\n| --- | --- | --- |\n";
+  for (const Rate& each : rates()) {
+    int all = 0, right = 0;
+    for (const Score& s : scores)
+      if (each.over(s)) ++all, right += each.reached(s);
+    text += row_of(each.name, rate(right, all), each.aim);
+  }
+  return text;
+}
+
+/// How well the sizes of rightly named effects are told.
+std::string size_rows(const std::vector<Score>& scores) {
+  std::vector<double> errors;
+  int covered = 0, sized = 0;
+  for (const Score& s : scores) {
+    if (s.parameter_error < 0.0) continue;
+    ++sized, covered += s.covered;
+    if (faintest(s).s >= 16.0) errors.push_back(s.parameter_error);
+  }
+  std::sort(errors.begin(), errors.end());
+  return row_of("size: median error, s >= 16",
+                errors.empty() ? "none" : fmt::format("{:.1f} % of {}", 100 * errors[errors.size() / 2], errors.size()),
+                "<= 5 %") +
+         row_of("size: 90 % intervals hold it", rate(covered, sized), "85 to 95 %");
+}
+
+std::string confusion_table(const std::vector<Score>& scores) {
+  std::map<std::string, std::map<std::string, int>> confusion;
+  std::map<std::string, int> answers;
+  for (const Score& s : scores) {
+    const std::string hidden = s.trial.hidden.empty() ? "nothing" : fmt::format("{}", fmt::join(s.trial.hidden, "+"));
+    ++confusion[s.trial.kind + ": " + hidden][answer_of(s)];
+    ++answers[answer_of(s)];
+  }
+  std::string text = "| hidden |", rule = "\n| --- |";
+  for (const auto& [answer, count] : answers) text += fmt::format(" {} |", answer), rule += " --- |";
+  text += rule;
+  for (const auto& [hidden, row] : confusion) {
+    text += fmt::format("\n| {} |", hidden);
+    for (const auto& [answer, count] : answers)
+      text += row.contains(answer) ? fmt::format(" {} |", row.at(answer)) : " |";
+  }
+  return text + "\n";
+}
+
+std::string trial_table(const std::vector<Score>& scores) {
+  std::string text =
+      "| trial | s | rho | ceiling | answer | set | size error |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const Score& s : scores) {
+    const Hidden hidden = faintest(s);
+    std::string set;
+    for (const auto& model : s.answer.possible)
+      set += (set.empty() ? "" : " / ") + fmt::format("{}", fmt::join(model, "+"));
+    text += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {} |\n", s.trial.name, hidden.s, hidden.rho,
+                        hidden.ceiling, answer_of(s), set,
+                        s.parameter_error < 0.0 ? "" : fmt::format("{:.0f} %", 100 * s.parameter_error));
+  }
+  return text;
 }
 
 }  // namespace
@@ -86,97 +198,7 @@ Score score_of(const Trial& trial, const Answer& answer) {
 }
 
 std::string report_of(const std::vector<Score>& scores) {
-  const auto kind = [](const char* name) { return [name](const Score& s) { return s.trial.kind == name; }; };
-  const auto fair = [](const Score& s) {
-    return s.trial.kind == "effect" && faintest(s).s >= 8.0 &&
-           faintest(s).s * std::sqrt((1.0 - faintest(s).rho) / 2.0) >= 2.2;
-  };
-  const auto visible = [](const Score& s) { return s.trial.kind == "effect" && faintest(s).s >= 8.0; };
-  const auto wrong_name = [](const Score& s) {
-    const auto names = names_of(s.answer);
-    return s.answer.verdict == "named" && std::any_of(names.begin(), names.end(), [&](const auto& name) {
-             return std::find(s.trial.hidden.begin(), s.trial.hidden.end(), name) == s.trial.hidden.end();
-           });
-  };
-  std::string text = "| score | reached | aim |\n| --- | --- | --- |\n";
-  text += fmt::format(
-      "| nulls: base sufficient | {} | >= 97 % |\n",
-      rate_over(scores, kind("null"), [](const Score& s) { return s.answer.verdict == "base_sufficient"; }));
-  text += fmt::format("| nulls: any name | {} | <= 2 % at the upper bound |\n",
-                      rate_over(scores, kind("null"), [](const Score& s) { return s.answer.verdict == "named"; }));
-  text += fmt::format("| right single name, s >= 8 and distance >= 2.2 | {} | >= 95 % |\n",
-                      rate_over(scores, fair, [](const Score& s) { return s.right_name; }));
-  text += fmt::format("| true cause within the set, s >= 8 | {} | >= 99 % |\n",
-                      rate_over(scores, visible, [](const Score& s) { return s.in_set; }));
-  text += fmt::format("| confident wrong name, all effects | {} | |\n", rate_over(scores, kind("effect"), wrong_name));
-  const auto is_unexplained = [](const Score& s) { return s.answer.verdict == "unexplained"; };
-  text += fmt::format(
-      "| out of library, s >= 8: unexplained | {} | >= 90 % |\n",
-      rate_over(
-          scores, [](const Score& s) { return s.trial.kind == "outside" && faintest(s).s >= 8.0; }, is_unexplained));
-  text +=
-      fmt::format("| out of library, all: unexplained | {} | |\n", rate_over(scores, kind("outside"), is_unexplained));
-  text += fmt::format("| out of library: a name | {} | <= 3 % |\n",
-                      rate_over(scores, kind("outside"), [](const Score& s) { return s.answer.verdict == "named"; }));
-  text += fmt::format(
-      "| another form of a library effect: a name of another family | {} | |\n",
-      rate_over(scores, kind("form"), [](const Score& s) { return s.answer.verdict == "named" && !s.right_family; }));
-  text += fmt::format("| another form, s >= 8: its family named | {} | |\n",
-                      rate_over(
-                          scores, [](const Score& s) { return s.trial.kind == "form" && faintest(s).s >= 8.0; },
-                          [&](const Score& s) { return s.right_family; }));
-  const auto both_visible = [](const Score& s) { return s.trial.kind == "double" && faintest(s).s >= 8.0; };
-  text += fmt::format("| two at once, both s >= 8: both named | {} | |\n",
-                      rate_over(scores, both_visible, [](const Score& s) { return s.right_name; }));
-  text += fmt::format("| two at once: a wrong name | {} | |\n", rate_over(scores, kind("double"), wrong_name));
-  text += fmt::format("| alike: right single name | {} | |\n",
-                      rate_over(scores, kind("alike"), [](const Score& s) { return s.right_name; }));
-  text += fmt::format(
-      "| pair: reported as a set | {} | >= 95 % |\n",
-      rate_over(scores, kind("pair"), [](const Score& s) { return s.answer.verdict == "ambiguous" && s.in_set; }));
-  text += fmt::format("| pair: resolved by the tests it orders, four at most | {} | >= 80 % |\n",
-                      rate_over(scores, kind("resolved"), [](const Score& s) { return s.right_name; }));
-  std::vector<double> errors;
-  int covered = 0, sized = 0;
-  for (const Score& s : scores) {
-    if (s.parameter_error < 0.0) continue;
-    ++sized, covered += s.covered;
-    if (faintest(s).s >= 16.0) errors.push_back(s.parameter_error);
-  }
-  std::sort(errors.begin(), errors.end());
-  text += fmt::format(
-      "| size: median error, s >= 16 | {} | <= 5 % |\n",
-      errors.empty() ? "none" : fmt::format("{:.1f} % of {}", 100 * errors[errors.size() / 2], errors.size()));
-  text += fmt::format("| size: 90 % intervals hold it | {} | 85 to 95 % |\n", rate(covered, sized));
-
-  std::map<std::string, std::map<std::string, int>> confusion;
-  std::map<std::string, int> answers;
-  for (const Score& s : scores) {
-    const std::string hidden = s.trial.hidden.empty() ? "nothing" : fmt::format("{}", fmt::join(s.trial.hidden, "+"));
-    ++confusion[s.trial.kind + ": " + hidden][answer_of(s)];
-    ++answers[answer_of(s)];
-  }
-  text += "\n| hidden |";
-  for (const auto& [answer, count] : answers) text += fmt::format(" {} |", answer);
-  text += "\n| --- |";
-  for (std::size_t i = 0; i < answers.size(); ++i) text += " --- |";
-  for (const auto& [hidden, row] : confusion) {
-    text += fmt::format("\n| {} |", hidden);
-    for (const auto& [answer, count] : answers)
-      text += row.contains(answer) ? fmt::format(" {} |", row.at(answer)) : " |";
-  }
-  text +=
-      "\n\n| trial | s | rho | ceiling | answer | set | size error |\n| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const Score& s : scores) {
-    const Hidden hidden = faintest(s);
-    std::string set;
-    for (const auto& model : s.answer.possible)
-      set += (set.empty() ? "" : " / ") + fmt::format("{}", fmt::join(model, "+"));
-    text += fmt::format("| {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {} |\n", s.trial.name, hidden.s, hidden.rho,
-                        hidden.ceiling, answer_of(s), set,
-                        s.parameter_error < 0.0 ? "" : fmt::format("{:.0f} %", 100 * s.parameter_error));
-  }
-  return text;
+  return rate_table(scores) + size_rows(scores) + "\n" + confusion_table(scores) + "\n" + trial_table(scores);
 }
 
 }  // namespace nacre::blind_trials

@@ -190,6 +190,22 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
   return decision;
 }
 
+std::size_t best_single(const Evidence& evidence) {
+  const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
+                                     [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  return static_cast<std::size_t>(best - evidence.singles.begin());
+}
+
+/// Of every single effect. What lies far behind the best cannot be in the set: its misfit is not bootstrapped.
+std::vector<double> chances_of_misfit(const Evidence& evidence, std::size_t best) {
+  std::vector<double> chances;
+  for (const Fit& single : evidence.singles) {
+    const bool in_reach = single.chi2 <= evidence.singles[best].chi2 + kOutOfReach;
+    chances.push_back(in_reach ? chance_of_misfit(evidence, single) : 0.0);
+  }
+  return chances;
+}
+
 }  // namespace
 
 Decision decide(Evidence& evidence) {
@@ -219,15 +235,8 @@ Decision decide(Evidence& evidence) {
                        "the residuals are larger than noise, but no effect of the library explains them");
   }
   report(0.8, "testing what each effect leaves");
-  const std::size_t best =
-      static_cast<std::size_t>(std::min_element(evidence.singles.begin(), evidence.singles.end(),
-                                                [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; }) -
-                               evidence.singles.begin());
-  for (std::size_t k = 0; k < evidence.singles.size(); ++k) {
-    // What lies far behind the best cannot be in the set: its misfit is not bootstrapped.
-    const bool in_reach = evidence.singles[k].chi2 <= evidence.singles[best].chi2 + kOutOfReach;
-    decision.p_fit[k] = in_reach ? chance_of_misfit(evidence, evidence.singles[k]) : 0.0;
-  }
+  const std::size_t best = best_single(evidence);
+  decision.p_fit = chances_of_misfit(evidence, best);
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
     std::vector<Fit> possible = confidence_set(evidence, evidence.singles, decision.p_fit);

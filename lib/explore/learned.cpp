@@ -14,6 +14,7 @@
 #include "explore/surrogate_search.hpp"
 #include "pattern/random_pattern.hpp"
 #include "surrogate/network.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -164,8 +165,8 @@ LearnedSettings thesis_learning() {
   settings.warm_start = false;
   settings.floor_deviations = 0.0;
   settings.choice = "rank";
-  settings.generations = 200;
-  settings.population = 100;
+  settings.generations = thesis::kSurrogateGenerations;
+  settings.population = thesis::kSurrogatePopulation;
   settings.most_samples = 1'000'000;
   return settings;
 }

@@ -9,6 +9,7 @@
 #include "explore/surrogate_search.hpp"
 #include "surrogate/network.hpp"
 #include "surrogate/patch_process.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -140,10 +141,10 @@ Predictors fit_networks(const LogSamples& all, std::size_t settled, const Search
                                         .warm_start = learned.warm_start};
   toughness.network.seed = settings.seed;
   surrogate::EnsembleSettings modulus = toughness;
-  modulus.network.residual_blocks = 2;
+  modulus.network.residual_blocks = thesis::kModulusResidualBlocks;
   modulus.network.dropout = 0.0;
-  modulus.network.weight_decay = 1e-6;
-  modulus.network.epochs = 100;
+  modulus.network.weight_decay = thesis::kModulusWeightDecay;
+  modulus.network.epochs = thesis::kModulusEpochs;
   return {fit_networks(all.patterns, all.log_modulus, settled, modulus, base.modulus),
           fit_networks(all.patterns, all.log_toughness, settled, toughness, base.toughness)};
 }

@@ -11,6 +11,7 @@
 
 #include "optimize/pareto.hpp"
 #include "pattern/layout.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::explore {
 
@@ -29,16 +30,16 @@ std::vector<optimize::Performance> performances_of(std::span<const Evaluated> sa
 struct LearnedSettings {
   std::string predictor = "patches";   ///< patches: Gaussian process on neighbourhoods; networks: residual networks
   std::string choice = "improvement";  ///< improvement: expected hypervolume improvement; rank: non-dominated sorting
-  int barred_start = 40;          ///< patterns with rigid bars that follow the random ones (none with `former` samples,
-                                  ///< nor where `known` ones are as many as both)
-  int barred_candidates = 2000;   ///< of them that every batch may be chosen from, beside what the search visits
-  int generations = 60;           ///< of the search on the predictor
-  int population = 100;           ///< of that search
-  double optimism = 0.0;          ///< deviations added to predictions while searching on the predictor
-  int members = 3;                ///< networks per property; their disagreement is the uncertainty
-  bool warm_start = true;         ///< networks go on from those of fewer samples; else from nothing every time
-  double weight_decay = 1e-2;     ///< of the networks for toughness
-  double dropout = 0.2;           ///< of the networks for toughness
+  int barred_start = 40;         ///< patterns with rigid bars that follow the random ones (none with `former` samples,
+                                 ///< nor where `known` ones are as many as both)
+  int barred_candidates = 2000;  ///< of them that every batch may be chosen from, beside what the search visits
+  int generations = 60;          ///< of the search on the predictor
+  int population = 100;          ///< of that search
+  double optimism = 0.0;         ///< deviations added to predictions while searching on the predictor
+  int members = 3;               ///< networks per property; their disagreement is the uncertainty
+  bool warm_start = true;        ///< networks go on from those of fewer samples; else from nothing every time
+  double weight_decay = thesis::kToughnessWeightDecay;  ///< of the networks for toughness
+  double dropout = 0.2;                                 ///< of the networks for toughness
   int most_samples = 5000;        ///< that `patches` learns from; of more, half the best by rank, half of the others
                                   ///< (networks learn from all)
   double floor_deviations = 0.5;  ///< toughness lower than so many robust deviations below its trend over the
@@ -53,10 +54,10 @@ std::string to_text(const LearnedSettings& settings);
 using ModulusOf = std::function<std::vector<std::optional<double>>(std::span<const pattern::Pattern>)>;
 
 struct SearchSettings {
-  std::string algorithm = "nsga2";  ///< one of algorithms()
-  int budget = 300;                 ///< simulations
-  int population = 20;              ///< random patterns to begin with, and NSGA-II's population
-  int batch = 10;                   ///< patterns asked for at once (one generation's offspring in NSGA-II)
+  std::string algorithm = "nsga2";   ///< one of algorithms()
+  int budget = 300;                  ///< simulations
+  int population = 20;               ///< random patterns to begin with, and NSGA-II's population
+  int batch = thesis::kSearchBatch;  ///< patterns asked for at once (one generation's offspring in NSGA-II)
   std::uint64_t seed = 1;
   std::vector<Evaluated> known =
       {};  ///< already simulated with the same parameters: part of the start, not asked again

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fabricate/droplet_plan.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::fabricate {
 
@@ -16,9 +17,9 @@ struct Wanted {
   double orientation_deg = 0.0;
   double thickness_mm = 3.2;
   double strain_rate_per_s = thesis::kTestStrainRate;
-  std::string loading = "monotonic";  ///< as of TEST_ORDER: how a coupon is pulled
-  int replicates = 4;                 ///< at least four are tested, three consistent ones count (2.2.2)
-  std::string order_id = {};          ///< of the game; empty when nobody ordered them
+  std::string loading = "monotonic";           ///< as of TEST_ORDER: how a coupon is pulled
+  int replicates = thesis::kModulusSpecimens;  ///< at least four are tested, three consistent ones count (2.2.2)
+  std::string order_id = {};                   ///< of the game; empty when nobody ordered them
   std::string reason = {};
 };
 

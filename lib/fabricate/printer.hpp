@@ -7,9 +7,9 @@ namespace nacre::fabricate {
 /// A voxel printer: droplets per inch along its axes, and the part of its tray that can be printed on. The defaults are
 /// those of the thesis' printer (2.2.1) and its build area.
 struct Printer {
-  int dpi_x = 300;
-  int dpi_y = 600;
-  int dpi_z = 800;
+  int dpi_x = thesis::kPrinterResolutionX;
+  int dpi_y = thesis::kPrinterResolutionY;
+  int dpi_z = thesis::kPrinterResolutionZ;
   double tray_x_mm = 255.0;
   double tray_y_mm = 252.0;
   bool operator==(const Printer&) const = default;

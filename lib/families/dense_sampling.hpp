@@ -8,13 +8,15 @@
 
 #include "base/random.hpp"
 #include "pattern/layout.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::families {
 
 struct DenseSamplingSettings {
-  int radius_pixels = 16;  ///< of 400, to the nearest seed
-  int batch = 10;          ///< new patterns in an iteration
-  int attempts = 300'000;  ///< mutations in an iteration; when they do not give a batch, the family is exhausted
+  int radius_pixels = thesis::kFamilyRadius;      ///< of 400, to the nearest seed
+  int batch = 10;                                 ///< new patterns in an iteration
+  int attempts = thesis::kDenseSamplingAttempts;  ///< mutations in an iteration; when they do not give a batch, the
+                                                  ///< family is exhausted
   std::uint64_t seed = 1;
 };
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "families/distances.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::families {
 namespace {
@@ -107,7 +108,7 @@ std::vector<Family> named(std::span<const Member> designs, Groups groups) {
 }  // namespace
 
 double calibration_weight(const Family& family, const pattern::Pattern& measured) {
-  constexpr double kSeedWeight = 1.0, kOthersWeight = 0.1;
+  constexpr double kSeedWeight = 1.0, kOthersWeight = thesis::kOtherFamilyWeight;
   return std::ranges::count(family.seeds, measured) > 0 ? kSeedWeight : kOthersWeight;
 }
 

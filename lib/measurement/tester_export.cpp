@@ -6,17 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
 #include "base/csv.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/tester_columns.hpp"
+#include "measurement/tester_header.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
 namespace {
 
 constexpr std::array kQuantities = {Quantity::time, Quantity::extension, Quantity::force};
-constexpr std::size_t kMostHeaderLines = 2000;
 
 using Cells = std::vector<std::string>;
 
@@ -53,7 +54,7 @@ class ExportReader {
     if (!heading) {
       read_bare_table();
     } else {
-      read_header(0, *heading);
+      header_ = header_of(std::span(lines_).first(*heading), delimiter_);
       for (next = *heading; next < lines_.size() && !fault_;) next = read_block(next);
     }
     if (!fault_ && records_.empty()) reject(0, "", "holds no numbers, expected rows of extension and force");
@@ -69,7 +70,7 @@ class ExportReader {
   bool is_blank(std::size_t index) const {
     return lines_[index].find_first_not_of(" \t,;|\"") == std::string_view::npos;
   }
-  bool is_mts() const { return !lines_.empty() && lines_[0].starts_with("MTS793"); }
+  bool is_mts() const { return is_mts_793(lines_); }
 
   /// The first line, and with it the delimiter, under which names of extension and force stand side by side.
   std::optional<std::size_t> find_heading() {
@@ -110,70 +111,6 @@ class ExportReader {
             is_empty ? "is empty, expected a table of time, extension and force"
                      : fmt::format("no heading with extension and force, expected names such as {}, and {}",
                                    expected_names(Quantity::extension), expected_names(Quantity::force))};
-  }
-
-  /// Date, operator and machine from the lines before the heading: `Key,Value`, `Key: Value` or `Key : Value`.
-  void read_header(std::size_t begin, std::size_t end) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kKeys = {{
-        {"date", "date"},
-        {"test date", "date"},
-        {"datum", "date"},
-        {"pruefdatum", "date"},
-        {"test run date", "date"},
-        {"start date", "date"},
-        {"date/time", "date"},
-        {"test start time", "date"},
-        {"operator", "operator"},
-        {"operator id", "operator"},
-        {"operator name", "operator"},
-        {"pruefer", "operator"},
-        {"tester", "operator"},
-        {"bediener", "operator"},
-        {"operateur", "operator"},
-        {"machine", "machine"},
-        {"test machine", "machine"},
-        {"pruefmaschine", "machine"},
-        {"system id", "machine"},
-        {"system", "machine"},
-        {"frame", "machine"},
-    }};
-    for (std::size_t i = begin; i < end; ++i) {
-      const Cells here = cells(i);
-      std::string key = here[0], value;
-      const std::size_t colon = key.find(':');
-      if (colon != std::string::npos && !trimmed(std::string_view(key).substr(colon + 1)).empty()) {
-        value = std::string(trimmed(std::string_view(key).substr(colon + 1)));
-      } else {
-        for (std::size_t k = 1; k < here.size() && value.empty(); ++k) value = here[k];
-      }
-      key = std::string(trimmed(std::string_view(plain_words(key)).substr(0, plain_words(key).find(':'))));
-      const auto known = std::find_if(kKeys.begin(), kKeys.end(), [&](const auto& each) { return each.first == key; });
-      if (known != kKeys.end() && !value.empty()) header_.try_emplace(std::string(known->second), value);
-    }
-  }
-
-  std::string maker() const {
-    if (is_mts()) return "MTS";
-    bool bluehill = false, zwick = false, mts = false;
-    for (std::size_t i = 0; i < std::min<std::size_t>(lines_.size(), 60); ++i) {
-      const std::string words = plain_words(lines_[i]);
-      const auto holds = [&](std::string_view word) { return words.find(word) != std::string::npos; };
-      bluehill = bluehill || holds("bluehill") || holds("results table") || holds("instron") || holds("raw data");
-      zwick = zwick || holds("testxpert") || holds("standardkraft") || holds("standard force") || holds("zwick");
-      mts = mts || holds("testsuite") || holds("testworks") || holds("mts ") || holds("axial force") ||
-            holds("running time");
-    }
-    // Bluehill's own mark: a row of nothing but units in parentheses.
-    for (std::size_t i = 1; i < std::min<std::size_t>(lines_.size(), kMostHeaderLines) && !bluehill; ++i) {
-      const Cells here = cells(i);
-      bluehill = here.size() > 1 &&
-                 std::all_of(here.begin(), here.end(),
-                             [](const std::string& cell) {
-                               return cell.empty() || (cell.front() == '(' && cell.back() == ')');
-                             }) &&
-                 std::any_of(here.begin(), here.end(), [](const auto& cell) { return !cell.empty(); });
-    }
-    return zwick ? "ZwickRoell testXpert" : mts ? "MTS" : bluehill ? "Instron Bluehill" : "table";
   }
 
   /// A factor for each column from the heading or the row of units below it; true when that row was there.
@@ -337,7 +274,7 @@ class ExportReader {
     const auto mark = decimal_mark(layout, rows);
     if (!mark) return;
     if (records_.empty() || !is_mts()) {
-      records_.push_back({.maker = maker(),
+      records_.push_back({.maker = maker_of(lines_, delimiter_),
                           .time_s = {},
                           .extension_mm = {},
                           .force_n = {},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::optimize {
 
@@ -21,8 +22,8 @@ struct Evaluation {
 
 struct BatchOptimizerSettings {
   int dimension = 0;
-  int budget = 0;  ///< evaluations in all, the start included
-  int batch = 3;   ///< points asked for at once
+  int budget = 0;                         ///< evaluations in all, the start included
+  int batch = thesis::kCalibrationBatch;  ///< points asked for at once
   std::uint64_t seed = 1;
   std::vector<Point> starts;  ///< points to begin with, best guess first (may be empty)
   /// Evaluations after the best one before the search gives up, when `least_gain` of the best value was not gained; 0:

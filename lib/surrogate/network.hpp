@@ -8,18 +8,19 @@
 
 #include "surrogate/patch_process.hpp"
 #include "surrogate/predictor.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::surrogate {
 
 /// Architecture and training of one network; the defaults are those of 2.3.3 for toughness.
 struct NetworkSettings {
-  int channels = 16;           ///< [open]
-  int residual_blocks = 5;     ///< two 3 x 3 convolutions each; 2 for the modulus
-  double dropout = 0.2;        ///< before the fully connected layer [open: its rate]; 0 for the modulus
-  double weight_decay = 1e-2;  ///< 1e-6 for the modulus
-  double learning_rate = 1e-3;
-  int epochs = 300;  ///< 100 for the modulus
-  int batch = 2048;  ///< at most
+  int channels = 16;                                       ///< [open]
+  int residual_blocks = thesis::kToughnessResidualBlocks;  ///< two 3 x 3 convolutions each; 2 for the modulus
+  double dropout = 0.2;  ///< before the fully connected layer [open: its rate]; 0 for the modulus
+  double weight_decay = thesis::kToughnessWeightDecay;  ///< 1e-6 for the modulus
+  double learning_rate = thesis::kLearningRate;
+  int epochs = thesis::kToughnessEpochs;  ///< 100 for the modulus
+  int batch = thesis::kTrainingBatch;     ///< at most
   std::uint64_t seed = 1;
 };
 

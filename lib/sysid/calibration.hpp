@@ -13,6 +13,7 @@
 #include "material/parameters.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::sysid {
 
@@ -86,10 +87,10 @@ struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
   material::ParameterSet start;  ///< where to begin; its extensions are kept as they are
   std::vector<material::ParameterSet>
-      other_starts;           ///< beside it in the first batch for eta; empty: chosen in the ranges
-  int modulus_budget = 120;   ///< evaluations of the modulus set; 0 keeps theta
-  int toughness_budget = 25;  ///< evaluations of the toughness set, of each search; 0 keeps eta
-  int batch = 3;              ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
+      other_starts;                       ///< beside it in the first batch for eta; empty: chosen in the ranges
+  int modulus_budget = 120;               ///< evaluations of the modulus set; 0 keeps theta
+  int toughness_budget = 25;              ///< evaluations of the toughness set, of each search; 0 keeps eta
+  int batch = thesis::kCalibrationBatch;  ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
   ToughnessSearch toughness_search = ToughnessSearch::posterior;
   int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported
   int ensemble_size = 0;  ///< further parameter sets drawn from what the data leave possible

@@ -7,6 +7,7 @@
 
 #include "optimize/batch_optimizer.hpp"
 #include "sysid/calibration.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::sysid {
 
@@ -57,7 +58,7 @@ class Fit {
 struct FitSettings {
   Point start;  ///< also the centre of a weak prior, or of a pull
   int budget = 1;
-  int batch = 3;
+  int batch = thesis::kCalibrationBatch;
   std::uint64_t seed = 1;
   NumericsFloor floor;
 };

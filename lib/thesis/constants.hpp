@@ -31,9 +31,9 @@ inline constexpr Real kCornerRadius{4.0, "pixels", "2.1", Status::stated};
 
 // Specimens and their tests (2.2).
 inline constexpr Real kPixelSize{260e-6, "m", "2.2.1", Status::stated};
-inline constexpr Real kPrinterPitchX{25.4e-3 / 300.0, "m", "2.2.1: 300 dpi", Status::stated};
-inline constexpr Real kPrinterPitchY{25.4e-3 / 600.0, "m", "2.2.1: 600 dpi", Status::stated};
-inline constexpr Real kPrinterPitchZ{25.4e-3 / 800.0, "m", "2.2.1: 800 dpi", Status::stated};
+inline constexpr Count kPrinterResolutionX{300, "dpi", "2.2.1", Status::stated};
+inline constexpr Count kPrinterResolutionY{600, "dpi", "2.2.1", Status::stated};
+inline constexpr Count kPrinterResolutionZ{800, "dpi", "2.2.1", Status::stated};
 inline constexpr Real kSpecimenLength{104e-3, "m", "2.2.2", Status::stated};
 inline constexpr Real kSpecimenWidth{52e-3, "m", "2.2.2", Status::stated};
 inline constexpr Real kSpecimenThickness{3.2e-3, "m", "2.2.2", Status::stated};

@@ -1,6 +1,10 @@
-// Exhibits of the families: Figures 3-12 to 3-15, Tables 3.6, 3.7, A.5, A.6.
+// Exhibits of the families that measurements propose: Figures 3-12 and 3-13.
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,125 +13,111 @@
 #include "analyser/report_figures.hpp"
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
-#include "game/family_errors.hpp"
 
 namespace nacre::analyser {
 namespace {
 
-const std::string kNoStage =
-    "This run played no family stage: <code>[families] enabled = true</code> in its scenario asks for one "
-    "(launch/README.md).";
-
-/// A family of the run or of the thesis with what Tables A.5 and A.6 say of it.
-struct Stated {
-  std::string name;
-  bool is_thesis = false, is_validated = true;
-  std::vector<game::FamilyDesign> designs;
-};
-
-std::vector<Stated> families_of_run(const PaperSource& source) {
-  std::vector<Stated> all;
-  for (const store::RecordedFamily& family : source.run.families)
-    all.push_back({family.stated.name, false, family.stated.is_validated, family.stated.designs});
-  return all;
-}
-
-std::vector<Stated> families_of_thesis(const PaperSource& source) {
-  std::vector<Stated> all;
-  for (const game::ThesisFamilySample& sample : source.thesis.families) {
-    const std::string name = fmt::format("thesis {}", sample.family);
-    if (all.empty() || std::ranges::find(all, name, &Stated::name) == all.end()) all.push_back({name, true, true, {}});
-    std::ranges::find(all, name, &Stated::name)
-        ->designs.push_back({.pattern = {},
-                             .is_seed = sample.is_seed,
-                             .measured = sample.measured,
-                             .global_model = sample.global_model,
-                             .family_model = sample.family_model});
+std::string families_figure(const PaperSource& source, const std::vector<MeasuredPattern>& measured) {
+  std::vector<Point> all;
+  for (const MeasuredPattern& m : measured) all.push_back(to_point(m.mean));
+  Plot plot({.title = "Families",
+             .x_label = "Young's modulus E (GPa)",
+             .y_label = "toughness T (MPa)",
+             .x = range_of(all, &Point::x),
+             .y = range_of(all, &Point::y),
+             .width = 560,
+             .height = 400});
+  plot.dots(all, Ink::homogeneous, "measured patterns");
+  for (std::size_t f = 0; f < source.groups.size(); ++f) {
+    std::vector<Point> seeds;
+    std::vector<std::string> hints;
+    for (const pattern::Pattern& seed : source.groups[f].seeds) {
+      const MeasuredPattern* m = find_measured(measured, seed.key());
+      if (m == nullptr) continue;
+      seeds.push_back(to_point(m->mean));
+      hints.push_back(seed.key());
+    }
+    plot.dots(seeds, family_ink(f), source.groups[f].name, hints);
   }
-  return all;
+  return plot.svg();
 }
 
-std::vector<Stated> all_families(const PaperSource& source) {
-  std::vector<Stated> all = families_of_run(source);
-  for (Stated& family : families_of_thesis(source)) all.push_back(std::move(family));
-  return all;
-}
-
-/// Table 3.6 (seeds) or 3.7 (chosen designs).
-PaperTable errors_table(const PaperSource& source, const std::string& name, bool seeds) {
-  PaperTable table{.name = name,
+PaperTable seed_table(const PaperSource& source, const std::vector<MeasuredPattern>& measured) {
+  PaperTable table{.name = "figure-3-12",
                    .columns = {{"family", "family"},
-                               {"count", "N"},
-                               {"modulus_global_mean", "E global"},
-                               {"modulus_global_max", "max"},
-                               {"modulus_family_mean", "E family"},
-                               {"modulus_family_max", "max"},
-                               {"toughness_global_mean", "T global"},
-                               {"toughness_global_max", "max"},
-                               {"toughness_family_mean", "T family"},
-                               {"toughness_family_max", "max"}},
+                               {"pattern", "pattern"},
+                               {"rigid_fraction", "VW%"},
+                               {"modulus_pa", "E (GPa)"},
+                               {"toughness_pa", "T (MPa)"},
+                               {"round", "round"}},
                    .rows = {},
                    .is_thesis = {},
                    .on_page = true};
-  for (const Stated& family : all_families(source)) {
-    const game::FamilyErrors errors = game::family_errors(family.designs);
-    const sysid::PredictionErrors& global = seeds ? errors.seeds_global : errors.chosen_global;
-    const sysid::PredictionErrors& own = seeds ? errors.seeds_family : errors.chosen_family;
-    if (!family.is_thesis && global.modulus_count == 0 && global.toughness_count == 0) continue;
-    table.add({text_cell(family.name), text_cell(std::to_string(global.toughness_count)),
-               share_cell(global.modulus_mean), share_cell(global.modulus_max), share_cell(own.modulus_mean),
-               share_cell(own.modulus_max), share_cell(global.toughness_mean), share_cell(global.toughness_max),
-               share_cell(own.toughness_mean), share_cell(own.toughness_max)},
-              family.is_thesis);
+  for (const families::Family& group : source.groups) {
+    for (const pattern::Pattern& seed : group.seeds) {
+      const MeasuredPattern* m = find_measured(measured, seed.key());
+      table.add({text_cell(group.name), design_cell(seed.key()), share_cell(seed.rigid_fraction()),
+                 gpa_cell(m ? std::optional(m->mean.modulus_pa) : std::nullopt),
+                 mpa_cell(m ? std::optional(m->mean.toughness_pa) : std::nullopt),
+                 text_cell(m ? std::to_string(m->round) : "")});
+    }
   }
   return table;
 }
 
-/// Table A.5 (E) or A.6 (T).
-Exhibit appendix(const PaperSource& source, const std::string& id, const std::string& heading,
-                 std::optional<double> game::DesignValues::*property) {
-  Exhibit exhibit{.id = id, .heading = heading, .notes = {}, .figures = {}, .tables = {}};
-  const bool is_modulus = property == &game::DesignValues::modulus_pa;
-  const auto value = [&](const std::optional<double>& pa) { return is_modulus ? gpa_cell(pa) : mpa_cell(pa); };
-  PaperTable table{.name = id,
-                   .columns = {{"family", "family"},
-                               {"role", "role"},
-                               {"design", "design"},
-                               {"rigid_fraction", "VW%"},
-                               {"measured_pa", "exp."},
-                               {"global_pa", "sim. (global)"},
-                               {"global_error", "err."},
-                               {"family_pa", "sim. (family)"},
-                               {"family_error", "err."}},
+using MeasuredCurves = std::map<std::string, std::vector<tester::Curve>>;  // by design
+
+/// One replicate of a design; nothing where none has a curve.
+std::vector<Point> curve_of(const MeasuredCurves& curves, const std::string& design) {
+  const auto found = curves.find(design);
+  return found == curves.end() ? std::vector<Point>{} : curve_points(found->second[found->second.size() / 2]);
+}
+
+/// The seeds' curves and, beside any of them, that of the rigid specimen.
+PaperTable curve_table(const PaperSource& source, const MeasuredCurves& curves) {
+  PaperTable table{.name = "figure-3-13",
+                   .columns = {{"family", ""}, {"design", ""}, {"strain_percent", ""}, {"stress_mpa", ""}},
                    .rows = {},
                    .is_thesis = {},
-                   .on_page = true};
-  for (const Stated& family : families_of_run(source)) {
-    for (const game::FamilyDesign& d : family.designs) {
-      table.add({text_cell(family.name), text_cell(d.is_seed ? "seed" : "validation"), design_cell(d.pattern.key()),
-                 share_cell(d.pattern.rigid_fraction()), value(d.measured.*property), value(d.global_model.*property),
-                 share_cell(error_of(d.global_model.*property, d.measured.*property)), value(d.family_model.*property),
-                 share_cell(error_of(d.family_model.*property, d.measured.*property))});
+                   .on_page = false};
+  const auto keep = [&](const std::string& family, const std::string& design) {
+    for (const Point& p : curve_of(curves, design))
+      table.add({text_cell(family), text_cell(design), number_cell(p.x), number_cell(p.y)});
+  };
+  for (const families::Family& group : source.groups)
+    for (const pattern::Pattern& seed : group.seeds) keep(group.name, seed.key());
+  if (!table.rows.empty()) keep("", "rigid");
+  return table;
+}
+
+std::pair<Range, Range> ranges_of_curves(const PaperSource& source, const MeasuredCurves& curves) {
+  std::vector<Point> all = curve_of(curves, "rigid");
+  for (const families::Family& group : source.groups) {
+    for (const pattern::Pattern& seed : group.seeds) {
+      const std::vector<Point> points = curve_of(curves, seed.key());
+      all.insert(all.end(), points.begin(), points.end());
     }
   }
-  if (table.rows.empty()) {
-    exhibit.notes.push_back(kNoStage);
-    return exhibit;
+  return {range_of(all, &Point::x), range_of(all, &Point::y)};
+}
+
+std::string curve_figure(const families::Family& group, Ink ink, const MeasuredCurves& curves, const Range& x,
+                         const Range& y) {
+  Plot plot({.title = group.name,
+             .x_label = "nominal strain (%)",
+             .y_label = "nominal stress (MPa)",
+             .x = x,
+             .y = y,
+             .width = 350,
+             .height = 260});
+  if (curves.contains("rigid")) plot.line(curve_of(curves, "rigid"), Ink::homogeneous, Stroke::dashed, "VW");
+  bool first = true;
+  for (const pattern::Pattern& seed : group.seeds) {
+    if (!curves.contains(seed.key())) continue;
+    plot.line(curve_of(curves, seed.key()), ink, Stroke::thin, first ? "seeds" : "");
+    first = false;
   }
-  exhibit.notes.push_back(
-      fmt::format("{}. Both predictions of the validation designs stood before these were measured; – : not measured "
-                  "(refused, or no valid specimen), or not simulated.",
-                  is_modulus ? "E in GPa" : "T in MPa"));
-  exhibit.tables.push_back(std::move(table));
-  return exhibit;
-}
-
-const MeasuredPattern* measured_seed(const std::vector<MeasuredPattern>& measured, const pattern::Pattern& seed) {
-  return find_measured(measured, seed.key());
-}
-
-std::vector<Point> curve_of(const std::vector<tester::Curve>& replicates) {
-  return curve_points(replicates[replicates.size() / 2]);
+  return plot.svg();
 }
 
 }  // namespace
@@ -143,49 +133,13 @@ Exhibit family_exhibit(const PaperSource& source) {
     exhibit.notes.push_back("No pattern of this run has been measured in both tests yet: there are no families.");
     return exhibit;
   }
-  PaperTable table{.name = "figure-3-12",
-                   .columns = {{"family", "family"},
-                               {"pattern", "pattern"},
-                               {"rigid_fraction", "VW%"},
-                               {"modulus_pa", "E (GPa)"},
-                               {"toughness_pa", "T (MPa)"},
-                               {"round", "round"}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = true};
-  std::vector<Point> all;
-  for (const MeasuredPattern& m : measured) all.push_back(to_point(m.mean));
-  Plot plot({.title = "Families",
-             .x_label = "Young's modulus E (GPa)",
-             .y_label = "toughness T (MPa)",
-             .x = range_of(all, &Point::x),
-             .y = range_of(all, &Point::y),
-             .width = 560,
-             .height = 400});
-  plot.dots(all, Ink::homogeneous, "measured patterns");
-  for (std::size_t f = 0; f < source.groups.size(); ++f) {
-    std::vector<Point> seeds;
-    std::vector<std::string> hints;
-    for (const pattern::Pattern& seed : source.groups[f].seeds) {
-      const MeasuredPattern* m = measured_seed(measured, seed);
-      if (m != nullptr) {
-        seeds.push_back(to_point(m->mean));
-        hints.push_back(seed.key());
-      }
-      table.add({text_cell(source.groups[f].name), design_cell(seed.key()), share_cell(seed.rigid_fraction()),
-                 gpa_cell(m ? std::optional(m->mean.modulus_pa) : std::nullopt),
-                 mpa_cell(m ? std::optional(m->mean.toughness_pa) : std::nullopt),
-                 text_cell(m ? std::to_string(m->round) : "")});
-    }
-    plot.dots(seeds, family_ink(f), source.groups[f].name, hints);
-  }
+  exhibit.figures.push_back({"figure-3-12", families_figure(source, measured)});
   exhibit.notes.push_back(
       fmt::format("Shown: {}. The thesis found four among 13 near-Pareto designs by eye; here near-Pareto means first "
                   "or second rank, and designs are grouped by earth mover's distance and properties (average linkage, "
                   "largest silhouette; one family where nothing stands apart).",
                   source.groups_from));
-  exhibit.figures.push_back({"figure-3-12", plot.svg()});
-  exhibit.tables.push_back(std::move(table));
+  exhibit.tables.push_back(seed_table(source, measured));
   return exhibit;
 }
 
@@ -195,202 +149,29 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
                   .notes = {},
                   .figures = {},
                   .tables = {}};
-  const auto curves = measured_curves(source.run);
-  std::vector<Point> all;
-  PaperTable table{.name = "figure-3-13",
-                   .columns = {{"family", ""}, {"design", ""}, {"strain_percent", ""}, {"stress_mpa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
-  const auto keep = [&](const std::string& family, const std::string& design, const std::vector<Point>& points) {
-    all.insert(all.end(), points.begin(), points.end());
-    for (const Point& p : points) table.add({text_cell(family), text_cell(design), number_cell(p.x), number_cell(p.y)});
-  };
-  int without = 0;
-  for (const families::Family& group : source.groups) {
-    for (const pattern::Pattern& seed : group.seeds) {
-      const auto found = curves.find(seed.key());
-      if (found == curves.end())
-        ++without;
-      else
-        keep(group.name, seed.key(), curve_of(found->second));
-    }
-  }
-  if (all.empty()) {
+  const MeasuredCurves curves = measured_curves(source.run);
+  PaperTable table = curve_table(source, curves);
+  if (table.rows.empty()) {
     exhibit.notes.push_back("No stress-strain curve of a seed was measured in this run.");
     return exhibit;
   }
-  const auto rigid = curves.find("rigid");
-  if (rigid != curves.end()) keep("", "rigid", curve_of(rigid->second));
-  const Range x = range_of(all, &Point::x), y = range_of(all, &Point::y);
+  const auto [x, y] = ranges_of_curves(source, curves);
+  int without = 0;
   for (std::size_t f = 0; f < source.groups.size(); ++f) {
-    Plot plot({.title = source.groups[f].name,
-               .x_label = "nominal strain (%)",
-               .y_label = "nominal stress (MPa)",
-               .x = x,
-               .y = y,
-               .width = 350,
-               .height = 260});
-    if (rigid != curves.end()) plot.line(curve_of(rigid->second), Ink::homogeneous, Stroke::dashed, "VW");
-    bool first = true;
-    for (const pattern::Pattern& seed : source.groups[f].seeds) {
-      const auto found = curves.find(seed.key());
-      if (found == curves.end()) continue;
-      plot.line(curve_of(found->second), family_ink(f), Stroke::thin, first ? "seeds" : "");
-      first = false;
-    }
-    if (!first) exhibit.figures.push_back({"figure-3-13-" + source.groups[f].name, plot.svg()});
+    const families::Family& group = source.groups[f];
+    const auto measured =
+        std::ranges::count_if(group.seeds, [&](const pattern::Pattern& seed) { return curves.contains(seed.key()); });
+    without += static_cast<int>(group.seeds.size()) - static_cast<int>(measured);
+    if (measured > 0)
+      exhibit.figures.push_back({"figure-3-13-" + group.name, curve_figure(group, family_ink(f), curves, x, y)});
   }
   exhibit.notes.push_back(
       fmt::format("One replicate of each seed (notched, upright), VW = the notched rigid specimen{}. In the thesis "
                   "every seed has more than twice the failure strain of VW.",
-                  rigid == curves.end() ? ", which this run did not measure" : ""));
+                  curves.contains("rigid") ? "" : ", which this run did not measure"));
   if (without > 0) exhibit.notes.push_back(fmt::format("{} seeds have no measured curve.", without));
   exhibit.tables.push_back(std::move(table));
   return exhibit;
-}
-
-Exhibit seed_error_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "figure-3-14",
-                  .heading = "Figure 3-14, Table 3.6: Global and family models on the seeds",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
-  if (source.run.families.empty())
-    exhibit.notes.push_back(kNoStage + " The thesis' figures:");
-  else
-    exhibit.notes.push_back(
-        "Seeds are what a family's model is calibrated on with weight 1 (the other near-Pareto designs with 0.1): a "
-        "small error here is no merit yet, Table 3.7 is the test.");
-  PaperTable table = errors_table(source, "table-3-6", true);
-  for (const bool toughness : {false, true}) {
-    if (source.run.families.empty()) break;
-    std::vector<Point> global, own;
-    double place = 0.0;
-    for (const Stated& family : families_of_run(source)) {
-      const game::FamilyErrors errors = game::family_errors(family.designs);
-      place += 1.0;
-      global.push_back(
-          {place, 100.0 * (toughness ? errors.seeds_global.toughness_mean : errors.seeds_global.modulus_mean)});
-      own.push_back(
-          {place, 100.0 * (toughness ? errors.seeds_family.toughness_mean : errors.seeds_family.modulus_mean)});
-    }
-    std::vector<Point> both = global;
-    both.insert(both.end(), own.begin(), own.end());
-    Plot plot({.title = toughness ? "Toughness" : "Young's modulus",
-               .x_label = "family",
-               .y_label = "mean relative error (%)",
-               .x = {0.5, place + 0.5},
-               .y = range_of(both, &Point::y),
-               .width = 350,
-               .height = 260,
-               .whole_numbers_x = true});
-    plot.dots(global, Ink::earlier, "global model");
-    plot.dots(own, Ink::simulated, "family's own");
-    exhibit.figures.push_back({fmt::format("figure-3-14-{}", toughness ? "toughness" : "modulus"), plot.svg()});
-  }
-  exhibit.tables.push_back(std::move(table));
-  return exhibit;
-}
-
-Exhibit family_gamut_exhibit(const PaperSource& source) {
-  Exhibit exhibit{
-      .id = "figure-3-15", .heading = "Figure 3-15: Gamuts of the families", .notes = {}, .figures = {}, .tables = {}};
-  if (source.run.families.empty()) {
-    exhibit.notes.push_back(kNoStage);
-    return exhibit;
-  }
-  std::vector<Point> all;
-  PaperTable table{.name = "figure-3-15",
-                   .columns = {{"family", ""}, {"what", ""}, {"pattern", ""}, {"modulus_pa", ""}, {"toughness_pa", ""}},
-                   .rows = {},
-                   .is_thesis = {},
-                   .on_page = false};
-  for (const store::RecordedFamily& family : source.run.families) {
-    for (const explore::Evaluated& sample : family.gamut) {
-      all.push_back(to_point(sample.performance));
-      table.add({text_cell(family.stated.name), text_cell("variant"), text_cell(sample.pattern.key()),
-                 gpa_cell(sample.performance.modulus_pa), mpa_cell(sample.performance.toughness_pa)});
-    }
-  }
-  const auto measured_point = [](const game::FamilyDesign& d) -> std::optional<Point> {
-    if (!d.measured.modulus_pa || !d.measured.toughness_pa) return std::nullopt;
-    return to_point({*d.measured.modulus_pa, *d.measured.toughness_pa});
-  };
-  for (const store::RecordedFamily& family : source.run.families)
-    for (const game::FamilyDesign& d : family.stated.designs)
-      if (const auto point = measured_point(d)) all.push_back(*point);
-  const Range x = range_of(all, &Point::x), y = range_of(all, &Point::y);
-  std::size_t variants = 0;
-  for (std::size_t f = 0; f < source.run.families.size(); ++f) {
-    const store::RecordedFamily& family = source.run.families[f];
-    variants += family.gamut.size();
-    std::vector<optimize::Performance> gamut;
-    for (const explore::Evaluated& sample : family.gamut) gamut.push_back(sample.performance);
-    std::vector<Point> seeds, chosen, predicted;
-    for (const game::FamilyDesign& d : family.stated.designs) {
-      if (const auto point = measured_point(d)) (d.is_seed ? seeds : chosen).push_back(*point);
-      if (!d.is_seed && d.family_model.modulus_pa && d.family_model.toughness_pa)
-        predicted.push_back(to_point({*d.family_model.modulus_pa, *d.family_model.toughness_pa}));
-    }
-    Plot plot({.title = family.stated.name,
-               .x_label = "Young's modulus E (GPa)",
-               .y_label = "toughness T (MPa)",
-               .x = x,
-               .y = y,
-               .width = 460,
-               .height = 340});
-    plot.cloud(to_points(thinned(gamut, kMostGamutPoints)), family_ink(f), "variants");
-    plot.dots(seeds, Ink::earlier, "seeds, measured");
-    plot.rings(predicted, family_ink(f), "chosen, predicted");
-    plot.dots(chosen, Ink::measured, "chosen, measured");
-    exhibit.figures.push_back({"figure-3-15-" + family.stated.name, plot.svg()});
-  }
-  exhibit.notes.push_back(
-      fmt::format("Variants within 16 pixels of a seed by the family's own model, {} in all (the thesis: 7000 to 9000 "
-                  "per family), and the designs chosen of them (2.3.4).",
-                  variants));
-  exhibit.tables.push_back(std::move(table));
-  return exhibit;
-}
-
-Exhibit validation_exhibit(const PaperSource& source) {
-  Exhibit exhibit{.id = "table-3-7",
-                  .heading = "Table 3.7: Global and family models on the validation designs",
-                  .notes = {},
-                  .figures = {},
-                  .tables = {}};
-  if (source.run.families.empty()) exhibit.notes.push_back(kNoStage + " The thesis' figures:");
-  std::vector<std::string> over_fitted;
-  bool waiting = false;
-  for (const Stated& family : families_of_run(source)) {
-    const game::FamilyErrors errors = game::family_errors(family.designs);
-    waiting = waiting || !family.is_validated;
-    if (errors.over_fits_toughness()) over_fitted.push_back(escaped(family.name) + " (T)");
-    if (errors.over_fits_modulus()) over_fitted.push_back(escaped(family.name) + " (E)");
-  }
-  if (waiting) exhibit.notes.push_back("Some families are not validated yet: their designs are being measured.");
-  if (!over_fitted.empty())
-    exhibit.notes.push_back(
-        fmt::format("<strong>Over-fitted: {}</strong> - nearer to the seeds than the global model and farther from the "
-                    "validation designs, as in three of the thesis' four families. Trust the global model there.",
-                    fmt::join(over_fitted, ", ")));
-  else if (!source.run.families.empty() && !waiting)
-    exhibit.notes.push_back(
-        "No family's model over-fits: none is nearer to its seeds than the global one and farther from its validation "
-        "designs. (In the thesis all but one did, in T.)");
-  exhibit.tables.push_back(errors_table(source, "table-3-7", false));
-  return exhibit;
-}
-
-Exhibit family_modulus_appendix(const PaperSource& source) {
-  return appendix(source, "table-a-5", "Table A.5: E of the designs of the family stage",
-                  &game::DesignValues::modulus_pa);
-}
-
-Exhibit family_toughness_appendix(const PaperSource& source) {
-  return appendix(source, "table-a-6", "Table A.6: T of the designs of the family stage",
-                  &game::DesignValues::toughness_pa);
 }
 
 }  // namespace nacre::analyser

@@ -1,0 +1,69 @@
+#include "family_data.hpp"
+
+#include <map>
+
+#include "game/standings.hpp"
+#include "laboratory_view.hpp"
+#include "output.hpp"
+#include "run_access.hpp"
+#include "wire/codec.hpp"
+
+namespace nacre::cli {
+namespace {
+
+FamilyData data_of_set(const FamilyOptions& options) {
+  const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
+  warn_about(set, options.set);
+  return {.measured = game::patterns_with_both(set.specimens),
+          .parameters = material::default_parameters(),
+          .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity),
+          .staged = {}};
+}
+
+std::vector<StagedFamily> staged_families(const RunAccess& run) {
+  std::map<int, StagedFamily> families;
+  const auto take_family = [&](const std::string& payload) {
+    if (auto family = wire::read<wire::Family>(payload)) families[family->number].stated = std::move(*family);
+  };
+  const auto take_variants = [&](const std::string& payload) {
+    const auto chunk = wire::read<wire::FamilyGamut>(payload);
+    if (!chunk) return;
+    auto& variants = families[chunk->number].variants;
+    variants.insert(variants.end(), chunk->samples.begin(), chunk->samples.end());
+  };
+  read_validation_agent(run, {}, {{"FAMILY", take_family}, {"FAMILY_GAMUT", take_variants}});
+  std::vector<StagedFamily> all;
+  for (auto& [number, family] : families) all.push_back(std::move(family));
+  return all;
+}
+
+FamilyData data_of_run(const FamilyOptions& options) {
+  const RunAccess run = open_run(options.run);
+  const auto adopted = adopted_parameters(run);
+  if (!adopted) throw InputError::format("{}: no model has been adopted yet", run.folder.string());
+  const bool same_question = options.params.empty() && options.fidelity.empty();
+  return {.measured = game::patterns_with_both(view_laboratory(run).facts.book.specimens()),
+          .parameters = *adopted,
+          .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
+          .staged = same_question ? staged_families(run) : std::vector<StagedFamily>{}};
+}
+
+}  // namespace
+
+FamilyData family_data(const FamilyOptions& options) {
+  FamilyData data = options.set.empty() ? data_of_run(options) : data_of_set(options);
+  data.parameters = parameters_from_option(options.params, data.parameters);
+  return data;
+}
+
+const StagedFamily* staged(const families::Family& family, const FamilyData& data) {
+  for (const StagedFamily& each : data.staged) {
+    std::vector<pattern::Pattern> seeds;
+    for (const game::FamilyDesign& design : each.stated.designs)
+      if (design.is_seed) seeds.push_back(design.pattern);
+    if (seeds == family.seeds) return &each;
+  }
+  return nullptr;
+}
+
+}  // namespace nacre::cli

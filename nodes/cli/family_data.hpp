@@ -1,0 +1,55 @@
+#pragma once
+// What `nacre families` begins with: everything measured and a model of it, from a run or from a measurement set.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "explore/search.hpp"
+#include "families/grouping.hpp"
+#include "material/parameters.hpp"
+#include "measurement/measurement.hpp"
+#include "tester/tester.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::cli {
+
+/// What `nacre families` was asked.
+struct FamilyOptions {
+  std::string set;
+  std::string run = "logs/latest";
+  std::string params;
+  std::string out;
+  std::string fidelity;
+  std::string numerics_floor;
+  int samples = 300;
+  int rank = 2;
+  int calibration = 25;
+  int cracks = 60;
+  std::uint64_t seed = 1;
+  bool propose = false;
+  bool json = false;
+};
+
+/// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated
+/// again.
+struct StagedFamily {
+  wire::Family stated;
+  std::vector<explore::Evaluated> variants;
+};
+
+struct FamilyData {
+  std::vector<measurement::Replicates> measured;  ///< patterns alone
+  material::ParameterSet parameters;
+  tester::Fidelity fidelity = tester::Fidelity::full;
+  std::vector<StagedFamily> staged;  ///< of the run's family stage, where one was played
+};
+
+/// From the set that the options name, else from the run. Throws InputError.
+FamilyData family_data(const FamilyOptions& options);
+
+/// The stage's word on this family, when its seeds are the same.
+const StagedFamily* staged(const families::Family& family, const FamilyData& data);
+
+}  // namespace nacre::cli

@@ -1,0 +1,38 @@
+#pragma once
+// Cracks of a family's patterns, and what about them goes with toughness (thesis 2.4, 3.4).
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "crack/mechanisms.hpp"
+#include "material/parameters.hpp"
+#include "optimize/pareto.hpp"
+#include "pattern/layout.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::cli {
+
+using Performances = std::map<pattern::Pattern, optimize::Performance>;
+
+/// One pattern whose crack was looked at.
+struct Cracked {
+  pattern::Pattern pattern;
+  double modulus_pa = 0.0, toughness_pa = 0.0;
+  crack::Mechanisms mechanisms;
+};
+
+/// The first `count` members, seeds among them, broken once more for their cracks.
+std::vector<Cracked> broken(const std::string& task, const std::vector<pattern::Pattern>& members, int count,
+                            const material::ParameterSet& parameters, tester::Fidelity fidelity,
+                            const Performances& performances);
+
+/// mechanisms.csv, and what goes with T when rigid fraction and E are held: evidence, not cause. Nothing of fewer than
+/// twenty patterns.
+nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked, const std::filesystem::path& file,
+                                            std::uint64_t seed);
+
+}  // namespace nacre::cli

@@ -1,0 +1,18 @@
+#pragma once
+// One family worked out: its model, dense samples around its seeds, a map of each seed's surroundings, its cracks.
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "family_data.hpp"
+#include "sysid/offline.hpp"
+
+namespace nacre::cli {
+
+/// Writes parameters.toml, gamut.csv, a map of every seed and mechanisms.csv into the folder, and returns what of them
+/// the command prints. Throws InputError.
+nlohmann::ordered_json work_out(const families::Family& family, const FamilyData& data, const FamilyOptions& options,
+                                const std::filesystem::path& folder, sysid::LocalSimulator& simulator);
+
+}  // namespace nacre::cli
