@@ -11,8 +11,13 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Bytes of the UTF-8 character at the head of `text` (1..4), 0 when it is not valid UTF-8 (overlong forms, surrogates
-/// and code points beyond U+10FFFF included).
+std::string shown(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  return text.size() <= kMost ? std::string(text) : std::string(text.substr(0, kMost)) + "...";
+}
+
+}  // namespace
+
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -28,13 +33,6 @@ std::size_t utf8_length(std::string_view text) {
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
   return code >= kSmallest[length] && code <= 0x10FFFF && !surrogate ? length : 0;
 }
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  return text.size() <= kMost ? std::string(text) : std::string(text.substr(0, kMost)) + "...";
-}
-
-}  // namespace
 
 bool CsvRow::blank() const {
   return fault.empty() &&

@@ -73,6 +73,10 @@ Result<double> number_from_text(std::string_view text);
 /// A whole number in the range of int32, surrounding blanks allowed.
 Result<int> integer_from_text(std::string_view text);
 
+/// Bytes of the UTF-8 character at the head of `text`, which is not empty: 1 to 4, or 0 when it is not valid UTF-8
+/// (overlong forms, surrogates and code points beyond U+10FFFF included).
+std::size_t utf8_length(std::string_view text);
+
 /// `text` without leading and trailing blanks and tabs.
 std::string_view trimmed(std::string_view text);
 

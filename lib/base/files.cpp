@@ -3,8 +3,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
+
+#include <fmt/format.h>
 
 #include "base/result.hpp"
 
@@ -52,8 +55,16 @@ std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_
   return read_file(path);
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem) throw InputError::format("{}: cannot be made: {}", folder.string(), problem.message());
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path aside = path.string() + ".part";
+  // A name of its own: another program may write the same file.
+  static std::atomic<unsigned> files = 0;
+  const std::filesystem::path aside = fmt::format("{}.{}-{}.part", path.string(), ::getpid(), ++files);
   const auto give_up = [&](int reason) {
     ::unlink(aside.c_str());
     throw InputError::format("{}: cannot be written: {}", path.string(), std::strerror(reason));
@@ -70,6 +81,10 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
     if (::fsync(file.fd) != 0) give_up(errno);
   }
   if (::rename(aside.c_str(), path.c_str()) != 0) give_up(errno);
+  // The new name is on disk, too, where the file system can say so.
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const Descriptor entry{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  if (entry.fd >= 0) ::fsync(entry.fd);
 }
 
 }  // namespace nacre

@@ -13,6 +13,9 @@ std::string read_file(const std::filesystem::path& path);
 /// The same for a regular file of at most `most_bytes`: a device, a pipe or a larger file is an InputError.
 std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_bytes);
 
+/// Makes a folder and those above it; one that exists already is fine. Throws InputError naming it and the reason.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes aside, syncs to disk, renames: a reader sees the old or the new content, never a part, and a full disk loses
 /// nothing. Throws InputError naming the file and the system's reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);

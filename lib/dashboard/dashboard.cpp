@@ -47,7 +47,7 @@ pattern::Design design_of(const Request& request) {
 /// `model`: the number of a round or the name of a family.
 std::string model_of(const Request& request) {
   const std::string model = parameter(request, "model");
-  if (!is_plain_name(model)) throw Unanswerable{400, "model: expected the number of a round or the name of a family"};
+  if (!is_model_name(model)) throw Unanswerable{400, "model: expected the number of a round or the name of a family"};
   return model;
 }
 
@@ -311,6 +311,8 @@ Response Dashboard::judge(const Request& request) {
 Response Dashboard::decide(const Request& request) {
   const auto decision = or_refuse(decision_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
+  if (const auto reason = desk_.against(decision))
+    return json_response({{"answer", to_string(Answer::conflicting)}, {"error", *reason}}, 409);
   return answered(desk_.decide(decision));
 }
 

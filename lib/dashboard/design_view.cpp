@@ -1,6 +1,7 @@
 // One design, from everything that was said of it.
 
 #include "dashboard/views.hpp"
+#include "game/rounds.hpp"
 #include "pattern/constraints.hpp"
 
 namespace nacre::dashboard {
@@ -10,10 +11,13 @@ Json optional_json(const std::optional<double>& value) { return value ? Json(*va
 
 Json specimen_json(const store::MeasuredSpecimen& specimen) {
   const measurement::SpecimenRecord& r = specimen.record;
+  tester::TestConditions usual;
+  usual.orientation_deg = r.conditions.orientation_deg;
   return {{"specimen", r.specimen},
           {"round", specimen.round},
           {"test", tester::to_string(r.test)},
           {"orientation_deg", r.conditions.orientation_deg},
+          {"standard", game::answers(r.conditions, usual)},
           {"batch", r.batch},
           {"modulus_pa", optional_json(r.modulus_pa ? r.modulus_pa : measurement::modulus_of(r))},
           {"toughness_pa", optional_json(r.toughness_pa ? r.toughness_pa : measurement::toughness_of(r))},

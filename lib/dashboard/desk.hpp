@@ -64,12 +64,14 @@ class Desk {
   virtual std::optional<material::ParameterSet> family_model(const std::string& family) = 0;
   /// The analyser's newest word on a round.
   virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
-  /// Nodes that have spoken in the last seconds; none when the run does not play.
+  /// Nodes that have spoken within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
   // Handing in: waits for the validation agent for some seconds.
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Answer judge(const Judgement& judgement) = 0;
   virtual Answer decide(const Decision& decision) = 0;
+  /// Why a decision would change nothing, as a sentence; nothing where it counts.
+  virtual std::optional<std::string> against(const Decision& decision) = 0;
   /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is
   /// called.
   virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;

@@ -2,12 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dashboard/maps.hpp"
+#include "base/names.hpp"
+#include "families/grouping.hpp"
 #include "measurement/entry.hpp"
 #include "pattern/design.hpp"
 
 namespace nacre::dashboard {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLongestText = 500;
 constexpr int kLastRound = 1'000'000;
@@ -131,7 +134,9 @@ Result<std::vector<families::Family>> grouping_from_json(std::string_view text) 
     if (!each.is_object()) return fail("families: expected objects with name and seeds");
     const auto name = text_of(each, "name", true);
     if (!name) return tl::unexpected(name.error());
-    if (!is_plain_name(*name)) return fail("name '{}': expected letters, digits, - and _, at most 64", *name);
+    if (!families::is_family_name(*name))
+      return fail("name '{}': expected at most {} letters, digits, - and _, not digits alone", *name,
+                  families::kLongestFamilyName);
     families::Family& family = families.emplace_back(families::Family{.name = *name, .seeds = {}});
     const auto seeds = each.find("seeds");
     if (seeds == each.end() || !seeds->is_array()) return fail("{}: seeds: expected a list of pattern keys", *name);
@@ -149,6 +154,8 @@ Result<std::vector<families::Family>> grouping_from_json(std::string_view text) 
   }
 }
 
+bool is_model_name(std::string_view name) { return is_plain_name(name, families::kLongestFamilyName); }
+
 Result<SimulationWish> wish_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
@@ -156,7 +163,7 @@ Result<SimulationWish> wish_from_json(std::string_view text) {
   const auto model = text_of(*object, "model", true);
   if (!design) return tl::unexpected(design.error());
   if (!model) return tl::unexpected(model.error());
-  if (!is_plain_name(*model)) return fail("model: expected the number of a round or the name of a family");
+  if (!is_model_name(*model)) return fail("model: expected the number of a round or the name of a family");
   return SimulationWish{*design, *model};
 }
 

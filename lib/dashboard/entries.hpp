@@ -19,6 +19,9 @@ Result<Judgement> judgement_from_json(std::string_view text);
 /// `design` (canonical name), `round` (-1 or absent: a design of the person's own), `approved`, `by`, `why`.
 Result<Decision> decision_from_json(std::string_view text);
 
+/// What a model is asked for by: the number of a round or the name of a family.
+bool is_model_name(std::string_view name);
+
 /// Which design to simulate with which model: `design`, `model` (the number of a round, or the name of a family).
 struct SimulationWish {
   pattern::Design design;

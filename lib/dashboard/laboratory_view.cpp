@@ -11,6 +11,7 @@ Json optional_json(const std::optional<double>& value) { return value ? Json(*va
 Json specimens_json(const game::MeasurementBook& book) {
   Json specimens = Json::array();
   for (const measurement::SpecimenRecord& r : book.specimens()) {
+    const game::Review* review = book.review_of(r.specimen);
     specimens.push_back(
         {{"specimen", r.specimen},
          {"design", r.design.name()},
@@ -22,7 +23,9 @@ Json specimens_json(const game::MeasurementBook& book) {
           optional_json(r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa)},
          {"points", r.curve.size()},
          {"valid", r.valid},
-         {"note", r.note}});
+         {"note", r.note},
+         {"by", review == nullptr ? "" : review->by},
+         {"why", review == nullptr ? "" : review->why}});
   }
   return specimens;
 }

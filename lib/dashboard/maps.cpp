@@ -87,11 +87,6 @@ std::vector<std::string_view> parts(std::string_view list) {
 
 }  // namespace
 
-bool is_plain_name(std::string_view name) {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
-  return !name.empty() && name.size() <= 64 && name.find_first_not_of(kLetters) == std::string_view::npos;
-}
-
 Json to_json(const PatternMap& map) {
   Json patterns = Json::array(), x = Json::array(), y = Json::array(), modulus = Json::array(),
        toughness = Json::array(), triangles = Json::array();
@@ -144,7 +139,7 @@ Json FamilyFolder::families() const {
   for (Json& family : listed) {
     if (!family.is_object() || !family.value("name", Json()).is_string()) continue;
     const auto name = family["name"].get<std::string>();
-    if (!is_plain_name(name)) continue;
+    if (!families::is_family_name(name)) continue;
     Json ids = Json::array();
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / name, unreadable)) {
       const std::string seed = entry.path().stem().string();
@@ -159,7 +154,7 @@ Json FamilyFolder::families() const {
 Result<PatternMap> FamilyFolder::map(const std::string& id) const {
   const std::size_t slash = id.find('/');
   const std::string family = id.substr(0, slash), seed = slash == std::string::npos ? "" : id.substr(slash + 1);
-  if (!is_plain_name(family) || !is_plain_name(seed) || !pattern_of(seed)) return fail("expected FAMILY/SEED");
+  if (!families::is_family_name(family) || !pattern_of(seed)) return fail("expected FAMILY/SEED");
   try {
     auto map = map_from_csv(read_file_up_to(folder_ / family / (seed + ".csv"), kMostFileBytes), id);
     if (map) map->id = id;
@@ -190,7 +185,7 @@ Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int 
 }
 
 Result<material::ParameterSet> FamilyFolder::model(const std::string& family) const {
-  if (!is_plain_name(family)) return fail("family: expected a name");
+  if (!families::is_family_name(family)) return fail("family: expected a name");
   try {
     return material::read_parameters(folder_ / family / "parameters.toml", material::default_parameters());
   } catch (const InputError&) {

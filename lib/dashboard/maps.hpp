@@ -55,9 +55,6 @@ class FamilyFolder {
   std::filesystem::path folder_;
 };
 
-/// A name that is safe as a part of a path: letters, digits, - and _, at most 64.
-bool is_plain_name(std::string_view name);
-
 /// The pattern between up to three others, as the page asks for it: keys and weights separated by commas. Its key, and
 /// what of the constraints it violates.
 Result<Json> between(std::string_view patterns, std::string_view weights);

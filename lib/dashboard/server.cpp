@@ -98,6 +98,13 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
   const auto handle = [&](const httplib::Request& from, httplib::Response& to) {
     answer(dashboard.handle(request_of(from)), to);
   };
+  // What the library refuses itself, a body that is too large, gets a word as well.
+  server.set_error_handler([](const httplib::Request&, httplib::Response& to) {
+    if (!to.body.empty()) return;
+    const std::string reason = to.status == 413 ? fmt::format("too large, expected at most {} MB", kMostBodyBytes >> 20)
+                                                : "the request cannot be answered";
+    answer(error_response(to.status, reason), to);
+  });
   server.Get(".*", handle);
   server.Post(".*", handle);
 

@@ -17,7 +17,7 @@ struct Basis {
   bool modulus =
       true;  ///< theta of modulus tests of layouts: E and nu of three materials (gamma has no effect on a static test)
   bool toughness = false;  ///< eta of fracture tests: E and W of three materials, gamma
-  bool coupon = false;     ///< E of the bulk materials: homogeneous coupons
+  bool coupon = false;     ///< E and nu of the bulk materials: homogeneous coupons
   material::ParameterSet centre =
       material::default_parameters();  ///< where eta is looked for, and what is not searched
 };

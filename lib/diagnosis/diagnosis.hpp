@@ -33,6 +33,7 @@ struct NamedEffect {
   double parameter = 0.0;
   double interval_low = 0.0, interval_high = 0.0;
   std::string unit;
+  std::vector<double> further = {};  ///< what an effect takes beside its parameter, in the order of the library
 };
 
 /// What became of one effect of the library.

@@ -9,11 +9,13 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json json_of(const NamedEffect& e) {
-  return {{"name", e.name},
-          {"family", e.family},
-          {"parameter", e.parameter},
-          {"interval90", {e.interval_low, e.interval_high}},
-          {"unit", e.unit}};
+  ordered_json json = {{"name", e.name},
+                       {"family", e.family},
+                       {"parameter", e.parameter},
+                       {"interval90", {e.interval_low, e.interval_high}},
+                       {"unit", e.unit}};
+  if (!e.further.empty()) json["further"] = e.further;
+  return json;
 }
 
 ordered_json json_of(const Candidate& c) {

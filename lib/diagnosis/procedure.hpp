@@ -6,8 +6,9 @@
 
 namespace nacre::diagnosis {
 
-/// Content hash of everything that a verdict rests on beside the data and the start of the fit, 16 hex digits: the
-/// library of effects with its ranges, features, contrasts, levels, what numerics leave.
+/// Content hash of how a verdict is reached, 16 hex digits: the library of effects with its ranges, features,
+/// contrasts, levels, what numerics leave. Not in it: the data, the start of the fit, the seed, and how many
+/// simulations the search may spend.
 std::string procedure_hash(const DiagnosisSettings& settings);
 
 }  // namespace nacre::diagnosis

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <set>
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
@@ -12,6 +14,9 @@ namespace {
 
 /// So far behind the best fit that no draw would let a rival catch up.
 constexpr double kOutOfReach = 60.0;
+
+/// In chi squared: what noise and rounding make of a tie.
+constexpr double kContrastTie = 2.0;
 
 template <class Value>
 std::vector<double> over_draws(const std::vector<DrawStatistics>& draws, Value value) {
@@ -111,7 +116,21 @@ std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>
   return kept;
 }
 
-/// Pairs that contain the best single effect, where the second effect earns its place on top of the first.
+/// Effects that pairs are built on, the best first: alone, a cause's look-alike may explain more than the cause does
+/// beside a second one.
+std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
+  constexpr std::size_t kMost = 3;
+  constexpr double kLeastShare = 0.5;  // of what the best one explains
+  std::vector<std::size_t> anchors(evidence.singles.size());
+  std::iota(anchors.begin(), anchors.end(), std::size_t{0});
+  std::ranges::stable_sort(anchors, {}, [&](std::size_t k) { return evidence.singles[k].chi2; });
+  const auto drop = [&](std::size_t k) { return evidence.base.fit.chi2 - evidence.singles[k].chi2; };
+  std::erase_if(anchors, [&, best = drop(anchors.front())](std::size_t k) { return drop(k) < kLeastShare * best; });
+  anchors.resize(std::min(anchors.size(), kMost));
+  return anchors;
+}
+
+/// Pairs that contain a single effect, where the second effect earns its place on top of the first.
 std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) {
   std::vector<std::string> others;
   for (const std::string& effect : evidence.effects) {
@@ -131,8 +150,8 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
   return pairs;
 }
 
-/// Fits the effect that all pairs share once more by itself, from where each pair ended: a pair may have found the way
-/// that its first effect missed alone, and what it gains must not be better optimisation. True when the effect fits
+/// Fits the effect that these pairs share once more by itself, from where each pair ended: a pair may have found the
+/// way that its first effect missed alone, and what it gains must not be better optimisation. True when the effect fits
 /// better now.
 bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vector<Fit>& pairs) {
   constexpr double kBetter = 1.0;
@@ -143,6 +162,19 @@ bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vect
     if (alone.chi2 < single.chi2) single = std::move(alone);
   }
   return single.chi2 < before - kBetter;
+}
+
+/// Pairs on all anchors, each once; nothing when an anchor was fitted better on the way.
+std::optional<std::vector<Fit>> pairs_of_best(Evidence& evidence) {
+  std::vector<Fit> pairs;
+  std::set<std::set<std::string>> known;
+  for (const std::size_t anchor : pair_anchors(evidence)) {
+    std::vector<Fit> built = significant_pairs(evidence, evidence.singles[anchor]);
+    if (fitted_better_alone(evidence, anchor, built)) return std::nullopt;
+    for (Fit& pair : built)
+      if (known.insert({pair.effects.begin(), pair.effects.end()}).second) pairs.push_back(std::move(pair));
+  }
+  return pairs;
 }
 
 Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::string reason) {
@@ -166,6 +198,13 @@ double signal_of(const Evidence& evidence, const Fit& model) {
   return signature_size(base, fit.predicted - base.predicted, Whitener(observations.covariance())).projected;
 }
 
+/// How far the base with nothing but its strongest contrast lies ahead of a model, in chi squared. Effects that are
+/// such a contrast themselves, like a drift from batch to batch, are level with it; others must beat it.
+double lead_of_contrast(const Evidence& evidence, const Decision& decision, const Fit& model) {
+  if (decision.contrasts.empty()) return 0.0;
+  return std::pow(decision.contrasts.front().statistic, 2) - (evidence.base.fit.chi2 - model.chi2);
+}
+
 /// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.
 Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> possible, std::string reason) {
   const Fit& best = possible.front();
@@ -177,6 +216,12 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
                        fmt::format("{}, but its traces are only {:.1f} times the noise: a cause that the library does "
                                    "not hold could look the same (a name needs {:.1f})",
                                    nearest, signal, kNameableSignal));
+  }
+  if (const double lead = lead_of_contrast(evidence, decision, best); lead > kContrastTie) {
+    return unexplained(
+        std::move(decision), possible,
+        fmt::format("{}, but \"{}\" alone explains more: a cause that the library does not hold acts along it", nearest,
+                    decision.contrasts.front().name));
   }
   if (decision.p_outside > kOutsiderLevel) {
     return unexplained(std::move(decision), possible,
@@ -244,16 +289,16 @@ Decision decide(Evidence& evidence) {
                    "one effect fitted jointly with the base explains the data");
   }
   report(0.9, "fitting pairs of effects");
-  std::vector<Fit> pairs = significant_pairs(evidence, evidence.singles[best]);
-  if (fitted_better_alone(evidence, best, pairs)) return decide(evidence);
+  const std::optional<std::vector<Fit>> pairs = pairs_of_best(evidence);
+  if (!pairs) return decide(evidence);
   std::vector<double> pair_p;
-  for (const Fit& pair : pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
+  for (const Fit& pair : *pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
   const bool some_pair_fits =
       std::any_of(pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.unexplained_level; });
-  std::vector<Fit> possible = some_pair_fits ? confidence_set(evidence, pairs, pair_p) : std::vector<Fit>{};
+  std::vector<Fit> possible = some_pair_fits ? confidence_set(evidence, *pairs, pair_p) : std::vector<Fit>{};
   if (possible.empty()) {
     std::vector<Fit> tried = evidence.singles;
-    tried.insert(tried.end(), pairs.begin(), pairs.end());
+    tried.insert(tried.end(), pairs->begin(), pairs->end());
     return unexplained(std::move(decision), tried,
                        "even the best effects of the library leave a misfit larger than noise");
   }

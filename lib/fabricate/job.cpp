@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/hash.hpp"
+#include "base/names.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "pattern/coupons.hpp"
@@ -15,13 +16,8 @@ namespace nacre::fabricate {
 namespace {
 
 void check_name(const std::string& name) {
-  const auto allowed = [](char letter) {
-    return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
-           letter == '.' || letter == '_' || letter == '-';
-  };
-  if (name.empty() || name.size() > 40 || !std::all_of(name.begin(), name.end(), allowed)) {
-    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ -", name);
-  }
+  if (!is_plain_name(name, 40, "."))
+    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ - (--batch names it)", name);
 }
 
 /// A design as part of a folder's name: keys of coupons, which are long, by their first digits of a hash.

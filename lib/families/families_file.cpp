@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/names.hpp"
 #include "base/toml_file.hpp"
 #include "families/grouping.hpp"
 
@@ -11,11 +12,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& source, const toml::node& node, const std::string& what) {
   throw InputError::format("{}:{}: {}", source, node.source().begin.line, what);
-}
-
-bool is_name(const std::string& text) {
-  return !text.empty() &&
-         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
 }
 
 pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
@@ -30,7 +26,10 @@ pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
 
 Family family_of(const toml::table& table, const std::string& source) {
   Family family{.name = table["name"].value_or(std::string()), .seeds = {}};
-  if (!is_name(family.name)) refuse(source, table, "a family is expected to have a name of letters, digits, - and _");
+  if (!is_family_name(family.name))
+    refuse(source, table,
+           fmt::format("a family is expected to have a name of at most {} letters, digits, - and _, not digits alone",
+                       kLongestFamilyName));
   const toml::array* seeds = table["seeds"].as_array();
   if (seeds == nullptr || seeds->empty()) refuse(source, table, "a family is expected to have seeds = [\"key\", ...]");
   for (const toml::node& seed : *seeds) family.seeds.push_back(seed_of(seed, source));
@@ -38,6 +37,10 @@ Family family_of(const toml::table& table, const std::string& source) {
 }
 
 }  // namespace
+
+bool is_family_name(std::string_view name) {
+  return is_plain_name(name, kLongestFamilyName) && name.find_first_not_of("0123456789") != std::string_view::npos;
+}
 
 std::string to_toml(const std::vector<Family>& families) {
   std::string text =

@@ -2,6 +2,7 @@
 // Which near-Pareto designs belong together (thesis 2.4.1, where a person decides): a proposal, and the file in which a
 // person changes it.
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -25,6 +26,11 @@ struct Family {
   std::vector<pattern::Pattern> seeds;
   bool operator==(const Family&) const = default;
 };
+
+inline constexpr std::size_t kLongestFamilyName = 64;  ///< bytes
+
+/// Letters, digits, - and _ (folders are named after families), not digits alone: those mean a round.
+bool is_family_name(std::string_view name);
 
 /// How much a measured design counts in the family's own calibration (thesis 2.4.1): 1 for its seeds, 0.1 for others.
 double calibration_weight(const Family& family, const pattern::Pattern& measured);

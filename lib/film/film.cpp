@@ -114,11 +114,13 @@ Film film_of(const tester::Simulation& simulation, const tester::ToughnessResult
             .largest_energy_j_per_m3 = largest_energy(filmed.frames),
             .displacement_step_m = kDisplacementStep * first.element_size_m,
             .frames = {}};
+  // The last frame may lie a rounding beyond the curve's end.
+  const double last_strain = filmed.curve.empty() ? 0.0 : filmed.curve.strain.back();
   for (const tester::FractureFrame& frame : filmed.frames) {
     static const Frame kNone;
     const Frame& previous = film.frames.empty() ? kNone : film.frames.back();
     Frame next{.strain = frame.strain,
-               .stress_pa = tester::stress_at(filmed.curve, frame.strain),
+               .stress_pa = tester::stress_at(filmed.curve, std::min(frame.strain, last_strain)),
                .broken = static_cast<int>(std::count_if(filmed.breaks.begin(), filmed.breaks.end(),
                                                         [&](const auto& b) { return b.strain < frame.strain; })),
                .energy_level = energy_levels(frame, previous.energy_level, film.largest_energy_j_per_m3),

@@ -97,7 +97,11 @@ void read_header(const json& header, Film& film) {
   header.at("peak_stress_pa").get_to(film.peak_stress_pa);
   header.at("failure_strain").get_to(film.failure_strain);
   header.at("end").get_to(film.end);
-  header.at("energy").at("largest_j_per_m3").get_to(film.largest_energy_j_per_m3);
+  const json& energy = header.at("energy");
+  energy.at("largest_j_per_m3").get_to(film.largest_energy_j_per_m3);
+  if (energy.at("decades") != kEnergyDecades || energy.at("levels") != kEnergyLevels)
+    throw InputError::format("energies over {} decades in {} levels, expected {} and {}", energy.at("decades").dump(),
+                             energy.at("levels").dump(), kEnergyDecades, kEnergyLevels);
   header.at("displacement_step_m").get_to(film.displacement_step_m);
   header.at("curve").at("strain").get_to(film.curve.strain);
   header.at("curve").at("stress_pa").get_to(film.curve.stress_pa);
@@ -120,6 +124,7 @@ void read_header(const json& header, Film& film) {
 std::string header_fault(const Film& film) {
   if (film.columns < 1 || film.rows < 1)
     return fmt::format("{} x {} elements, expected 1 to {} on a side", film.columns, film.rows, kLargestSide);
+  if (!(film.element_size_m > 0.0)) return fmt::format("elements of {} m", film.element_size_m);
   if (film.frames.empty() || film.frames.size() > kMostFrames)
     return fmt::format("{} frames, expected 1 to {}", film.frames.size(), kMostFrames);
   const int elements = film.columns * film.rows;

@@ -75,6 +75,8 @@ std::string displacement_bytes(const Film& film) {
   return bytes;
 }
 
+constexpr std::uint8_t kVoid = 3;
+
 Result<void> read_material(const std::string& bytes, Film& film) {
   film.material.assign(bytes.begin(), bytes.end());
   const auto wrong = std::find_if(film.material.begin(), film.material.end(), [](auto value) { return value > 3; });
@@ -84,6 +86,7 @@ Result<void> read_material(const std::string& bytes, Film& film) {
 
 Result<void> read_breaks(const std::string& bytes, Film& film) {
   const std::size_t count = film.crack.order.size();
+  std::vector<bool> is_broken(film.material.size());
   for (std::size_t i = 0; i < count; ++i) {
     std::int32_t element = 0;
     float strain = 0.0F;
@@ -91,6 +94,10 @@ Result<void> read_breaks(const std::string& bytes, Film& film) {
     std::memcpy(&strain, bytes.data() + 4 * (count + i), 4);
     if (element < 0 || element >= film.columns * film.rows)
       return fail("section breaks: there is no element {} among {}", element, film.columns * film.rows);
+    const auto at = static_cast<std::size_t>(element);
+    if (film.material[at] == kVoid) return fail("section breaks: element {} is empty and cannot fail", element);
+    if (is_broken[at]) return fail("section breaks: element {} fails twice", element);
+    is_broken[at] = true;
     film.crack.order[i] = {element, strain};
   }
   return {};

@@ -4,12 +4,20 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
 namespace nacre::game {
 namespace {
 
 bool could_answer(const PrintedSpecimen& specimen, const Order& order) {
   return specimen.design == order.design && specimen.test == order.test &&
          std::abs(specimen.orientation_deg - order.conditions.orientation_deg) < 0.5;
+}
+
+bool is_proposed(const LaboratoryFacts& facts, const StatedDecision& decision) {
+  return std::ranges::any_of(facts.proposed, [&](const ProposedForRound& each) {
+    return each.round == decision.proposal_round && each.design == decision.design;
+  });
 }
 
 DesignStage stage_of(const DesignState& state, bool all_complete) {
@@ -68,6 +76,25 @@ std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, con
   return *first;
 }
 
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDecision& decision,
+                                    bool asks_for_approvals) {
+  const std::string name = decision.design.name();
+  if (decision.proposal_round < 0) {
+    if (!decision.approved) return fmt::format("{}: a design of one's own is not refused, but not added", name);
+    for (const DesignState& state : design_states(facts)) {
+      if (state.design == decision.design && state.stage == DesignStage::pending)
+        return fmt::format("{} is proposed and waits for an answer: say yes to the proposal", name);
+    }
+    if (is_ordered(facts, decision.design)) return fmt::format("{} was ordered before: that stands", name);
+    return std::nullopt;
+  }
+  if (!asks_for_approvals) return "this game does not ask for approvals: what is proposed is ordered";
+  if (!is_proposed(facts, decision)) return fmt::format("{} is not in proposal {}", name, decision.proposal_round);
+  const auto first = decision_against(facts, decision);
+  if (!first) return std::nullopt;
+  return fmt::format("{} was {} before by {}: that stands", name, first->approved ? "approved" : "rejected", first->by);
+}
+
 bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design) {
   return std::any_of(facts.orders.begin(), facts.orders.end(),
                      [&](const Order& order) { return order.design == design && answers(order.conditions, {}); });
@@ -101,6 +128,11 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
   }
   std::map<std::string, bool> decided;
   for (const StatedDecision& decision : facts.decisions) {
+    // What the validation agent passes over decides nothing: a proposal that is not there, a design of one's own that
+    // is proposed and waits.
+    const auto known = states.find(decision.design.name());
+    const bool waits = known != states.end() && known->second.stage == DesignStage::pending;
+    if (decision.proposal_round >= 0 ? !is_proposed(facts, decision) : waits) continue;
     if (!decided.emplace(decision.design.name(), true).second) continue;
     DesignState& state = state_of(decision.design);
     state.decided_by = decision.by;

@@ -48,7 +48,7 @@ struct ProposedForRound {
 /// What is known of the laboratory's work.
 struct LaboratoryFacts {
   std::vector<ProposedForRound> proposed;
-  std::vector<StatedDecision> decisions;  ///< in the order in which they arrived: the first on a design counts
+  std::vector<StatedDecision> decisions;  ///< in the order in which they arrived: the first that counts stands
   std::vector<Order> orders;
   std::vector<PrintedSpecimen> printed;
   MeasurementBook book;
@@ -70,6 +70,10 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts);
 /// The decision that counts in place of this one: the first on the same design of the same proposal, when it says the
 /// opposite. Nothing where this one may count.
 std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, const StatedDecision& decision);
+
+/// Why a decision would change nothing, as a sentence; nothing where it counts. `asks_for_approvals`: the game does.
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDecision& decision,
+                                    bool asks_for_approvals);
 
 /// Whether an order asks for the design as a person's own would be ordered, so that adding it changes nothing.
 bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/statistics.hpp"
@@ -25,15 +26,23 @@ void add_error(std::vector<ForetoldError>& errors, int round, const std::string&
 /// Errors in units of their scatter, by the round of the prediction.
 using ByRound = std::map<int, std::vector<double>>;
 
+/// Density of an error about its round's offset, both in units of the scatter: Student's t, and now and then anything.
+/// Without that, of two models that are both far off a design the less wrong one would be sure to be right.
+double density(double x, double scatter) {
+  constexpr double kSurprises = 0.05, kRange = 6.0;  // one design in twenty; over logarithms, a factor of 400
+  const double peak = 0.375;                         // of Student's t with 4 degrees of freedom
+  return (1.0 - kSurprises) * peak * std::pow(1.0 + x * x / kFreedom, -0.5 * (kFreedom + 1.0)) +
+         kSurprises * scatter / kRange;
+}
+
 /// Log likelihood of the errors of one round, up to a constant: their common offset is integrated out over a standard
 /// normal distribution by the trapezoid rule.
-double log_likelihood(std::span<const double> errors) {
+double log_likelihood(std::span<const double> errors, double scatter) {
   constexpr double kReach = 4.0, kStep = 0.125;
   std::vector<double> logs;
   for (double offset = -kReach; offset <= kReach; offset += kStep) {
     double sum = -0.5 * offset * offset;
-    for (const double error : errors)
-      sum -= 0.5 * (kFreedom + 1.0) * std::log1p(std::pow(error - offset, 2) / kFreedom);
+    for (const double error : errors) sum += std::log(density(error - offset, scatter));
     logs.push_back(sum);
   }
   const double largest = std::ranges::max(logs);
@@ -57,8 +66,20 @@ double evidence(std::span<const ForetoldError> errors, double ForetoldError::*mo
     of_mean[each.round].push_back(0.5 * (each.adopted + each.extended) / scatter);
   }
   double logarithm = 0.0;
-  for (const auto& [round, own] : of_model) logarithm += log_likelihood(own) - log_likelihood(of_mean.at(round));
+  for (const auto& [round, own] : of_model)
+    logarithm += log_likelihood(own, scatter) - log_likelihood(of_mean.at(round), scatter);
   return logarithm / std::numbers::ln10;
+}
+
+/// Evidence for the extension where any one design is left out: the least of all.
+double least_without_one(std::span<const ForetoldError> errors, double least) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    std::vector<ForetoldError> others(errors.begin(), errors.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    smallest = std::min(smallest, evidence(others, &ForetoldError::extended, least));
+  }
+  return smallest;
 }
 
 }  // namespace
@@ -92,7 +113,8 @@ TrialStanding standing_of(std::span<const ForetoldError> errors, double least) {
 bool gain_is_established(const TrialErrors& errors) {
   const TrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
                       toughness = standing_of(errors.toughness, kLeastToughnessError);
-  return modulus.designs >= kFewestDesigns && modulus.for_extended >= kOdds && toughness.for_adopted < kOdds;
+  return modulus.designs >= kFewestDesigns && modulus.for_extended >= kOdds && toughness.for_adopted < kOdds &&
+         least_without_one(errors.modulus, kLeastModulusError) >= 0.0;
 }
 
 }  // namespace nacre::game

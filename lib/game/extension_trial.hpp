@@ -38,17 +38,17 @@ struct TrialStanding {
 };
 
 /// Evidence for a model is the likelihood of what it foretold over that of the mean of both models' forecasts: two
-/// models that are equally far off straddle the truth, and then their mean does better than either. Odds of N to 1 turn
-/// up with a chance of 1/N at most, whenever one looks (Ville's inequality), where either the mean or the other model
-/// is right. An error is Student's t with 4 degrees of freedom about an offset of its round, both with the scatter that
-/// the model's own errors show, at least `least`: what scatter and numerics leave anyway.
+/// models that are equally far off straddle the truth, and then their mean does better than either. An error is
+/// Student's t with 4 degrees of freedom about an offset of its round, both with the scatter that the model's own
+/// errors show, at least `least`: what scatter and numerics leave anyway; one in twenty may be anything.
 TrialStanding standing_of(std::span<const ForetoldError> errors, double least);
 
 /// What scatter and numerics leave of log E and of log T.
 inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
 
-/// Odds of 20 to 1 that E is foretold better, so that 5 % of games at most adopt an extension that is no better, and
-/// not the same odds that T is foretold worse. At least three designs.
+/// Odds of 20 to 1 that E is foretold better, which no single design brings about against all others, and not the same
+/// odds that T is foretold worse. At least three designs. How many games adopt an extension that is no better:
+/// docs/decisions/0015.
 bool gain_is_established(const TrialErrors& errors);
 
 }  // namespace nacre::game

@@ -28,11 +28,17 @@ std::optional<Review> MeasurementBook::review_against(const std::string& specime
   return held->second;
 }
 
+const Review* MeasurementBook::review_of(const std::string& specimen) const {
+  const auto review = reviews_.find(specimen);
+  return review == reviews_.end() ? nullptr : &review->second;
+}
+
 bool MeasurementBook::valid(const Reported& reported) const {
   const auto review = reviews_.find(reported.record.specimen);
   if (review == reviews_.end()) return reported.record.valid;
-  // A person may bring a specimen back, but not a number of another unit.
-  return review->second.valid && !measurement::implausible_value(reported.record);
+  // A person may bring a specimen back, but neither one that says nothing nor a number of another unit.
+  return review->second.valid && !measurement::missing_result(reported.record) &&
+         !measurement::implausible_value(reported.record);
 }
 
 std::vector<measurement::SpecimenRecord> MeasurementBook::specimens() const {

@@ -18,6 +18,7 @@ struct Review {
   int revision = 0;
   bool valid = true;
   std::string why;
+  std::string by = {};  ///< not part of what decides
 };
 
 /// How far an order has got.
@@ -45,6 +46,8 @@ class MeasurementBook {
   /// one may stand.
   std::optional<Review> review_against(const std::string& specimen, const Review& review) const;
 
+  /// The review that stands; nothing where nobody said anything.
+  const Review* review_of(const std::string& specimen) const;
   /// All specimens, sorted by name, with validity as reviewed.
   std::vector<measurement::SpecimenRecord> specimens() const;
 

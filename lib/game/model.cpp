@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "measurement/measurement.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::game {
@@ -25,6 +26,16 @@ bool has_measurement_side(const material::ParameterSet& parameters) {
 
 sysid::Prediction through_machine(const sysid::Prediction& prediction, const material::ParameterSet& model) {
   return has_measurement_side(model) ? sysid::observed(prediction, model.extensions) : prediction;
+}
+
+optimize::Performance through_machine(const optimize::Performance& performance, const material::ParameterSet& model) {
+  return {measurement::observe_modulus(performance.modulus_pa, model.extensions),
+          measurement::observe_toughness(performance.toughness_pa, model.extensions)};
+}
+
+optimize::Performance behind_machine(const optimize::Performance& measured, const material::ParameterSet& model) {
+  const double shown_of_one = measurement::observe_toughness(1.0, model.extensions);
+  return {measurement::modulus_behind(measured.modulus_pa, model.extensions), measured.toughness_pa / shown_of_one};
 }
 
 }  // namespace nacre::game

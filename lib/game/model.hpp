@@ -3,6 +3,7 @@
 
 #include "material/extensions.hpp"
 #include "material/parameters.hpp"
+#include "optimize/pareto.hpp"
 #include "sysid/calibration.hpp"
 
 namespace nacre::game {
@@ -17,5 +18,12 @@ bool has_measurement_side(const material::ParameterSet& parameters);
 /// What the testing machine makes of a prediction of the material side; without such effects the prediction itself,
 /// which then needs no curve.
 sysid::Prediction through_machine(const sysid::Prediction& prediction, const material::ParameterSet& model);
+
+/// The same of what a gamut says of a pattern. Measured and gamut fronts meet in what the machine shows.
+optimize::Performance through_machine(const optimize::Performance& performance, const material::ParameterSet& model);
+
+/// What the material side must say of a specimen for the machine to show this: the way back, for prints that have not
+/// drifted. Measured lines and gamuts meet in what the material does.
+optimize::Performance behind_machine(const optimize::Performance& measured, const material::ParameterSet& model);
 
 }  // namespace nacre::game

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <vector>
 
+#include "base/names.hpp"
+
 namespace nacre::game {
 namespace {
 
@@ -189,19 +191,13 @@ ScenarioKey cluster_options_key() {
 }
 
 /// Run folders and messages carry the name.
-bool is_plain_name(const std::string& name) {
-  constexpr std::size_t kLongest = 40;
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), is_plain);
-}
+bool is_scenario_name(const std::string& name) { return is_plain_name(name, 40); }
 
 std::vector<ScenarioKey> make_top_level_keys() {
   constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
   return {
       text("", "name", "name of the scenario, part of the run's name",
-           "1 to 40 of the characters A-Z, a-z, 0-9, _ and -", is_plain_name, at(&Scenario::name)),
+           "1 to 40 of the characters A-Z, a-z, 0-9, _ and -", is_scenario_name, at(&Scenario::name)),
       whole_number<std::uint64_t>("", "seed", "every random choice of the run follows from it", 0, kLargestSeed,
                                   at(&Scenario::seed)),
       whole_number<int>("", "rounds", "number of the last round; round 0 is the base materials", 0, 100000,

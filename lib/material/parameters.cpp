@@ -139,7 +139,8 @@ double to_unit(const ParameterRange& range, double value) {
 ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random) {
   constexpr double kLargestPoissonRatio = 0.499;
   ToughnessVector vector = to_vector(eta);
-  for (double& value : vector) value *= 1.0 + relative * random.normal();
+  constexpr double kSmallestFactor = 1e-3;  // no modulus below zero, however rare the draw
+  for (double& value : vector) value *= std::max(kSmallestFactor, 1.0 + relative * random.normal());
   for (std::size_t i = 3; i < 6; ++i) vector[i] = std::min(vector[i], kLargestPoissonRatio);
   return toughness_from_vector(vector);
 }

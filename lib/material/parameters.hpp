@@ -85,8 +85,8 @@ double from_unit(const ParameterRange& range, double unit);
 ParameterSet default_parameters();
 
 /// Reads a parameter file (TOML, tables [modulus], [toughness], [extension.NAME]); keys that are absent keep the value
-/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (0 <= nu < 0.5
-/// allowed up to 0.5) throw InputError naming file, line, key and what was expected.
+/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (nu: 0 to 0.5)
+/// throw InputError naming file, line, key and what was expected.
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
 std::string to_toml(const ParameterSet& parameters);
 

@@ -67,6 +67,8 @@ struct Replicates {
   int modulus_count = 0, toughness_count = 0;
   double modulus_pa = 0.0, modulus_sd_pa = 0.0;  ///< mean and sample standard deviation; 0 when not measured
   double toughness_pa = 0.0, toughness_sd_pa = 0.0;
+  double modulus_batch_step = 0.0,
+         toughness_batch_step = 0.0;   ///< means of print_contexts()
   tester::Curve representative_curve;  ///< of the specimen whose toughness is nearest to the mean; empty when none
 };
 
@@ -80,6 +82,10 @@ std::optional<double> modulus_of(const SpecimenRecord& specimen);
 
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
 std::optional<double> toughness_of(const SpecimenRecord& specimen);
+
+/// What a specimen lacks to say anything of what its test tests: a value of that kind or a curve that gives one; a
+/// tensile coupon is homogeneous. Its column and what was expected. Line 0.
+std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen);
 
 /// The modulus or toughness that the specimen's test measured, or that is given for it, where it lies outside
 /// kModulusPa or kToughnessPa: its column and why no game can use it. Line 0.
@@ -98,6 +104,11 @@ std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& spec
 /// printed in that context. Stiffness drifts by the batch, E (1 + d)^step; a machine of compliance c (1/Pa) is a spring
 /// in series, 1/E_shown = 1/E + c; the load cell shows 1 + g of the force. Exactly the identity without extensions.
 double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context = {});
+/// The same for the toughness of a specimen pulled to separation, whose compliance gives back what it took.
+double observe_toughness(double toughness_pa, const material::Extensions& extensions, const PrintContext& context = {});
+/// The modulus that the machine would show as `shown_pa`, for prints that have not drifted; infinite where its
+/// compliance alone is more than that.
+double modulus_behind(double shown_pa, const material::Extensions& extensions);
 /// The same for a curve: strain_shown = slack + strain + c stress, with a first point (0, 0) before the slack is taken
 /// up. Strain may decrease where stress falls steeply.
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
@@ -66,6 +67,17 @@ double observe_modulus(double modulus_pa, const material::Extensions& extensions
   if (machine.shows_the_truth()) return modulus_pa;
   const double printed_pa = machine.drift * modulus_pa;
   return machine.gain * printed_pa / (1.0 + machine.compliance_per_pa * printed_pa);
+}
+
+double observe_toughness(double toughness_pa, const material::Extensions& extensions, const PrintContext& context) {
+  const Machine machine(extensions, context);
+  return machine.gain * machine.drift * toughness_pa;
+}
+
+double modulus_behind(double shown_pa, const material::Extensions& extensions) {
+  const Machine machine(extensions, {});
+  const double left = machine.gain - machine.compliance_per_pa * shown_pa;
+  return left > 0.0 ? shown_pa / left : std::numeric_limits<double>::infinity();
 }
 
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,

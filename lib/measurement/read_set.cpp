@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
@@ -158,6 +159,10 @@ class SetBuilder {
       return;
     }
     const std::string place = fmt::format("{}:{}", table_, row.line);
+    if (const std::size_t at = heading.position[kPrintOrder];
+        at < row.cells.size() && !row.cells[at].text.empty() && record->print_order == 0)
+      set_.warnings.push_back(
+          fmt::format("{}: column print_order: {} counts as unknown, count from 1", place, row.cells[at].text));
     const auto [known, is_new] = index_of_.try_emplace(record->specimen, set_.specimens.size(), row.line);
     const auto [index, first_line] = known->second;
     if (is_new) {
@@ -178,10 +183,13 @@ class SetBuilder {
   InputError nothing_usable() const {
     if (set_.rejected.empty())
       return InputError::format("{}: has a heading only, expected one row per specimen", table_);
-    const RejectedRow& first = set_.rejected.front();
-    const std::string column = first.column.empty() ? "" : fmt::format(" column {}:", first.column);
-    return InputError::format("{}: none of {} rows is usable; the first, line {}:{} {}", table_, set_.rejected.size(),
-                              first.line, column, first.reason);
+    constexpr std::size_t kMostShown = 20;
+    std::string reasons;
+    for (const RejectedRow& row : std::span(set_.rejected).first(std::min(kMostShown, set_.rejected.size())))
+      reasons += fmt::format("\n  line {}:{} {}", row.line,
+                             row.column.empty() ? "" : fmt::format(" column {}:", row.column), row.reason);
+    if (set_.rejected.size() > kMostShown) reasons += fmt::format("\n  and {} more", set_.rejected.size() - kMostShown);
+    return InputError::format("{}: none of {} rows is usable:{}", table_, set_.rejected.size(), reasons);
   }
 
   std::filesystem::path folder_;

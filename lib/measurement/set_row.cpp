@@ -1,9 +1,13 @@
 #include "measurement/set_row.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "base/files.hpp"
 #include "measurement/set_files.hpp"
+#include "pattern/coupons.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::measurement {
@@ -125,10 +129,8 @@ class RowParser {
     const Result<int> order = integer_from_text(cell);
     if (!order) {
       reject(kPrintOrder, order.error().message);
-    } else if (*order < 1) {
-      reject(kPrintOrder, fmt::format("{}, expected an integer from 1, or nothing where it is unknown", *order));
     }
-    return order.value_or(0);
+    return std::max(0, order.value_or(0));  // 0: unknown
   }
 
   bool validity() {
@@ -146,11 +148,18 @@ class RowParser {
     }
     const Result<pattern::Design> named = pattern::design_from_name(name);
     if (named) return *named;
+    if (const std::optional<Result<pattern::Layout>> coupon = pattern::coupon_from_name(name)) {
+      if (*coupon) return **coupon;
+      reject(kPattern, coupon->error().message);
+      return {};
+    }
     const Result<std::filesystem::path> path = file_inside(folder_, name);
     if (!path) {
-      reject(kPattern,
-             fmt::format("{}; expected a key, rigid, soft, interface, mix:F with 0 <= F <= 1, or a file of the set: {}",
-                         named.error().message, path.error().message));
+      reject(
+          kPattern,
+          fmt::format(
+              "{}; expected a key, rigid, soft, interface, mix:F with 0 <= F <= 1, a coupon, or a file of the set: {}",
+              named.error().message, path.error().message));
       return {};
     }
     return design_of_file(*path, name);
@@ -188,23 +197,13 @@ class RowParser {
     }
   }
 
-  /// Every test needs a value of its own kind; the notched specimen says nothing of the modulus, and a modulus test
-  /// nothing of the toughness.
+  /// The notched specimen says nothing of the modulus, and a modulus test nothing of the toughness.
   void check_consistency(const SpecimenRecord& record) {
-    if (fault_ || planned_) return;
-    if (record.test == tester::TestKind::modulus && !modulus_of(record)) {
-      reject(kModulus, "no modulus, expected modulus_pa, or a curve from below 0.05 % strain that rises to 0.25 %");
-    }
-    if (record.test == tester::TestKind::toughness && !record.toughness_pa) {
-      if (record.curve.empty()) reject(kToughness, "no toughness, expected toughness_pa or a curve");
-      if (!record.curve.empty() && tester::area_under(record.curve) <= 0.0) {
-        reject(kCurve, "the area under the curve is not positive, expected a stress-strain curve to separation");
-      }
-    }
-    if (record.test != tester::TestKind::tensile) return;
-    if (record.curve.empty()) reject(kCurve, "no curve, expected one for a tensile test");
-    if (!record.design.mixture())
-      reject(kPattern, "a tensile coupon is homogeneous, expected rigid, soft, interface or mix:F");
+    if (fault_ || planned_ || !record.valid) return;  // what failed need not have said anything
+    const std::optional<RejectedRow> missing = missing_result(record);
+    if (!missing) return;
+    const auto column = std::ranges::find(kColumns, missing->column);
+    reject(static_cast<Column>(column - std::begin(kColumns)), missing->reason);
   }
 
   const std::filesystem::path& folder_;

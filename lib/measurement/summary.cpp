@@ -10,6 +10,7 @@
 
 #include "base/statistics.hpp"
 #include "measurement/measurement.hpp"
+#include "measurement/set_files.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -38,18 +39,22 @@ tester::Curve representative(std::span<const SpecimenRecord* const> specimens, d
   return nearest == nullptr ? tester::Curve{} : nearest->curve;
 }
 
-Replicates summarise_group(std::span<const SpecimenRecord* const> specimens) {
+using BatchSteps = std::map<const SpecimenRecord*, double>;
+
+Replicates summarise_group(std::span<const SpecimenRecord* const> specimens, const BatchSteps& batch_steps) {
   Replicates group;
   group.design = specimens.front()->design;
   group.conditions = specimens.front()->conditions;
   std::set<std::string> batches;
-  std::vector<double> moduli, toughnesses;
+  std::vector<double> moduli, toughnesses, modulus_steps, toughness_steps;
   for (const SpecimenRecord* specimen : specimens) {
     group.specimens.push_back(specimen->specimen);
     if (!specimen->batch.empty()) batches.insert(specimen->batch);
     const bool is_modulus = specimen->test == tester::TestKind::modulus;
     const std::optional<double> value = is_modulus ? modulus_of(*specimen) : toughness_of(*specimen);
-    if (value) (is_modulus ? moduli : toughnesses).push_back(*value);
+    if (!value) continue;
+    (is_modulus ? moduli : toughnesses).push_back(*value);
+    (is_modulus ? modulus_steps : toughness_steps).push_back(batch_steps.at(specimen));
   }
   for (const std::string& batch : batches) group.batch_list += (group.batch_list.empty() ? "" : ",") + batch;
   group.modulus_count = static_cast<int>(moduli.size());
@@ -58,6 +63,8 @@ Replicates summarise_group(std::span<const SpecimenRecord* const> specimens) {
   group.toughness_count = static_cast<int>(toughnesses.size());
   group.toughness_pa = mean_of(toughnesses);
   group.toughness_sd_pa = standard_deviation(toughnesses);
+  group.modulus_batch_step = mean_of(modulus_steps);
+  group.toughness_batch_step = mean_of(toughness_steps);
   group.representative_curve = representative(specimens, group.toughness_pa);
   return group;
 }
@@ -114,6 +121,28 @@ std::optional<double> toughness_of(const SpecimenRecord& specimen) {
   return tester::area_under(specimen.curve);
 }
 
+std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen) {
+  const auto lacks = [](const char* column, std::string reason) { return RejectedRow{0, column, std::move(reason)}; };
+  if (!specimen.curve.empty() && specimen.curve.size() < kFewestCurveRows)
+    return lacks("curve", fmt::format("has {} rows, expected at least {}", specimen.curve.size(), kFewestCurveRows));
+  switch (specimen.test) {
+    case tester::TestKind::modulus:
+      if (modulus_of(specimen)) return std::nullopt;
+      return lacks("modulus_pa",
+                   "no modulus, expected modulus_pa, or a curve from below 0.05 % strain that rises to 0.25 %");
+    case tester::TestKind::toughness:
+      if (specimen.toughness_pa) return std::nullopt;
+      if (specimen.curve.empty()) return lacks("toughness_pa", "no toughness, expected toughness_pa or a curve");
+      if (tester::area_under(specimen.curve) > 0.0) return std::nullopt;
+      return lacks("curve", "the area under the curve is not positive, expected a stress-strain curve to separation");
+    case tester::TestKind::tensile:
+      if (specimen.curve.empty()) return lacks("curve", "no curve, expected one for a tensile test");
+      if (specimen.design.mixture()) return std::nullopt;
+      return lacks("pattern", "a tensile coupon is homogeneous, expected rigid, soft, interface or mix:F");
+  }
+  return std::nullopt;
+}
+
 std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
   const auto reason = [](double value, const Limits& usual) {
     return fmt::format("{} Pa, expected {} to {}; is the unit Pa?", value, usual.least, usual.most);
@@ -130,6 +159,9 @@ std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
 
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {
   std::map<GroupKey, std::vector<const SpecimenRecord*>> groups;
+  BatchSteps batch_steps;
+  const std::vector<PrintContext> contexts = print_contexts(specimens);
+  for (std::size_t i = 0; i < specimens.size(); ++i) batch_steps.emplace(&specimens[i], contexts[i].batch_step);
   for (const SpecimenRecord& specimen : specimens) {
     if (specimen.valid && specimen.test != tester::TestKind::tensile) groups[group_of(specimen)].push_back(&specimen);
   }
@@ -139,7 +171,7 @@ std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) 
     std::sort(members.begin(), members.end(), [](const auto* a, const auto* b) { return a->specimen < b->specimen; });
     const auto repeat = [](const auto* a, const auto* b) { return *a == *b; };
     members.erase(std::unique(members.begin(), members.end(), repeat), members.end());
-    replicates.push_back(summarise_group(members));
+    replicates.push_back(summarise_group(members, batch_steps));
   }
   return replicates;
 }

@@ -30,6 +30,8 @@ void append_utf8(std::string& text, std::uint32_t point) {
   }
 }
 
+constexpr std::uint32_t kReplacementCharacter = 0xFFFD;
+
 Result<std::string> from_utf16(std::string_view bytes, bool low_byte_first) {
   if (bytes.size() % 2 != 0) return fail("UTF-16 text with half a character at its end, expected a whole file");
   const auto unit_at = [&](std::size_t i) {
@@ -38,29 +40,24 @@ Result<std::string> from_utf16(std::string_view bytes, bool low_byte_first) {
   };
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    std::uint32_t point = unit_at(i);
-    if (point >= 0xD800 && point < 0xDC00 && i + 3 < bytes.size()) {
-      const std::uint32_t low = unit_at(i + 2);
-      point = 0x10000 + ((point - 0xD800) << 10) + (low - 0xDC00);
+    const std::uint32_t unit = unit_at(i);
+    const bool is_surrogate = unit >= 0xD800 && unit < 0xE000;
+    const std::uint32_t low = is_surrogate && i + 3 < bytes.size() ? unit_at(i + 2) : 0;
+    if (unit < 0xDC00 && low >= 0xDC00 && low < 0xE000) {
+      append_utf8(text, 0x10000 + ((unit - 0xD800) << 10) + (low - 0xDC00));
       i += 2;
+    } else {
+      append_utf8(text, is_surrogate ? kReplacementCharacter : unit);  // half a pair says nothing
     }
-    append_utf8(text, point);
   }
   return text;
 }
 
 bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const int following = lead < 0x80                   ? 0
-                          : lead >= 0xC2 && lead < 0xE0 ? 1
-                          : lead >= 0xE0 && lead < 0xF0 ? 2
-                          : lead >= 0xF0 && lead < 0xF5 ? 3
-                                                        : -1;
-    if (following < 0) return false;
-    for (int k = 0; k < following; ++k) {
-      if (++i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-    }
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
   }
   return true;
 }

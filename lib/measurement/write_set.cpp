@@ -48,12 +48,6 @@ std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const 
   return cells;
 }
 
-void create_folders(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw InputError::format("{}: cannot be created: {}", folder.string(), failure.message());
-}
-
 /// Names of what lies among the curves: raw exports may be kept there too, and nothing is written over.
 std::set<std::string> names_taken(const std::filesystem::path& folder) {
   std::set<std::string> taken;
@@ -65,7 +59,7 @@ std::set<std::string> names_taken(const std::filesystem::path& folder) {
 
 /// Writes the specimens' curves and puts their rows at the end of the table.
 void add_specimens(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens, SetTable& table) {
-  create_folders(folder / "curves");
+  make_folder(folder / "curves");
   std::set<std::string> taken = names_taken(folder);
   for (const SpecimenRecord& record : specimens) {
     const std::string curve = record.curve.empty() ? "" : curve_name(record.specimen, taken);

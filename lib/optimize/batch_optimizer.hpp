@@ -26,10 +26,6 @@ struct BatchOptimizerSettings {
   int batch = thesis::kCalibrationBatch;  ///< points asked for at once
   std::uint64_t seed = 1;
   std::vector<Point> starts;  ///< points to begin with, best guess first (may be empty)
-  /// Evaluations after the best one before the search gives up, when `least_gain` of the best value was not gained; 0:
-  /// never. Never a time: the same values told give the same points on any machine.
-  int patience = 0;
-  double least_gain = 1e-3;
   double value_deviation =
       0.0;               ///< known standard deviation of a value: repeatability of the testers, scatter of replicates
   int first_points = 0;  ///< space-filling points after the starts, of methods that have a model; 0: 2 dimension + 1
@@ -46,7 +42,8 @@ class BatchOptimizer {
   /// Best evaluation so far; nothing before the first success.
   virtual std::optional<Evaluation> best() const = 0;
   /// Goes on where a search with the same settings stopped: `told` is everything that one was told, in order, in whole
-  /// batches. Call it first. Throws InputError when these settings would not have asked for those points.
+  /// batches. Call it first. Throws InputError when these settings would not have asked for those points; Bayesian
+  /// optimisation, which would have to think all of it anew, looks at the dimension alone.
   virtual void resume(const std::vector<Evaluation>& told);
 };
 

@@ -30,7 +30,7 @@ RecordedOptimizer::RecordedOptimizer(const BatchOptimizerSettings& settings) : s
 std::vector<Point> RecordedOptimizer::ask() {
   assert(asked_.empty() && "ask() before the last batch was told");
   const int count = std::min(settings_.batch, settings_.budget - told_count());
-  if (count <= 0 || gave_up()) return {};
+  if (count <= 0) return {};
   while (next_start_ < settings_.starts.size() && static_cast<int>(asked_.size()) < count) {
     asked_.push_back(settings_.starts[next_start_++]);
   }
@@ -46,7 +46,6 @@ void RecordedOptimizer::tell(const std::vector<std::optional<double>>& values) {
   assert(values.size() == asked_.size() && "tell() must answer the whole batch");
   for (std::size_t i = 0; i < asked_.size(); ++i) keep({std::move(asked_[i]), values[i]});
   asked_.clear();
-  look_for_gain();
   told();
 }
 
@@ -56,13 +55,6 @@ void RecordedOptimizer::keep(Evaluation evaluation) {
   evaluations_.push_back(std::move(evaluation));
 }
 
-void RecordedOptimizer::look_for_gain() {
-  if (!best_) return;
-  if (milestone_at_ > 0 && *best_->value >= milestone_ - settings_.least_gain * std::abs(milestone_)) return;
-  milestone_ = *best_->value;
-  milestone_at_ = told_count();
-}
-
 void RecordedOptimizer::restore(const std::vector<Evaluation>& told) {
   for (std::size_t i = 0; i < told.size(); ++i) {
     if (static_cast<int>(told[i].point.size()) != settings_.dimension) {
@@ -70,7 +62,6 @@ void RecordedOptimizer::restore(const std::vector<Evaluation>& told) {
                                settings_.dimension);
     }
     keep(told[i]);
-    if ((i + 1) % static_cast<std::size_t>(settings_.batch) == 0 || i + 1 == told.size()) look_for_gain();
   }
   next_start_ = std::min(told.size(), settings_.starts.size());
 }
@@ -90,10 +81,6 @@ void BatchOptimizer::resume(const std::vector<Evaluation>& told) {
       throw InputError::format("optimiser: {} evaluations, but these settings end after {}", told.size(), done);
     tell(values);
   }
-}
-
-bool RecordedOptimizer::gave_up() const {
-  return settings_.patience > 0 && told_count() - milestone_at_ >= settings_.patience;
 }
 
 std::vector<double> RecordedOptimizer::values() const {

@@ -1,5 +1,5 @@
 #pragma once
-// What every optimiser of this module keeps: its settings, everything told, the best of it, and when to give up.
+// What the optimisers that are asked batch by batch keep: their settings, everything told, and the best of it.
 
 #include "optimize/batch_optimizer.hpp"
 
@@ -32,13 +32,9 @@ class RecordedOptimizer : public BatchOptimizer {
   std::vector<Point> asked_;  ///< not answered yet
 
  private:
-  bool gave_up() const;
   void keep(Evaluation evaluation);
-  void look_for_gain();
 
   std::optional<Evaluation> best_;
-  double milestone_ = 0.0;  ///< the value from which the last gain that counts was made
-  int milestone_at_ = 0;
   std::size_t next_start_ = 0;
 };
 

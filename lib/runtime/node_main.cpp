@@ -1,4 +1,5 @@
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,15 @@
 #include "runtime/version.hpp"
 
 namespace nacre::runtime {
+namespace {
+
+/// The same folder with its name at the end of the path, also where someone wrote `logs/RUN/` or `.`.
+std::filesystem::path named_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
+
+}  // namespace
 
 void add_node_options(CLI::App& app, NodeOptions& options) {
   app.add_option("--run-dir", options.run_dir, "folder of the run, logs/RUN")->required();
@@ -23,6 +33,7 @@ void add_node_options(CLI::App& app, NodeOptions& options) {
 
 int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
               const std::function<void(CLI::App&)>& add_options) {
+  turn_write_signals_into_errors();  // before any file is opened
   CLI::App app("nacre " + node);
   app.set_version_flag("--version", version_in_words());
   NodeOptions options;
@@ -36,6 +47,7 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
     return status == 0 ? 0 : 2;
   }
   try {
+    options.run_dir = named_folder(options.run_dir);
     if (options.scenario_file.empty()) options.scenario_file = options.run_dir / "scenario.toml";
     const game::Scenario scenario = game::read_scenario(options.scenario_file);
     options.participants = scenario.nodes();

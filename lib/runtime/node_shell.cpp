@@ -52,13 +52,12 @@ extern "C" void request_stop(int) {
 }
 
 void prepare_process(bool follow_parent) {
+  turn_write_signals_into_errors();
   wake_fd = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   struct sigaction action {};
   action.sa_handler = request_stop;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit becomes a write error, which is handled
-  std::signal(SIGPIPE, SIG_IGN);  // so does a reader of our standard error that went away
   if (follow_parent) ::prctl(PR_SET_PDEATHSIG, SIGTERM);
 }
 
@@ -357,10 +356,15 @@ class NodeShell {
 
 }  // namespace
 
+void turn_write_signals_into_errors() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of our standard error that went away
+}
+
 int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work,
              const MakeExecutor& executor) {
   prepare_process(options.follow_parent);
-  if (options.run_id.empty()) options.run_id = std::filesystem::absolute(options.run_dir).lexically_normal().filename();
+  if (options.run_id.empty()) options.run_id = options.run_dir.filename();
   std::error_code ignored;  // Journal::open says why the folder cannot be created
   std::filesystem::create_directories(options.node_dir(), ignored);
   TextLog log(options.node, options.node_dir());

@@ -38,6 +38,9 @@ struct NodeOptions {
   std::filesystem::path node_dir() const { return run_dir / "nodes" / node; }
 };
 
+/// Signals that would end the process at a failed write leave an error in their place, which is handled.
+void turn_write_signals_into_errors();
+
 /// Runs the node until SIGINT or SIGTERM. Journal and text log stand in RUN_DIR/nodes/NODE. Returns the exit status: 0
 /// stopped in order, 1 something failed while running (disk full, an output that breaks the rules), 2 bad input
 /// (journal damaged or in use, a core that no longer reproduces its journal, no multicast). The sentence goes to

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/journal.hpp"
@@ -17,12 +18,6 @@ namespace nacre::runtime {
 namespace fs = std::filesystem;
 
 namespace {
-
-void make_folder(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) throw InputError::format("{}: cannot be made: {}", folder.string(), problem.message());
-}
 
 /// A journal up to its last whole record, with a new identity.
 void copy_journal(const fs::path& from, const fs::path& to) {
@@ -51,7 +46,7 @@ enum class Kind { journal, database, file, none };
 Kind kind_of(const fs::path& relative) {
   const std::string name = relative.filename().string(), extension = relative.extension().string();
   const bool is_of_cluster = relative.begin() != relative.end() && *relative.begin() == "slurm";
-  if (is_of_cluster || name == "lock" || extension == ".part" || name.ends_with(".db-wal") ||
+  if (is_of_cluster || name == "lock" || name == "launcher.lock" || extension == ".part" || name.ends_with(".db-wal") ||
       name.ends_with(".db-shm")) {
     return Kind::none;
   }

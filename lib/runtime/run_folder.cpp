@@ -18,9 +18,11 @@
 
 #include "base/files.hpp"
 #include "base/hash.hpp"
+#include "base/names.hpp"
 #include "base/result.hpp"
 #include "runtime/process.hpp"
 #include "tester/tester.hpp"
+#include "wire/header.hpp"
 
 namespace nacre::runtime {
 namespace {
@@ -51,12 +53,6 @@ std::string source_commit() {
   return without_line_end(commit.output) + (changes.output.empty() ? "" : "+changes");
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError::format("{}: cannot be made: {}", folder.string(), error.message());
-}
-
 /// Replaces `link` in one step, so that a reader never finds it missing.
 void point_link_at(const fs::path& link, const fs::path& target) {
   const fs::path aside = link.string() + ".part";
@@ -76,13 +72,16 @@ void take_along(std::string& file, const fs::path& folder, const std::string& na
   file = "inputs/" + name;
 }
 
-bool port_is_free(int port) {
+/// `shared`: listeners of LCM may be there, as an own laboratory or a logger that waits for the run.
+bool port_is_free(int port, bool shared) {
   const int probe = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const int yes = shared ? 1 : 0;
+  ::setsockopt(probe, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_ANY);
   address.sin_port = htons(static_cast<std::uint16_t>(port));
-  // Without SO_REUSEADDR: fails when anyone listens there, also another bus.
+  // Without SO_REUSEADDR this fails when anyone listens there, also another bus.
   const bool is_free = ::bind(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   ::close(probe);
   return is_free;
@@ -106,9 +105,9 @@ int claim_port(int port) {
 PortReservation::PortReservation(int wanted) {
   constexpr int kFirst = 7700;
   constexpr int kCount = 2000;
-  const auto take = [this](int port) {
+  const auto take = [this, wanted](int port) {
     claim_ = claim_port(port);
-    if (claim_ >= 0 && port_is_free(port)) {
+    if (claim_ >= 0 && port_is_free(port, wanted != 0)) {
       port_ = port;
       return true;
     }
@@ -134,11 +133,11 @@ PortReservation::~PortReservation() {
 
 namespace {
 
-/// A run's name is a folder's name and stands in every message.
+/// A run's name is a folder's name and stands in every message; empty: the launcher makes one.
 void check_name(const std::string& name) {
-  const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
-  if (!std::ranges::all_of(name, allowed) || name.starts_with('.'))
-    throw InputError::format("run name \"{}\", expected letters, digits, '-', '_' and '.', not '.' first", name);
+  if (name.empty() || (is_plain_name(name, wire::kMaximumName, ".") && !name.starts_with('.'))) return;
+  throw InputError::format("run name \"{}\", expected at most {} letters, digits, '-', '_' and '.', not '.' first",
+                           name, wire::kMaximumName);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "store/database_care.hpp"
 
 #include <functional>
+#include <optional>
 
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -27,17 +28,19 @@ SQLite::Database opened(const fs::path& path) {
   return database;
 }
 
-/// Rows of a query until they end or cannot be read.
-std::int64_t take_rows(SQLite::Database& from, const std::string& sql,
-                       const std::function<void(SQLite::Statement&)>& take) {
-  std::int64_t rows = 0;
+/// The next row, where one can be read. What lies beyond a page that cannot is reached from the other end.
+bool step(std::optional<SQLite::Statement>& query, SQLite::Database& from, const std::string& sql) {
   try {
-    SQLite::Statement query(from, sql);
-    for (; query.executeStep(); ++rows) take(query);
+    if (!query) query.emplace(from, sql);
+    return query->executeStep();
   } catch (const SQLite::Exception&) {
-    // A page that cannot be read: what lies on its other side is reached from the other end.
+    return false;
   }
-  return rows;
+}
+
+/// Rows of a query until they end or cannot be read; what `take` throws passes through.
+void take_rows(SQLite::Database& from, const std::string& sql, const std::function<void(SQLite::Statement&)>& take) {
+  for (std::optional<SQLite::Statement> query; step(query, from, sql);) take(*query);
 }
 
 /// Copies the rows that fit their checksum (the last column), first from one end, then from the other.

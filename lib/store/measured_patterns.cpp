@@ -27,11 +27,13 @@ bool is_over(const RunRecord& run) {
 
 std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round) {
   const int newest = newest_round(run).value_or(0);
+  // What no round claims yet belongs to the one that is being measured, of which nothing else may be known.
+  const int measuring = std::max(newest, newest_closed_round(run).value_or(-1) + 1);
   std::vector<measurement::SpecimenRecord> known;
   std::map<std::string, int> first_round;
   for (const MeasuredSpecimen& specimen : run.specimens) {
-    const int measured_in = specimen.round < 0 ? newest : specimen.round;
-    if (measured_in > round) continue;
+    if ((specimen.round < 0 ? newest : specimen.round) > round) continue;
+    const int measured_in = specimen.round < 0 ? measuring : specimen.round;
     known.push_back(specimen.record);
     const auto [place, is_new] = first_round.emplace(specimen.record.design.name(), measured_in);
     if (!is_new) place->second = std::min(place->second, measured_in);

@@ -2,6 +2,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "base/result.hpp"
@@ -130,14 +132,20 @@ void keep(SQLite::Database& db, const wire::Measurement& m) {
 }
 
 void keep(SQLite::Database& db, const review_t& r) {
-  run(db, "INSERT OR REPLACE INTO review VALUES (?,?,?,?,?)", r.specimen, r.revision, r.valid != 0, r.by, r.why);
+  // Of two with one revision "not valid" stands, whichever came first.
+  run(db,
+      "INSERT INTO review VALUES (?1,?2,?3,?4,?5) ON CONFLICT (specimen, revision) DO UPDATE SET "
+      "valid = ?3, who = ?4, why = ?5 WHERE ?3 < valid",
+      r.specimen, r.revision, r.valid != 0, r.by, r.why);
 }
 
 void keep(SQLite::Database& db, const diagnosis_t& d) {
   const auto when_gained = [&](double value) { return d.has_gain ? std::optional<double>(value) : std::nullopt; };
   run(db, "INSERT OR REPLACE INTO diagnosis VALUES (?,?,?,?,?,?)", d.round, d.verdict, d.summary,
       when_gained(d.held_out_error_before), when_gained(d.held_out_error_after), when_gained(d.relative_reduction));
+  std::set<std::string> named;
   for (const effect_t& e : d.effects) {
+    if (!named.insert(e.name).second) continue;  // what it takes beside its size
     run(db, "INSERT OR REPLACE INTO diagnosis_effect VALUES (?,?,?,?,?,?)", d.round, e.name, e.parameter,
         e.interval_low, e.interval_high, e.unit);
   }

@@ -195,10 +195,13 @@ struct BaseCalibration::State {
     return fairest;
   }
 
+  /// Base materials that this test was done on, whether or not there is a budget to fit them.
   std::vector<std::size_t> items_with(bool modulus) const {
     std::vector<std::size_t> items;
     for (const Material& material : materials) {
-      if (modulus ? material.modulus.has_value() : !material.toughness.empty()) items.push_back(*material.item);
+      if (!material.item) continue;
+      const measurement::Replicates& base = measured[*material.item];
+      if ((modulus ? base.modulus_count : base.toughness_count) > 0) items.push_back(*material.item);
     }
     return items;
   }
@@ -259,12 +262,16 @@ struct BaseCalibration::State {
     assert(index < wanted.size() && predictions.size() == wanted[index].items.size());
     if (told[index]) return;  // a repeat
     std::vector<Prediction> shown;
-    for (const Prediction& prediction : predictions) shown.push_back(observed(prediction, settings.start.extensions));
+    for (std::size_t j = 0; j < predictions.size(); ++j)
+      shown.push_back(observed(predictions[j], settings.start.extensions, measured[wanted[index].items[j]]));
     told[index] = std::move(shown);
     result.simulations += static_cast<int>(predictions.size());
     if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;
     for (std::size_t k = 0; k < wanted.size(); ++k) hand_over(wanted[k], candidates[k], *told[k]);
-    if (phase == Phase::start) phase = Phase::dampings;
+    if (phase == Phase::start) {
+      phase = Phase::dampings;
+      after = before;  // what has no budget stays as it is
+    }
     ask();
   }
 

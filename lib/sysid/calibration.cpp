@@ -214,7 +214,8 @@ struct Calibration::State {
     assert(index < wanted.size() && predictions.size() == wanted[index].items.size());
     if (told[index]) return;  // a repeat
     std::vector<Prediction> shown;
-    for (const Prediction& prediction : predictions) shown.push_back(observed(prediction, settings.start.extensions));
+    for (std::size_t j = 0; j < predictions.size(); ++j)
+      shown.push_back(observed(predictions[j], settings.start.extensions, measured[wanted[index].items[j]]));
     told[index] = std::move(shown);
     result.simulations += static_cast<int>(predictions.size());
     if (std::any_of(told.begin(), told.end(), [](const auto& answer) { return !answer; })) return;

@@ -95,12 +95,12 @@ struct CalibrationSettings {
   int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported
   int ensemble_size = 0;  ///< further parameter sets drawn from what the data leave possible
   NumericsFloor floor;
-  std::vector<double> weights;  ///< of the measured designs in place of (2.9)-(2.11), 0..1: a weight of 0.1 counts as a
-                                ///< tenth of a design
+  std::vector<double> weights;  ///< of the measured designs in place of (2.9)-(2.11), above 0, at most 1: a weight of
+                                ///< 0.1 counts as a tenth of a design
   std::uint64_t seed = 1;
 };
 
-/// One evaluation wanted: the `tests` of all `designs` with these parameters.
+/// One evaluation wanted: the tests named, of all `items`, with these parameters.
 struct WantedEvaluation {
   std::string id;  ///< unique within the calibration
   material::ParameterSet parameters;

@@ -18,7 +18,7 @@ double square(double x) { return x * x; }
 
 FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor)
     : start_(std::move(start)), shared_errors_(shared_fracture_errors(data.measured, floor)) {
-  const ReplicateScatter scatter = pooled_scatter(data.measured);
+  const RelativeScatter scatter = pooled_relative_scatter(data.measured);
   for (const measurement::Replicates& design : data.measured) {
     const std::optional<double> peak = peak_of(design);
     toughness_.measured.push_back(std::log(design.toughness_pa));

@@ -46,8 +46,8 @@ std::optional<double> peak_of(const measurement::Replicates& measured) {
   return peak > 0.0 ? std::optional(peak) : std::nullopt;
 }
 
-ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& measured,
-                                const ReplicateScatter& otherwise) {
+RelativeScatter pooled_relative_scatter(const std::vector<measurement::Replicates>& measured,
+                                        const RelativeScatter& otherwise) {
   Pool modulus, toughness;
   for (const measurement::Replicates& design : measured) {
     modulus.add(design.modulus_count, design.modulus_pa, design.modulus_sd_pa);
@@ -57,17 +57,17 @@ ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& meas
           toughness.freedom};
 }
 
-double modulus_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
+double modulus_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
                         const NumericsFloor& floor) {
   return variance(scatter.log_modulus, measured.modulus_count, floor.log_modulus_sd);
 }
 
-double toughness_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
+double toughness_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
                           const NumericsFloor& floor) {
   return variance(scatter.log_toughness, measured.toughness_count, floor.log_toughness_sd);
 }
 
-double peak_variance(const ReplicateScatter& scatter, const NumericsFloor& floor) {
+double peak_variance(const RelativeScatter& scatter, const NumericsFloor& floor) {
   return variance(scatter.log_toughness, 1, floor.log_peak_sd);
 }
 

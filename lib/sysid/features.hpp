@@ -23,20 +23,20 @@ std::optional<double> peak_of(const measurement::Replicates& measured);
 
 /// Standard deviations of natural logarithms between replicates of one design, pooled over all designs that have
 /// several.
-struct ReplicateScatter {
+struct RelativeScatter {
   double log_modulus = 0.0, log_toughness = 0.0;
   int modulus_freedom = 0, toughness_freedom = 0;  ///< 0: assumed
 };
 /// `otherwise` where no design was measured twice.
-ReplicateScatter pooled_scatter(const std::vector<measurement::Replicates>& measured,
-                                const ReplicateScatter& otherwise = {0.01, 0.05});
+RelativeScatter pooled_relative_scatter(const std::vector<measurement::Replicates>& measured,
+                                        const RelativeScatter& otherwise = {0.01, 0.05});
 
 /// Variance of the mean log E and log T of one design: scatter over its replicates, and what numerics leave.
-double modulus_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
+double modulus_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
                         const NumericsFloor& floor);
-double toughness_variance(const measurement::Replicates& measured, const ReplicateScatter& scatter,
+double toughness_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
                           const NumericsFloor& floor);
 /// The peak is that of one specimen.
-double peak_variance(const ReplicateScatter& scatter, const NumericsFloor& floor);
+double peak_variance(const RelativeScatter& scatter, const NumericsFloor& floor);
 
 }  // namespace nacre::sysid

@@ -44,7 +44,7 @@ double f_tail(double value, double freedom_above, double freedom_below) {
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                  const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                  int determined) {
-  const ReplicateScatter scatter = pooled_scatter(measured);
+  const RelativeScatter scatter = pooled_relative_scatter(measured);
   const NumericsFloor none = NumericsFloor::none();
   Residuals residuals;
   for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -59,7 +59,7 @@ Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& mea
 Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                    const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                    int determined) {
-  const ReplicateScatter scatter = pooled_scatter(measured);
+  const RelativeScatter scatter = pooled_relative_scatter(measured);
   const NumericsFloor none = NumericsFloor::none();
   Residuals residuals;
   for (std::size_t i = 0; i < measured.size(); ++i) {

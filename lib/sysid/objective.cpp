@@ -33,6 +33,16 @@ Prediction observed(const Prediction& prediction, const material::Extensions& ex
   return shown;
 }
 
+Prediction observed(const Prediction& prediction, const material::Extensions& extensions,
+                    const measurement::Replicates& measured) {
+  Prediction shown =
+      observed(prediction, extensions, measurement::PrintContext{.batch_step = measured.toughness_batch_step});
+  if (prediction.modulus_pa)
+    shown.modulus_pa =
+        measurement::observe_modulus(*prediction.modulus_pa, extensions, {.batch_step = measured.modulus_batch_step});
+  return shown;
+}
+
 double relative_error(const std::optional<double>& simulated, double measured) {
   return simulated ? std::abs(*simulated - measured) / measured : 1.0;
 }

@@ -12,6 +12,9 @@ using measurement::forward_part;
 /// toughness.
 Prediction observed(const Prediction& prediction, const material::Extensions& extensions,
                     const measurement::PrintContext& context = {});
+/// The same for a measured design, whose prints may have drifted.
+Prediction observed(const Prediction& prediction, const material::Extensions& extensions,
+                    const measurement::Replicates& measured);
 
 /// |simulated - measured| / measured; 1 where the simulation gave nothing.
 double relative_error(const std::optional<double>& simulated, double measured);

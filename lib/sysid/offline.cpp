@@ -131,11 +131,13 @@ std::vector<std::vector<Prediction>> predict(const std::vector<material::Paramet
     auto& predictions = result.emplace_back(measured.size());
     const auto& extensions = parameters[k].extensions;
     for (std::size_t i = 0; i < wanted[2 * k].items.size(); ++i) {
-      predictions[wanted[2 * k].items[i]].modulus_pa = observed(answers[2 * k][i], extensions).modulus_pa;
+      const std::size_t item = wanted[2 * k].items[i];
+      predictions[item].modulus_pa = observed(answers[2 * k][i], extensions, measured[item]).modulus_pa;
     }
     for (std::size_t i = 0; i < wanted[2 * k + 1].items.size(); ++i) {
-      Prediction shown = observed(answers[2 * k + 1][i], extensions);
-      Prediction& prediction = predictions[wanted[2 * k + 1].items[i]];
+      const std::size_t item = wanted[2 * k + 1].items[i];
+      Prediction shown = observed(answers[2 * k + 1][i], extensions, measured[item]);
+      Prediction& prediction = predictions[item];
       prediction.toughness_pa = shown.toughness_pa;
       prediction.curve = std::move(shown.curve);
     }

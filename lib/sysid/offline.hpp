@@ -29,9 +29,9 @@ struct OfflineCalibration {
   bool base_materials = false;  ///< the set holds no patterns: round 0, each material by itself
   PredictionErrors before_fitted, before_held_out;
   PredictionErrors after_fitted, after_held_out;
-  PredictionErrors ensemble_held_out;             ///< of the mean over `parameters` and the ensemble, when there is one
-  std::vector<std::string> fitted, held_out;      ///< names of designs
-  std::vector<std::string> left_out;              ///< coupons beside patterns, mixtures beside base materials
+  PredictionErrors ensemble_held_out;         ///< of the mean over `parameters` and the ensemble, when there is one
+  std::vector<std::string> fitted, held_out;  ///< names of designs
+  std::vector<std::string> left_out;          ///< homogeneous specimens beside patterns, mixtures beside base materials
   std::vector<measurement::Replicates> measured;  ///< what was fitted, as Calibrated::predictions orders it
   int simulations = 0;                            ///< really done, held-out ones included
   int begun_simulations = 0;                      ///< of OfflineSettings::begin_at
@@ -40,7 +40,7 @@ struct OfflineCalibration {
 /// Called after every simulation with the share done (0..1) and what is being done.
 using ProgressCallback = std::function<void(double, std::string_view)>;
 
-/// Simulates designs[i] under conditions[i] with `tests` of one evaluation; equal questions are answered once. Failed
+/// Simulates every measured design of an evaluation under its conditions; equal questions are answered once. Failed
 /// simulations give predictions without value.
 class LocalSimulator {
  public:

@@ -95,7 +95,8 @@ const Prediction& PredictionStore::put(const std::string& key, const Prediction&
     bytes += key;
     append_floats(bytes, kept.curve.strain);
     append_floats(bytes, kept.curve.stress_pa);
-    file_->write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+    if (!file_->write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+      throw InputError("the file of predictions cannot be written; is the disk full?");
   }
   return kept;
 }

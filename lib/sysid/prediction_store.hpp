@@ -21,6 +21,7 @@ class PredictionStore {
   explicit PredictionStore(const std::filesystem::path& file);
   /// Nothing when the key is unknown; a prediction without values when the simulation failed.
   const Prediction* find(const std::string& key) const;
+  /// Throws InputError when the file cannot be written.
   const Prediction& put(const std::string& key, const Prediction& prediction);
   std::size_t size() const { return known_.size(); }
 

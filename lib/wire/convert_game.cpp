@@ -41,6 +41,7 @@ Result<tester::Curve> measured_curve(const measurement_t& message) {
     return tl::unexpected(sound.error());
   }
   for (std::size_t i = 0; i < message.strain.size(); ++i) {
+    if (message.strain[i] <= -1.0) return fail("strain is {}, expected above -1", message.strain[i]);
     const Result<void> sound =
         all_of(expect_range("strain", message.strain[i], -kLargestStrain, kLargestStrain),
                expect_range("stress_pa", message.stress_pa[i], -kLargestPressurePa, kLargestPressurePa));
@@ -248,13 +249,10 @@ Result<Measurement> from_wire(const measurement_t& message) {
   record.note = message.note;
   if (message.has_modulus) record.modulus_pa = message.modulus_pa;
   if (message.has_toughness) record.toughness_pa = message.toughness_pa;
-  if (record.valid && !record.modulus_pa && !record.toughness_pa && record.curve.empty()) {
-    return fail("{}: specimen {} is valid and carries no result", type, message.specimen);
-  }
-  const auto implausible = record.valid ? measurement::implausible_value(record) : std::nullopt;
-  if (implausible) {
-    return fail("{}: specimen {}: {} {}", type, message.specimen, implausible->column, implausible->reason);
-  }
+  if (!record.valid) return Measurement{message.round, message.order_id, *fidelity, std::move(record)};
+  auto fault = measurement::missing_result(record);
+  if (!fault) fault = measurement::implausible_value(record);
+  if (fault) return fail("{}: specimen {}: {} {}", type, message.specimen, fault->column, fault->reason);
   return Measurement{message.round, message.order_id, *fidelity, std::move(record)};
 }
 

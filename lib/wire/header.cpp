@@ -8,7 +8,6 @@ namespace nacre::wire {
 namespace {
 
 constexpr std::size_t kFingerprintSize = 8;
-constexpr std::size_t kMaximumName = 200;
 // Default header: utime, text "", epoch, seq, checksum, text "".
 constexpr std::size_t kBlankHeaderSize = 8 + (4 + 1) + 8 + 8 + 8 + (4 + 1);
 

@@ -1,6 +1,7 @@
 #pragma once
 // The header of a message, on raw bytes: every top-level type starts with its fingerprint and a header_t.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,6 +9,8 @@
 #include "base/result.hpp"
 
 namespace nacre::wire {
+
+inline constexpr std::size_t kMaximumName = 200;  ///< of a node and of a run, in bytes
 
 /// header_t without its checksum, which belongs to the bytes.
 struct Header {

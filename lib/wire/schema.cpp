@@ -236,12 +236,6 @@ class ValueLister : public Visitor {
 
 }  // namespace
 
-std::vector<std::string> type_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, structure] : message_types()) names.push_back(name);
-  return names;
-}
-
 Result<void> check_structure(std::string_view type, std::string_view payload) {
   Visitor nothing;
   return walk(type, payload, nothing);

@@ -20,9 +20,6 @@ inline constexpr std::size_t kMaximumBlankPayload = kMaximumPayload - 500;
 /// Longest text inside a message.
 inline constexpr std::size_t kMaximumText = 4096;
 
-/// Names of all message types, sorted.
-std::vector<std::string> type_names();
-
 /// Walks `payload` (fingerprint first) as a message of `type`: every count, length, zero-terminated text, truth value
 /// (0 or 1) and number (finite) must be in order and the bytes must end where the message ends. The fingerprint itself
 /// is not compared. Takes no memory that the payload asks for. The error names the field.

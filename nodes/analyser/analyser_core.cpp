@@ -40,6 +40,7 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
         {runtime::LogLevel::warning, fmt::format("{} ignored: {}", message.channel, sound.error().message)});
     return;
   }
+  if (message.channel == "MEASUREMENT" && !is_of_this_game(message.payload)) return;
   if (is_kept(message.channel)) store(message.channel, message.payload);
   if (message.channel == "PARAMETERS") {
     const auto model = wire::read<wire::AdoptedModel>(message.payload);
@@ -72,6 +73,17 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
   } else if (message.channel == "ROUND") {
     close_round(*wire::read<wire::RoundSummary>(message.payload));
   }
+}
+
+/// The validation agent refuses specimens of another fidelity, and what it does not know must not be reported.
+bool AnalyserCore::is_of_this_game(const std::string& measurement) {
+  const auto measured = wire::read<wire::Measurement>(measurement);
+  if (measured->fidelity == scenario_.fidelity) return true;
+  outputs_.log.push_back(
+      {runtime::LogLevel::warning,
+       fmt::format("specimen {} ignored: measured at fidelity {}, the game is played at {}", measured->record.specimen,
+                   tester::to_string(measured->fidelity), tester::to_string(scenario_.fidelity))});
+  return false;
 }
 
 void AnalyserCore::store(const std::string& channel, const std::string& payload) {

@@ -38,6 +38,7 @@ class AnalyserCore : public runtime::NodeCore {
   std::vector<std::string> missing_specimens() const;
   void diagnose_when_complete();
   void close_round(const wire::RoundSummary& round);
+  bool is_of_this_game(const std::string& measurement);
   void accept_measurement(const std::string& payload);
   void ask_about_measured_designs();
   void ask_for_films();

@@ -21,8 +21,6 @@ using diagnosis::Candidate;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
-std::string spaced(const std::string& name) { return escaped(material::effect_in_words(name)); }
-
 /// Too few data (diagnosis::undecided): nothing was weighed, only the summary says something.
 bool is_undecided(const Diagnosis& d) {
   return d.verdict == Verdict::ambiguous && d.possible.empty() && d.candidates.empty();
@@ -34,7 +32,7 @@ std::string headline(const Diagnosis& d) {
       return "Nothing is wrong beyond noise";
     case Verdict::named: {
       std::string names;
-      for (const auto& effect : d.effects) names += (names.empty() ? "" : " and ") + spaced(effect.name);
+      for (const auto& effect : d.effects) names += (names.empty() ? "" : " and ") + effect_name(effect.name);
       return "The cause is " + names;
     }
     case Verdict::ambiguous:
@@ -88,7 +86,7 @@ std::string cause_section(const Diagnosis& d) {
   std::string content;
   for (const auto& named : d.effects) {
     const material::Effect* effect = material::find_effect(named.name);
-    content += fmt::format("<h3>{}</h3>\n", spaced(named.name));
+    content += fmt::format("<h3>{}</h3>\n", effect_name(named.name));
     if (effect != nullptr) content += paragraph(escaped(effect->explanation));
     const std::string meaning = effect != nullptr ? escaped(effect->parameters.front().meaning) : "";
     content +=
@@ -106,11 +104,11 @@ std::string cause_section(const Diagnosis& d) {
     std::string list;
     for (const auto& model : d.possible) {
       std::string names;
-      for (const std::string& name : model) names += (names.empty() ? "" : " with ") + spaced(name);
+      for (const std::string& name : model) names += (names.empty() ? "" : " with ") + effect_name(name);
       list += fmt::format("<li>{}</li>\n", names);
     }
     content += paragraph("Each of these explains the data as well as the others:") + "<ul>" + list + "</ul>\n";
-    if (!d.common_ground.empty()) content += paragraph("Common to all of them: " + spaced(d.common_ground) + ".");
+    if (!d.common_ground.empty()) content += paragraph("Common to all of them: " + effect_name(d.common_ground) + ".");
   }
   if (d.verdict == Verdict::unexplained) {
     content += paragraph(
@@ -147,9 +145,9 @@ std::string rivals_section(const Diagnosis& d) {
   for (const Candidate& c : d.candidates) {
     const bool acts = c.status != "not_applicable";
     rows += table_row(
-        {spaced(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–",
+        {effect_name(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–",
          acts ? percent(c.absorption) : "–",
-         c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", spaced(c.nearest_rival), figure(c.rival_cosine)),
+         c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", effect_name(c.nearest_rival), figure(c.rival_cosine)),
          acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
   }
   return section("rivals", "What else could explain it",
@@ -198,11 +196,7 @@ std::string findings(const Diagnosis& d, tester::Fidelity fidelity) {
 
 std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, tester::Fidelity fidelity) {
   const std::string title = fmt::format("Diagnosis of {}", escaped(set));
-  std::string page = fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width, "
-      "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-      title, report_style());
+  std::string page = page_begin(title);
   page += fmt::format("<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", title, headline(d));
   page += paragraph(escaped(d.summary), "standing");
   if (!d.noise_known)

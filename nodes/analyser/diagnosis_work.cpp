@@ -5,6 +5,7 @@
 #include "analyser/works.hpp"
 #include "base/result.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "material/extensions.hpp"
 #include "runtime/journal.hpp"
 
 namespace nacre::analyser {
@@ -50,6 +51,11 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
   message.summary = d.summary;
   for (const diagnosis::NamedEffect& e : d.effects) {
     message.effects.push_back({e.name, e.family, e.parameter, e.interval_low, e.interval_high, e.unit});
+    // What an effect takes beside its size follows under the same name.
+    const auto& numbers = material::find_effect(e.name)->parameters;
+    for (std::size_t p = 0; p < e.further.size(); ++p)
+      message.effects.push_back(
+          {e.name, e.family, e.further[p], e.further[p], e.further[p], std::string(numbers[p + 1].unit)});
   }
   for (const diagnosis::Candidate& c : d.candidates) {
     message.candidates.push_back({c.name, c.status, c.statistic, c.p_family_wise, c.absorption});

@@ -120,12 +120,7 @@ std::string render_paper(const PaperSource& source, const std::vector<Exhibit>& 
       "font-size: 13px; } "
       "figcaption { color: var(--quiet); } td { font-size: 13px; } td:first-child { white-space: nowrap; } @media "
       "print { .files { display: none; } }";
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-      "<title>{} – figures and tables – nacre</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n",
-      escaped(source.run_id), report_style(), kExtraStyle);
+  std::string page = page_begin(fmt::format("{} – figures and tables – nacre", escaped(source.run_id)), kExtraStyle);
   page += fmt::format(
       "<header>\n<p class=\"eyebrow\">nacre, figures and tables of the thesis from a run of one's "
       "own</p>\n<h1>{}</h1>\n",

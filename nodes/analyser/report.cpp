@@ -173,16 +173,9 @@ std::string curve_section(const store::RunRecord& run) {
 }
 
 std::string render_report(const store::RunRecord& run, const std::string& run_id) {
-  // The policy forbids the page every outside resource and every script, should a text ever slip through.
-  return fmt::format(
-             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
-             "<title>{} – nacre</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-             escaped(run_id), report_style()) +
-         standing_section(run, run_id) + gamut_section(run) + round_section(run) + error_section(run) +
-         best_designs_section(run) + proposal_section(run) + curve_section(run) + diagnosis_section(run) +
-         specimen_section(run) + "</main>\n</body>\n</html>\n";
+  return page_begin(escaped(run_id) + " – nacre") + standing_section(run, run_id) + gamut_section(run) +
+         round_section(run) + error_section(run) + best_designs_section(run) + proposal_section(run) +
+         curve_section(run) + diagnosis_section(run) + specimen_section(run) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace nacre::analyser

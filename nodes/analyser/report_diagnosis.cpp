@@ -11,13 +11,11 @@
 namespace nacre::analyser {
 namespace {
 
-std::string spaced(const std::string& name) { return escaped(material::effect_in_words(name)); }
-
 std::string effect_table(const std::vector<store::RecordedEffect>& effects) {
   if (effects.empty()) return "";
   std::string rows;
   for (const store::RecordedEffect& e : effects) {
-    rows += table_row({spaced(e.name), quantity(e.parameter),
+    rows += table_row({effect_name(e.name), quantity(e.parameter),
                        fmt::format("{} … {}", quantity(e.interval_low), quantity(e.interval_high)), escaped(e.unit)});
   }
   return table(header_row({"named effect", "size", "90 % interval", "unit"}), rows);
@@ -35,8 +33,9 @@ std::string candidate_table(const std::vector<store::RecordedCandidate>& candida
   if (candidates.empty()) return "";
   std::string rows;
   for (const store::RecordedCandidate& c : candidates) {
-    rows += table_row({spaced(c.name), status_in_words(c.status), figure(c.statistic), chance(c.p_family_wise),
-                       percent(c.absorption)});
+    const bool took_part = c.status != "not_applicable";
+    rows += table_row({effect_name(c.name), status_in_words(c.status), took_part ? figure(c.statistic) : "–",
+                       took_part ? chance(c.p_family_wise) : "–", took_part ? percent(c.absorption) : "–"});
   }
   return table(header_row({"candidate", "status", "drop of χ²", "p (family-wise)", "absorbed by the base"}), rows);
 }

@@ -1,8 +1,10 @@
 #pragma once
-// The report's style sheet, light and dark on a screen, light on paper.
+// How every page of the analyser begins, and its style sheet: light and dark on a screen, light on paper.
 
 #include <string>
 #include <string_view>
+
+#include <fmt/format.h>
 
 namespace nacre::analyser {
 
@@ -67,16 +69,22 @@ thead tr + tr th:first-child { text-align: right; padding-left: 10px; }
 table.words td { white-space: nowrap; } table.words code.long { display: inline-block; width: 36ch; white-space: normal; overflow-wrap: anywhere; }
 table.words td:last-child { white-space: normal; min-width: 18ch; overflow-wrap: anywhere; }
 strong.bad { color: var(--bad); }
-.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 14px; }
+.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(420px, 100%), 1fr)); gap: 14px; }
 .card { display: flex; gap: 14px; padding: 12px; background: var(--panel); border: 1px solid var(--rule); border-radius: 6px; font-size: 14px; }
 .card p { margin: 0 0 4px; } .card table { font-size: 13px; margin: 2px 0 6px; } .card td, .card th { padding: 1px 8px; border: 0; white-space: nowrap; }
 .card > div { min-width: 0; }
 @media print { section { break-inside: auto; } h2, h3 { break-after: avoid; } svg, tr, .card { break-inside: avoid; } nav { display: none; } main { padding: 0; max-width: none; } }
 )css";
 
-/// All of it, as a page needs it.
-inline std::string report_style() {
-  return std::string(kLightColours) + std::string(kDarkColours) + std::string(kFigureStyle) + std::string(kPageStyle);
+/// From the document's first line to the open main element. `title` is safe HTML. The policy forbids the page every
+/// outside resource and every script, should a text ever slip through.
+inline std::string page_begin(std::string_view title, std::string_view extra_style = "") {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
+      "<title>{}</title>\n<style>{}{}{}{}{}</style>\n</head>\n<body>\n<main>\n",
+      title, kLightColours, kDarkColours, kFigureStyle, kPageStyle, extra_style);
 }
 
 }  // namespace nacre::analyser

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analyser/svg.hpp"
+#include "material/effect_words.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -70,6 +71,8 @@ std::string quantity(double value) {
 std::string shortened(std::string_view name) {
   return name.size() <= kLongName ? std::string(name) : fmt::format("{}…", name.substr(0, kShownOfLongName));
 }
+
+std::string effect_name(const std::string& name) { return escaped(material::effect_in_words(name)); }
 
 std::string design_name(std::string_view name) {
   const std::string shown = shortened(name);

@@ -20,6 +20,8 @@ std::string with_error(double value, double error);
 std::string chance(double p);
 /// A number of any size in a parameter's own unit: plain between 0.001 and 10,000, else "1.2 × 10⁻⁹".
 std::string quantity(double value);
+/// An effect's name in words.
+std::string effect_name(const std::string& name);
 /// A name of more than 20 characters by its first nine and an ellipsis; not escaped.
 std::string shortened(std::string_view name);
 /// A design's name, long keys of free layouts shortened with the whole in the hint.

@@ -139,21 +139,15 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
     return 1;
   }
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
-  const std::map<std::string, game::DesignStage> stages = stages_in(facts);
   int status = 0;
   for (const pattern::Design& design : designs) {
-    const auto known = stages.find(design.name());
-    if (known != stages.end() && known->second == game::DesignStage::pending) {
-      remark(fmt::format("{} is proposed and waits for an answer: say yes without --add", design.name()));
+    const game::StatedDecision decision{-1, design, true, options.by, options.why};
+    if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
+      remark(*reason);
       status = 1;
       continue;
     }
-    if (game::is_ordered(facts, design)) {
-      remark(fmt::format("{} was ordered before: that stands", design.name()));
-      status = 1;
-      continue;
-    }
-    if (!send(options, run, {-1, design, true, options.by, options.why})) return 1;
+    if (!send(options, run, decision)) return 1;
     status = std::max(status, say_when_measured(run, design));
   }
   return status;
@@ -162,16 +156,12 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
 /// Says yes or no to designs of a proposal. Status 1 when one of them was decided on before, the other way.
 int decide(const ApproveOptions& options, const RunAccess& run, const wire::Proposal& proposal) {
   const std::vector<pattern::Design> designs = designs_meant(options, proposal);
-  if (!run.scenario.validation.approval) {
-    remark("this game does not ask for approvals: what is proposed is ordered");
-    return 1;
-  }
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
   int status = 0;
   for (const pattern::Design& design : designs) {
     const game::StatedDecision decision{proposal.round, design, !options.reject, options.by, options.why};
-    if (const auto first = game::decision_against(facts, decision)) {
-      remark(fmt::format("{} was {} before by {}: that stands", design.name(), word(first->approved), first->by));
+    if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
+      remark(*reason);
       status = 1;
       continue;
     }
@@ -232,6 +222,7 @@ void add_approve(CLI::App& app, Action& action) {
   command.add_option("--why", options->why, "Reason, kept with the run");
   command.add_option("--by", options->by, "Who decides")->capture_default_str();
   command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+      ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
 }
 

@@ -137,7 +137,7 @@ void add_echo(CLI::App& app, Action& action) {
   command.add_option("CHANNEL", options->channel, "Only this channel (lcmtypes/README.md)");
   add_run_option(command, options->run);
   command.add_option("--log", options->log, "Read a log (RUN/run.lcm or a node's journal.lcm) instead of the bus");
-  command.add_option("--count", options->count, "Stop after so many messages")->check(CLI::PositiveNumber);
+  command.add_option("--count", options->count, "Stop after so many messages")->check(CLI::Range(1, 1'000'000'000));
 }
 
 }  // namespace nacre::cli

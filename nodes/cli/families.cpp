@@ -88,18 +88,22 @@ int find_families(const FamilyOptions& options) {
     if (options.json) print_json(none);
     return 1;
   }
-  std::erase_if(data.measured, [&](const measurement::Replicates& group) {
-    return std::ranges::count(near, *game::eightfold_pattern(group.design), &families::Member::pattern) == 0;
-  });
   const std::filesystem::path folder = folder_of(options);
   prepare_output_folder(folder.string());
+  const std::vector<Family> found = families_in(folder, near);
   if (options.propose) {
-    print_proposed(families_in(folder, near), folder / "families.toml", options.json);
+    print_proposed(found, folder / "families.toml", options.json);
     return 0;
   }
+  // Seeds stay, also where designs measured since have pushed them from the front.
+  std::erase_if(data.measured, [&](const measurement::Replicates& group) {
+    const Pattern pattern = *game::eightfold_pattern(group.design);
+    return std::ranges::count(near, pattern, &families::Member::pattern) == 0 &&
+           std::ranges::none_of(found, [&](const Family& each) { return std::ranges::count(each.seeds, pattern) > 0; });
+  });
   sysid::LocalSimulator simulator(data.fidelity, 0, folder / "simulations.bin");
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
-  for (const Family& family : families_in(folder, near)) {
+  for (const Family& family : found) {
     document.push_back(work_out(family, data, options, folder / family.name, simulator));
     if (!options.json) print_family(document.back());
   }

@@ -87,7 +87,7 @@ auto each(const Take& take) {
 
 void take_review(const std::string& payload, game::MeasurementBook& book) {
   if (const auto review = wire::decode_safe<review_t>(payload))
-    book.review(review->specimen, {review->revision, review->valid != 0, review->why});
+    book.review(review->specimen, {review->revision, review->valid != 0, review->why, review->by});
 }
 
 void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
@@ -108,7 +108,9 @@ LaboratoryView view_laboratory(const RunAccess& run) {
     if (!view.newest_proposal || proposal.round >= view.newest_proposal->round) view.newest_proposal = proposal;
   };
   const auto take_order = [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); };
-  const auto take_measurement = [&](const wire::Measurement& one) { facts.book.enter(one.record, one.order_id); };
+  const auto take_measurement = [&](const wire::Measurement& one) {
+    if (one.fidelity == run.scenario.fidelity) facts.book.enter(one.record, one.order_id);
+  };
   read_validation_agent(run,
                         {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
                          {"MEASUREMENT", each<wire::Measurement>(take_measurement)},

@@ -87,10 +87,4 @@ std::string file_stem(const std::string& design_name) {
   return stem;
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError::format("{}: cannot be made: {}", folder, error.message());
-}
-
 }  // namespace nacre::cli

@@ -50,7 +50,4 @@ tester::Fidelity fidelity_from_option(const std::string& name);
 /// A name of a design as part of a file name: `mix:0.65` becomes mix_0.65.
 std::string file_stem(const std::string& design_name);
 
-/// Makes a folder with its parents; throws InputError.
-void make_folder(const std::string& folder);
-
 }  // namespace nacre::cli

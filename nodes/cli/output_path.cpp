@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "output.hpp"
 

@@ -59,10 +59,10 @@ std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& ju
   if (specimen == specimens.end()) {
     warn(fmt::format("{}: the validation agent has no specimen of this name yet", judgement.specimen));
   }
-  const auto implausible = specimen == specimens.end() ? std::nullopt : measurement::implausible_value(*specimen);
-  if (judgement.valid && implausible) {
-    throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, implausible->column,
-                             implausible->reason);
+  if (judgement.valid && specimen != specimens.end()) {
+    auto fault = measurement::missing_result(*specimen);
+    if (!fault) fault = measurement::implausible_value(*specimen);
+    if (fault) throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, fault->column, fault->reason);
   }
   const int revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
   if (const auto held = book.review_against(judgement.specimen, {revision, judgement.valid, judgement.why})) {
@@ -252,8 +252,9 @@ void add_review(CLI::App& app, Action& action) {
   command.add_option("--why", options->why, "Reason, kept with the run or the set");
   command.add_option("--by", options->by, "Who judges")->capture_default_str();
   command.add_option("--revision", options->revision, "Number of the judgement; default: one more than the last")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1'000'000'000));
   command.add_option("--timeout-s", options->timeout_s, "How long to wait for the validation agent")
+      ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }

@@ -1,5 +1,6 @@
 #include "run_access.hpp"
 
+#include <pwd.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -30,8 +31,9 @@ runtime::BusOptions bus_options(const RunAccess& run, const std::string& name) {
 }  // namespace
 
 std::string user_name() {
-  const char* name = std::getenv("USER");
-  return name == nullptr || *name == '\0' ? "unknown" : name;
+  if (const char* name = std::getenv("USER"); name != nullptr && *name != '\0') return name;
+  const passwd* account = ::getpwuid(::getuid());
+  return account == nullptr ? "unknown" : account->pw_name;
 }
 
 void add_run_option(CLI::App& command, std::string& run) {

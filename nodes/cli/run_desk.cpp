@@ -90,6 +90,14 @@ Answer RunDesk::judge(const dashboard::Judgement& judgement) {
   return hand_in({"REVIEW", wire::encode(message)});
 }
 
+std::optional<std::string> RunDesk::against(const dashboard::Decision& decision) {
+  const Result<pattern::Design> design = pattern::design_from_name(decision.design);
+  if (!design) return design.error().message;
+  return game::why_void(view_laboratory(run_).facts,
+                        {decision.round, *design, decision.approved, decision.by, decision.why},
+                        run_.scenario.validation.approval);
+}
+
 Answer RunDesk::decide(const dashboard::Decision& decision) {
   approval_t message{};
   message.round = decision.round;

@@ -15,6 +15,7 @@
 #include "film/film_file.hpp"
 #include "film_files.hpp"
 #include "material/parameters.hpp"
+#include "measurement/set_files.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "pattern/constraints.hpp"
@@ -190,18 +191,13 @@ void print_table(const std::vector<Specimen>& specimens) {
   }
 }
 
-void write_curve(const std::filesystem::path& path, const tester::Curve& curve) {
-  std::string text = "strain,stress_pa\n";
-  for (std::size_t i = 0; i < curve.size(); ++i) text += fmt::format("{},{}\n", curve.strain[i], curve.stress_pa[i]);
-  write_file_atomically(path, text);
-}
-
 void write_files(const std::vector<Specimen>& specimens, const Options& options) {
   for (const Specimen& specimen : specimens) {
     if (!specimen.toughness || !*specimen.toughness) continue;
     const std::string stem = file_stem(specimen.design.name());
     if (!options.curves.empty()) {
-      write_curve(std::filesystem::path(options.curves) / (stem + ".csv"), (*specimen.toughness)->curve);
+      write_file_atomically(std::filesystem::path(options.curves) / (stem + ".csv"),
+                            measurement::to_csv((*specimen.toughness)->curve));
     }
   }
 }

@@ -55,8 +55,13 @@ runtime::Message measurement_message(const measurement::SpecimenRecord& specimen
 std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
   std::map<std::string, std::string> hashes;
   for (const std::string& payload : received_by_validation_agent(run, kChannel)) {
-    const auto measurement = wire::read<wire::Measurement>(payload);
-    if (measurement) hashes.emplace(measurement->record.specimen, wire::message_hash(kChannel, payload));
+    auto measurement = wire::read<wire::Measurement>(payload);
+    if (!measurement || measurement->fidelity != run.scenario.fidelity) continue;
+    // Who ordered it and when is not what was measured.
+    wire::Measurement plain;
+    plain.fidelity = measurement->fidelity;
+    plain.record = std::move(measurement->record);
+    hashes.emplace(plain.record.specimen, wire::message_hash(kChannel, wire::write(plain)));
   }
   return hashes;
 }

@@ -84,10 +84,14 @@ void FarmCore::launch(const std::string& key, const wire::SimulateRequest& reque
 
 void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) {
   const auto position = questions_.find(work.id.substr(0, work.id.find('/')));
+  if (position == questions_.end())
+    return warn(outputs, fmt::format("the result of {} is ignored: nobody asked for it", work.id));
   auto result = read_answer(work.result);
-  if (position == questions_.end() || !result) {
-    return warn(outputs, fmt::format("the result of {} is ignored: {}", work.id,
-                                     result ? "nobody asked for it" : result.error().message));
+  if (!result) {
+    // Whoever asked must not wait for ever: an answer that says why there is none.
+    warn(outputs, fmt::format("the result of {} cannot be used: {}", work.id, result.error().message));
+    result = Answer{};
+    result->design.failure = "its result cannot be used";
   }
   Question& question = position->second;
   question.answered = true;

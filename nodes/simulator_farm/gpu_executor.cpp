@@ -110,34 +110,40 @@ void GpuExecutor::sort(const runtime::Compute& compute) {
   changed_.notify_all();
 }
 
-/// The device's own thread.
+/// The device's own thread. Whatever goes wrong on it, threads of the processor go on.
 void GpuExecutor::pull() {
-  Result<std::unique_ptr<gpu::Device>> device = settings_.make_device(settings_.most_places);
-  if (!device) return give_up_device(device.error().message);
+  try {
+    Result<std::unique_ptr<gpu::Device>> device = settings_.make_device(settings_.most_places);
+    if (!device) return give_up_device(device.error().message);
+    keep_device_busy(*std::move(device));
+  } catch (const std::exception& problem) {
+    give_up_device(problem.what());
+  }
+}
+
+void GpuExecutor::keep_device_busy(std::unique_ptr<gpu::Device> device) {
   while (true) {
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return stopping_ || !ready_.empty() || !on_device_.empty(); });
       if (stopping_) return;
-      for (; !ready_.empty(); ready_.pop_front()) {
-        Ready& next = ready_.front();
+      while (!ready_.empty()) {
         if (!batch_) {
-          const int places = gpu::places_for(**device, next.test.image(), settings_.most_places);
-          batch_ = std::make_unique<gpu::BatchTester>(*std::move(device), places);
+          const int places = gpu::places_for(*device, ready_.front().test.image(), settings_.most_places);
+          batch_ = std::make_unique<gpu::BatchTester>(std::move(device), places);
           outbox_.say(runtime::LogLevel::info,
                       fmt::format("fracture tests run on {}, up to {} side by side", batch_->device().name(), places));
         }
+        // Kept in one of the two before anything can fail: give_up_device() looks there.
+        Ready next = std::move(ready_.front());
+        ready_.pop_front();
         on_device_.emplace(next_number_, std::move(next.compute));
         batch_->add({next_number_++, std::move(next.test)});
       }
     }
     outbox_.set_standing(fmt::format("{} on the device", batch_->pending()));
     changed_.notify_all();  // there is room for more that is ready
-    try {
-      for (const gpu::NumberedResult& over : batch_->turn()) keep(over);
-    } catch (const gpu::DeviceLost& problem) {
-      return give_up_device(problem.what());
-    }
+    for (const gpu::NumberedResult& over : batch_->turn()) keep(over);
   }
 }
 

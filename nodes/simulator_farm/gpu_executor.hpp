@@ -51,6 +51,7 @@ class GpuExecutor : public runtime::Executor {
   void prepare();
   void sort(const runtime::Compute& compute);
   void pull();
+  void keep_device_busy(std::unique_ptr<gpu::Device> device);
   void keep(const gpu::NumberedResult& over);
   void give_up_device(const std::string& reason);
   void give_to_threads(runtime::Compute compute);

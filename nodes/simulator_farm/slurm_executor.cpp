@@ -173,7 +173,6 @@ void SlurmExecutor::take_results() {
 void SlurmExecutor::take_result(const std::string& name) {
   const auto records = read_batch_result(read_file(spool_.result(name)), name);
   if (!records) {
-    ++counters_.damaged;
     outbox_.say(LogLevel::warning,
                 fmt::format("{}: {}; it is asked for again", spool_.result(name).string(), records.error().message));
     fs::remove(spool_.result(name));
@@ -304,7 +303,6 @@ void SlurmExecutor::put_batch(std::vector<Question> questions) {
   for (const Question& question : questions) batch_of_spec_[question.spec] = name;
   in_flight_.insert_or_assign(name, InFlight{std::move(questions), {}, BatchWatch(now_s())});
   to_submit_.push_back(name);
-  ++counters_.batches;
 }
 
 void SlurmExecutor::submit() {
@@ -350,7 +348,6 @@ void SlurmExecutor::take_submission(const runtime::ProgramAnswer& said) {
     next_listing_s_ = now_s() + settings_.poll_s;
     return;
   }
-  ++counters_.refused;
   next_submission_s_ = now_s() + back_off_s(++refusals_);
   to_submit_.insert(to_submit_.end(), given.batches.begin(), given.batches.end());
   if (is_worth_a_line(refusals_)) {

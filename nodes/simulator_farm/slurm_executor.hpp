@@ -37,11 +37,9 @@ struct SlurmSettings {
 
 /// What has happened so far; for people.
 struct SlurmCounters {
-  int batches = 0, tasks = 0;  ///< given out: once each, and all in all
-  int lost = 0;                ///< tasks that ended without a result, or fell silent
-  int refused = 0;             ///< submissions that Slurm did not take
-  int duplicates = 0;          ///< results of batches that were over
-  int damaged = 0;             ///< results that could not be used
+  int tasks = 0;       ///< given out
+  int lost = 0;        ///< tasks that ended without a result, or fell silent
+  int duplicates = 0;  ///< results of batches that were over
 };
 
 /// Executor of the kind "simulate". All files and commands are dealt with on a thread of its own.

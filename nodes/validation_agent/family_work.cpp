@@ -23,10 +23,12 @@ T expected(Result<T> result) {
   return *std::move(result);
 }
 
-std::vector<families::Member> members_from(const std::string& payload) {
+/// Designs in chunks, for there may be more of them than a message holds.
+std::vector<families::Member> members_from(std::span<const std::string> chunks) {
   std::vector<families::Member> members;
-  for (const explore::Evaluated& each : expected(wire::read<wire::GamutChunk>(payload)).samples)
-    members.push_back({each.pattern, each.performance});
+  for (const std::string& payload : chunks)
+    for (const explore::Evaluated& each : expected(wire::read<wire::GamutChunk>(payload)).samples)
+      members.push_back({each.pattern, each.performance});
   return members;
 }
 
@@ -44,12 +46,12 @@ void check_seeds(const std::vector<families::Family>& families, const std::vecto
 
 std::string grouping_work(const std::filesystem::path& folder, const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));
-  const std::vector<families::Member> measured = members_from(fields.at(0));
+  const std::vector<families::Member> measured = members_from(std::span(fields).subspan(1));
   const std::filesystem::path file = folder / kFamiliesFile;
   const auto answer = [](const std::vector<families::Family>& families, const std::string& remark, bool is_faulty) {
     return runtime::pack({families::to_toml(families), remark, is_faulty ? "faulty" : ""});
   };
-  const auto proposed = families::proposed_families(families::near_pareto(measured, std::stoi(fields.at(1))));
+  const auto proposed = families::proposed_families(families::near_pareto(measured, std::stoi(fields.at(0))));
   if (!folder.empty() && std::filesystem::exists(file)) {
     try {
       const std::vector<families::Family> chosen = families::read_families(file);
@@ -85,9 +87,12 @@ std::string sampling_work(const std::string& spec) {
 }  // namespace
 
 std::string grouping_spec(const std::vector<families::Member>& measured, int rank) {
-  wire::GamutChunk chunk;
-  for (const families::Member& each : measured) chunk.samples.push_back({each.pattern, each.performance});
-  return runtime::pack({wire::write(chunk), std::to_string(rank)});
+  std::vector<explore::Evaluated> samples;
+  for (const families::Member& each : measured) samples.push_back({each.pattern, each.performance});
+  std::vector<std::string> fields = {std::to_string(rank)};
+  for (const wire::GamutChunk& chunk : wire::gamut_chunks(0, tester::Fidelity::full, samples))
+    fields.push_back(wire::write(chunk));
+  return runtime::pack(fields);
 }
 
 Grouping grouping_from(const std::string& result) {

@@ -80,7 +80,8 @@ void ValidationCore::accept_gamut(const std::string& payload) {
   auto chunk = wire::read<wire::GamutChunk>(payload);
   if (!chunk) return say(LogLevel::warning, "a GAMUT is ignored: " + chunk.error().message);
   const int round = chunk->round;
-  if (chunk->fidelity != scenario_.fidelity || round != round_ || gamuts_.contains(round)) return;
+  // Of a later round, too: after a lost journal the others offer again what this agent has yet to come to.
+  if (chunk->fidelity != scenario_.fidelity || round < round_ || gamuts_.contains(round)) return;
   if (auto whole = gamut_chunks_.add(*std::move(chunk))) gamuts_.emplace(round, *std::move(whole));
   close_round_when_proposed();
 }
@@ -88,7 +89,7 @@ void ValidationCore::accept_gamut(const std::string& payload) {
 void ValidationCore::accept_proposal(const std::string& payload) {
   auto proposal = wire::read<wire::Proposal>(payload);
   if (!proposal) return say(LogLevel::warning, "a PROPOSAL is ignored: " + proposal.error().message);
-  if (proposal->fidelity != scenario_.fidelity || proposal->round != round_) return;
+  if (proposal->fidelity != scenario_.fidelity || proposal->round < round_) return;
   proposals_.emplace(proposal->round, *std::move(proposal));
   close_round_when_proposed();
 }
@@ -97,10 +98,16 @@ void ValidationCore::accept_diagnosis(const std::string& payload) {
   const auto diagnosis = wire::decode_safe<diagnosis_t>(payload);
   const auto sound = diagnosis ? wire::validate(*diagnosis) : Result<void>(tl::unexpected(diagnosis.error()));
   if (!sound) return say(LogLevel::warning, "a DIAGNOSIS is ignored: " + sound.error().message);
-  if (phase_ != Phase::diagnosing || diagnosis->round != round_) return;
-  diagnosis_ = *diagnosis;
-  say(LogLevel::info, fmt::format("round {}: diagnosis {}: {}", round_, diagnosis->verdict, diagnosis->summary));
-  weigh(*diagnosis);
+  if (diagnosis->round < round_) return;
+  const bool is_awaited = phase_ == Phase::diagnosing && diagnosis->round == round_;
+  if (is_awaited) return take_diagnosis(*diagnosis);
+  if (!diagnosis_ || diagnosis_->round < diagnosis->round) early_diagnoses_.emplace(diagnosis->round, *diagnosis);
+}
+
+void ValidationCore::take_diagnosis(const diagnosis_t& diagnosis) {
+  diagnosis_ = diagnosis;
+  say(LogLevel::info, fmt::format("round {}: diagnosis {}: {}", round_, diagnosis.verdict, diagnosis.summary));
+  weigh(diagnosis);
 }
 
 void ValidationCore::accept_measurement(const std::string& payload) {

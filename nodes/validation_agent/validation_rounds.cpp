@@ -195,6 +195,7 @@ void ValidationCore::diagnose() {
   }
   phase_ = Phase::diagnosing;
   send("DIAGNOSE", request);
+  if (const auto early = early_diagnoses_.extract(round_)) take_diagnosis(early.mapped());
 }
 
 void ValidationCore::publish_model() {
@@ -211,11 +212,15 @@ void ValidationCore::publish_model() {
   adopted.measured.assign(settled.begin(), settled.end());
   phase_ = Phase::waiting_for_proposal;
   send("PARAMETERS", adopted);
+  close_round_when_proposed();  // where both were said before this agent's journal was lost
 }
 
 std::vector<optimize::Performance> ValidationCore::benchmark() const {
-  const std::vector<optimize::Performance> measured = game::benchmark_line(specimens_);
-  return measured.empty() ? start_.benchmark : measured;
+  // The proposal agent compares its gamut with the line, and knows the material side alone.
+  std::vector<optimize::Performance> line = game::benchmark_line(specimens_);
+  if (line.empty()) line = start_.benchmark;
+  for (optimize::Performance& measured : line) measured = game::behind_machine(measured, model_);
+  return line;
 }
 
 std::set<pattern::Pattern> ValidationCore::settled_patterns() const {
@@ -289,7 +294,8 @@ wire::RoundSummary ValidationCore::summary() const {
   const auto values = game::measured_values(specimens_);
   const auto measured = game::measured_performances(values);
   std::vector<optimize::Performance> gamut;
-  for (const explore::Evaluated& sample : gamuts_.at(round_)) gamut.push_back(sample.performance);
+  for (const explore::Evaluated& sample : gamuts_.at(round_))
+    gamut.push_back(game::through_machine(sample.performance, model_));
   wire::RoundSummary round;
   round.round = round_;
   round.fidelity = scenario_.fidelity;

@@ -18,14 +18,21 @@ using runtime::LogLevel;
 
 std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosis_t& diagnosis) {
   material::ParameterSet extended = model_;
+  material::Extensions numbers;  // an effect that takes several stands there as often
   for (const effect_t& effect : diagnosis.effects) {
     if (material::find_effect(effect.name) == nullptr) {
       say(LogLevel::warning,
           fmt::format("the diagnosis names {}, which is not in the library of effects", effect.name));
       return std::nullopt;
     }
-    extended.extensions[effect.name] = {effect.parameter};
+    if (effect.name == "batch_drift") {
+      say(LogLevel::info,
+          "the print drifts from batch to batch: that foretells no new design, and is not put on trial");
+      return std::nullopt;
+    }
+    numbers[effect.name].push_back(effect.parameter);
   }
+  for (auto& [name, values] : numbers) extended.extensions[name] = std::move(values);
   if (const std::string fault = material::parameter_fault(extended); !fault.empty()) {
     say(LogLevel::warning, "the diagnosed extension cannot be used: " + fault);
     return std::nullopt;
@@ -53,6 +60,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
   std::vector<std::string> effects;
   for (const effect_t& effect : diagnosis.effects) effects.push_back(effect.name);
   std::sort(effects.begin(), effects.end());
+  effects.erase(std::unique(effects.begin(), effects.end()), effects.end());
   if (!trial_ || trial_->effects != effects)
     trial_ = OnTrial{.effects = std::move(effects), .model = {}, .foretold = {}, .adopted = {}, .errors = {}};
   extending_ = true;

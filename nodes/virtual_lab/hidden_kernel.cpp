@@ -129,6 +129,9 @@ struct Softening {
         none(1.0f - linear - drawn_out) {}
 };
 
+constexpr float kSpent = 0.1f;  // share of the stress that is left
+constexpr float kFlat = 0.1f;   // share of the area
+
 /// What it leaves at s = sqrt(energy / onset).
 NACRE_ALWAYS_INLINE float left_at(float s, const Softening& softening) {
   const float linear = larger((1.0f + softening.v - s) / (s * softening.v), 0.0f);
@@ -190,9 +193,10 @@ int advance_hidden_elements(const ElementRow& row, const ElementStep& step, cons
     const float s = std::sqrt(larger(energy, 0.0f) / past.onset[c]);
     const float integrity = smaller(past.integrity[c], left_at(s, softening));
     past.integrity[c] = integrity;
-    const bool fails = energy > threshold[c];
-    const bool stands =
-        (q[0].jacobian > 0.0f) & (q[1].jacobian > 0.0f) & (q[2].jacobian > 0.0f) & (q[3].jacobian > 0.0f);
+    const float jacobian = smaller(smaller(q[0].jacobian, q[1].jacobian), smaller(q[2].jacobian, q[3].jacobian));
+    // What has softened so far and is squeezed flat is gone: a long tail would keep it until it turns inside out.
+    const bool fails = (energy > threshold[c]) | ((integrity < kSpent) & (jacobian < kFlat));
+    const bool stands = jacobian > 0.0f;
     mu_row[c] = fails ? 0.0f : mu;
     lambda_row[c] = fails ? 0.0f : lambda;
     failures += fails ? 1 : 0;

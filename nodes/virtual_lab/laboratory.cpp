@@ -217,7 +217,15 @@ SpecimenRecord record_specimen(const Truth& truth, const Question& question, con
   record.print_order = replicate.print_order;
   record.valid = response.has_value();
   record.note = response ? response->remark : response.error().message;
-  if (response) fill_in(record, truth, *response, replicate.number);
+  if (!response) return record;
+  fill_in(record, truth, *response, replicate.number);
+  // No laboratory hands in what no game can use: the specimen failed.
+  auto fault = measurement::missing_result(record);
+  if (!fault) fault = measurement::implausible_value(record);
+  if (fault) {
+    record.valid = false;
+    record.note = fmt::format("{} {}", fault->column, fault->reason);
+  }
   return record;
 }
 

@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "base/toml_file.hpp"
+#include "measurement/limits.hpp"
 #include "virtual_lab/truth.hpp"
 
 namespace nacre::virtual_laboratory {
@@ -97,7 +98,8 @@ struct Range {
 Range range_of(std::string_view parameter) {
   if (parameter.starts_with("nu_")) return {0.0, 0.5};
   if (parameter.starts_with("gamma_")) return {1.0, 1e8};
-  return {1.0, 1e12};  // E in Pa, W in J/m^3
+  if (parameter.starts_with("e_")) return {measurement::kModulusPa.least, measurement::kModulusPa.most};
+  return {1.0, 1e12};  // W in J/m^3
 }
 
 /// Keys present in the table replace the drawn constants.

@@ -82,6 +82,7 @@ void shuffle_print_order(std::vector<Planned>& plan, std::uint64_t seed) {
 
 /// Beside the set's folder, not in it.
 std::filesystem::path truth_file(std::filesystem::path folder) {
+  folder = std::filesystem::weakly_canonical(folder);            // not `.` or `SET/..`, which have no name
   if (folder.filename().empty()) folder = folder.parent_path();  // SET/
   return folder.concat(".truth.toml");
 }

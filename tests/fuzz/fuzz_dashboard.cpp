@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)dashboard::wish_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
     for (const families::Family& family : *grouping)
-      fuzz::expect(dashboard::is_plain_name(family.name) && !family.seeds.empty());
+      fuzz::expect(families::is_family_name(family.name) && !family.seeds.empty());
   if (request.path == "/api/simulate") return 0;  // would break specimens for minutes
   const dashboard::Response response = fuzz::page().handle(request);
   fuzz::expect(response.status != 500 && response.status >= 200);

@@ -12,6 +12,7 @@
 #include "runtime/replay.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "stand_ins.hpp"
+#include "validation_agent/family_work.hpp"
 #include "validation_agent/validation_core.hpp"
 
 namespace nacre::game_test {
@@ -57,6 +58,25 @@ TEST(Restart, FoldsTheJournalOfFiveRoundsInSeconds) {
   expect_quick_restart("validation_agent", validation_agent::make_core(scenario));
   expect_quick_restart("proposal_agent", proposal_agent::make_core(scenario));
   expect_quick_restart("simulator_farm", simulator_farm::make_core(scenario));
+}
+
+// A power cut took the validation agent's journal: the others offer what they said of all rounds before it has come
+// back to any of them, and nobody says it twice.
+TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
+  const game::Scenario scenario = small_scenario();
+  InProcessGame whole;
+  add_players(whole, scenario);
+  whole.announce(scenario);
+  whole.play();
+  InProcessGame again;
+  again.add("simulator_farm", simulator_farm::make_core(scenario), closed_form_work());
+  again.add("validation_agent", validation_agent::make_core(scenario), validation_agent::work_functions({}));
+  again.announce(scenario);
+  for (const char* channel : {"GAMUT", "PROPOSAL", "DIAGNOSIS", "MEASUREMENT"})
+    for (const std::string& payload : whole.payloads(channel)) again.publish(runtime::Message{channel, payload});
+  again.play();
+  EXPECT_EQ(again.payloads("PARAMETERS"), whole.payloads("PARAMETERS"));
+  EXPECT_EQ(again.payloads("ROUND"), whole.payloads("ROUND"));
 }
 
 }  // namespace

@@ -121,6 +121,8 @@ export interface Specimen {
   toughness_pa: number | null;
   valid: boolean;
   note: string;
+  /** Pulled at the usual rate, thickness and programme. */
+  standard?: boolean;
   curve: Curve | null;
 }
 
@@ -159,6 +161,9 @@ export interface LaboratorySpecimen {
   points: number;
   valid: boolean;
   note: string;
+  /** Who judged it last and why; absent or empty: nobody has. */
+  by?: string;
+  why?: string;
 }
 
 export interface Order {
@@ -355,16 +360,22 @@ export class Refusal extends Error {
   }
 }
 
+const TOO_LARGE = "This is too large to hand in: at most 4 MiB at a time, curve included.";
+
+/** What a refusal says: a sentence of the server, or its text where that is not JSON. */
+function reasonIn(text: string): string {
+  try {
+    const { message, error } = JSON.parse(text) as { message?: string; error?: string };
+    return message || error || "";
+  } catch {
+    return text.slice(0, 300);
+  }
+}
+
 async function answer(response: Response): Promise<Response> {
   if (response.ok) return response;
-  const text = await response.text();
-  let message = text.slice(0, 300);
-  try {
-    message = JSON.parse(text).error ?? message;
-  } catch {
-    // Not JSON: the text itself.
-  }
-  throw new Refusal(response.status, message);
+  const reason = response.status === 413 ? TOO_LARGE : reasonIn(await response.text());
+  throw new Refusal(response.status, reason || response.statusText || `the server answered ${response.status}`);
 }
 
 function address(path: string, query: Record<string, string | number>): string {

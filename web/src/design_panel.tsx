@@ -66,6 +66,7 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
     c.strain.map((s, i) => [100 * s, c.stress_pa[i] * MPA]);
   const option = useMemo<Option>(() => {
     const [sim, meas] = [themeColour("sim"), themeColour("meas")];
+    const atTheEdge = { show: true, onZero: false, lineStyle: { color: themeColour("rule") } };
     const series: Option[] = measured.map((s) => ({
       type: "line",
       name: s.specimen,
@@ -94,8 +95,9 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
       });
     return {
       ...basis({ grid: { left: 48, right: 12, top: 10, bottom: 40 } }),
-      xAxis: axis("strain / %", { min: 0, nameGap: 24 }),
-      yAxis: axis("stress / MPa", { min: 0, nameGap: 34 }),
+      // Both hold zero, and go below it where a curve does.
+      xAxis: axis("strain / %", { nameGap: 24, axisLine: atTheEdge }),
+      yAxis: axis("stress / MPa", { nameGap: 34, axisLine: atTheEdge }),
       series,
     };
   }, [design, film, document.documentElement.dataset.theme]);
@@ -152,16 +154,10 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
 }
 
 function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | null; state: FilmState }) {
-  const measuredE = mean(
-    design?.specimens
-      .filter((s) => s.valid && s.test === "modulus" && s.orientation_deg === 0)
-      .map((s) => s.modulus_pa),
-  );
-  const measuredT = mean(
-    design?.specimens
-      .filter((s) => s.valid && s.test === "toughness" && s.orientation_deg === 0)
-      .map((s) => s.toughness_pa),
-  );
+  // What was pulled faster, thicker or turned answers another question.
+  const counted = design?.specimens.filter((s) => s.valid && s.orientation_deg === 0 && s.standard !== false) ?? [];
+  const measuredE = mean(counted.filter((s) => s.test === "modulus").map((s) => s.modulus_pa));
+  const measuredT = mean(counted.filter((s) => s.test === "toughness").map((s) => s.toughness_pa));
   const last = design?.simulated[design.simulated.length - 1];
   const simE =
     state.simulation?.modulus_pa ??
@@ -199,8 +195,8 @@ function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | nul
   );
 }
 
-function mean(values: (number | null)[] | undefined): number | null {
-  const known = (values ?? []).filter((v): v is number => v !== null);
+function mean(values: (number | null)[]): number | null {
+  const known = values.filter((v): v is number => v !== null);
   return known.length > 0 ? known.reduce((a, b) => a + b, 0) / known.length : null;
 }
 

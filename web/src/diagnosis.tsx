@@ -167,6 +167,10 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
               show: (e) => `${e.test}${e.orientation_deg ? ", turned" : ""}`,
               value: (e) => e.test,
             },
+            { heading: "orientation_deg", value: (e) => e.orientation_deg },
+            { heading: "strain_rate_per_s", value: (e) => e.strain_rate_per_s },
+            { heading: "thickness_mm", value: (e) => e.thickness_mm },
+            { heading: "loading", value: (e) => e.loading },
             { heading: "replicates", show: (e) => e.replicates, value: (e) => e.replicates },
             { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
           ]}
@@ -199,9 +203,24 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
               ),
               value: (c) => c.status,
             },
-            { heading: "drop of χ²", show: (c) => weighed(c, figure(c.statistic)), value: (c) => c.statistic },
-            { heading: "p, family-wise", show: (c) => weighed(c, figure(c.p_family_wise, 2)), value: (c) => c.p_family_wise },
-            { heading: "absorbed by the base", show: (c) => weighed(c, percent(c.absorption, 0)), value: (c) => c.absorption },
+            {
+              heading: "drop of χ²",
+              csv: "statistic",
+              show: (c) => weighed(c, figure(c.statistic)),
+              value: (c) => c.statistic,
+            },
+            {
+              heading: "p, family-wise",
+              csv: "p_family_wise",
+              show: (c) => weighed(c, figure(c.p_family_wise, 2)),
+              value: (c) => c.p_family_wise,
+            },
+            {
+              heading: "absorbed by the base",
+              csv: "absorption",
+              show: (c) => weighed(c, percent(c.absorption, 0)),
+              value: (c) => c.absorption,
+            },
           ]}
         />
       </section>

@@ -1,8 +1,9 @@
 // One measured specimen, typed in.
 
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import type { Laboratory as Work, Order } from "./api";
 import { useHandIn } from "./hand_in";
+import { typedNumber } from "./numbers";
 import { Notice } from "./parts";
 
 const EMPTY = {
@@ -19,15 +20,61 @@ const EMPTY = {
   curve_csv: "",
 };
 
+type Form = typeof EMPTY;
+
+const measuredName = (test: string) => (test === "modulus" ? "Young's modulus" : "Toughness");
+
+/** What is wrong with the typed numbers, as a sentence; empty: nothing. */
+function faultIn(form: Form): string {
+  const typed = {
+    [measuredName(form.test)]: form.value,
+    Thickness: form.thickness_mm,
+    "Strain rate": form.strain_rate_per_s,
+  };
+  const wrong = Object.entries(typed).find(([, text]) => text.trim() !== "" && typedNumber(text) === null);
+  return wrong ? `${wrong[0]}: “${wrong[1]}” is not a number; write it without a unit, such as 0.17.` : "";
+}
+
+/** The form as a row of a measurement set, in its units. */
+function rowOf({ value, ...rest }: Form) {
+  const measured = typedNumber(value);
+  const inPascal = (factor: number) => (measured === null ? null : measured * factor);
+  return {
+    ...rest,
+    thickness_mm: typedNumber(rest.thickness_mm),
+    strain_rate_per_s: typedNumber(rest.strain_rate_per_s),
+    ...(rest.test === "modulus" ? { modulus_pa: inPascal(1e9) } : { toughness_pa: inPascal(1e6) }),
+  };
+}
+
+/** A name for the next specimen of an order that no specimen has yet. */
+function nextName(order: Order, taken: Set<string>): string {
+  const turned = order.orientation_deg ? "-turned" : "";
+  const stem = `${order.batch || "hand"}-${order.design.slice(0, 8)}-${order.test}${turned}`;
+  let number = order.arrived + 1;
+  while (taken.has(`${stem}-${number}`)) ++number;
+  return `${stem}-${number}`;
+}
+
+/** Rows of a curve file below its heading. */
+const rowsIn = (csv: string) => csv.split("\n").filter((line) => line.trim() !== "").length - 1;
+
 export function Entry({ work, refresh, playing }: { work: Work; refresh: () => Promise<void>; playing: boolean }) {
   const [form, setForm] = useState(EMPTY);
   const [fileName, setFileName] = useState("");
+  const [chosen, setChosen] = useState("");
+  const [fault, setFault] = useState("");
+  const [handedIn, setHandedIn] = useState(0);
   const [said, busy, handIn] = useHandIn(refresh);
-  const set = (name: keyof typeof EMPTY) => (event: { currentTarget: { value: string } }) =>
+  const set = (name: keyof Form) => (event: { currentTarget: { value: string } }) =>
     setForm({ ...form, [name]: event.currentTarget.value });
   const open = work.orders.filter((o) => !o.complete);
-  const take = (order: Order | undefined) =>
-    order &&
+  const orderOf = (id: string) => open.find((o) => o.order === id);
+  const nameFor = (order: Order) => nextName(order, new Set(work.specimens.map((s) => s.specimen)));
+  const take = (id: string) => {
+    setChosen(id);
+    const order = orderOf(id);
+    if (!order) return;
     setForm({
       ...form,
       pattern: order.design,
@@ -36,22 +83,23 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
       orientation_deg: String(order.orientation_deg),
       strain_rate_per_s: String(order.strain_rate_per_s),
       thickness_mm: String(order.thickness_mm),
-      specimen: `${order.batch || "hand"}-${order.design.slice(0, 6)}-${order.test[0]}${order.arrived + 1}`,
+      specimen: nameFor(order),
     });
+  };
+  // The next replicate of the order, named once the one before has arrived.
+  useEffect(() => {
+    const order = orderOf(chosen);
+    if (order) setForm((now) => ({ ...now, specimen: nameFor(order) }));
+  }, [handedIn]);
   const unit = form.test === "modulus" ? "GPa" : "MPa";
   const submit = async (event: Event) => {
     event.preventDefault();
-    const { value, ...rest } = form;
-    const measured =
-      value.trim() === ""
-        ? {}
-        : form.test === "modulus"
-          ? { modulus_pa: Number(value.replace(",", ".")) * 1e9 }
-          : { toughness_pa: Number(value.replace(",", ".")) * 1e6 };
-    if (await handIn("/api/measurement", { ...rest, ...measured }, `${form.specimen} is in the game.`)) {
-      setForm({ ...EMPTY, test: form.test, pattern: form.pattern, batch: form.batch });
-      setFileName("");
-    }
+    const wrong = faultIn(form);
+    setFault(wrong);
+    if (wrong || !(await handIn("/api/measurement", rowOf(form), `${form.specimen} is in the game.`))) return;
+    setForm({ ...form, specimen: "", value: "", note: "", valid: true, curve_csv: "" });
+    setFileName("");
+    setHandedIn(handedIn + 1);
   };
   return (
     <section class="panel">
@@ -63,7 +111,7 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           {open.length > 0 && (
             <label class="whole">
               From an open order
-              <select onChange={(e) => take(open.find((o) => o.order === e.currentTarget.value))}>
+              <select name="order" value={orderOf(chosen) ? chosen : ""} onChange={(e) => take(e.currentTarget.value)}>
                 <option value="">choose, or fill in by hand</option>
                 {open.map((o) => (
                   <option key={o.order} value={o.order}>
@@ -107,7 +155,7 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
             </select>
           </label>
           <label>
-            {form.test === "modulus" ? "Young's modulus" : "Toughness"} / {unit}{" "}
+            {measuredName(form.test)} / {unit}{" "}
             <input
               name="value"
               inputMode="decimal"
@@ -121,18 +169,25 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           </label>
           <label>
             Orientation{" "}
-            <select value={form.orientation_deg} onChange={set("orientation_deg")}>
+            <select name="orientation" value={form.orientation_deg} onChange={set("orientation_deg")}>
               <option value="0">upright</option>
               <option value="90">turned by 90°</option>
             </select>
           </label>
           <label>
             Thickness / mm{" "}
-            <input inputMode="decimal" value={form.thickness_mm} onInput={set("thickness_mm")} placeholder="3.2" />
+            <input
+              name="thickness"
+              inputMode="decimal"
+              value={form.thickness_mm}
+              onInput={set("thickness_mm")}
+              placeholder="3.2"
+            />
           </label>
           <label>
             Strain rate / s⁻¹{" "}
             <input
+              name="rate"
               inputMode="decimal"
               value={form.strain_rate_per_s}
               onInput={set("strain_rate_per_s")}
@@ -142,17 +197,19 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           <label class="whole">
             Curve{" "}
             <input
+              key={handedIn}
               type="file"
               accept=".csv,text/csv"
               onChange={async (e) => {
                 const file = e.currentTarget.files?.[0];
                 setFileName(file?.name ?? "");
-                setForm({ ...form, curve_csv: file ? await file.text() : "" });
+                const curve_csv = file ? await file.text() : "";
+                setForm((now) => ({ ...now, curve_csv }));
               }}
             />
             <span class="quiet">
               {fileName
-                ? `${fileName}, ${form.curve_csv.split("\n").length - 1} rows`
+                ? `${fileName}, ${rowsIn(form.curve_csv)} rows`
                 : "CSV with the columns strain,stress_pa"}
             </span>
           </label>
@@ -174,7 +231,7 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           </div>
         </form>
       )}
-      <Notice said={said} />
+      <Notice said={fault ? { kind: "bad", text: fault } : said} />
     </section>
   );
 }

@@ -11,6 +11,7 @@ import { Table, Unit } from "./parts";
 import { ARROWS, CardTip, placeIn, useDrawn } from "./point_chart";
 
 type Coloured = "toughness" | "modulus";
+type Point = [number, number];
 const REACH = 14;
 const STEP = 0.02; // of the map's width, per press of an arrow key
 const SETTLED_MS = 120;
@@ -40,6 +41,25 @@ function blendAt(map: PatternMap, x: number, y: number): Omit<Blend, "between"> 
     if (Math.hypot(each - x, map.y[i] - y) < Math.hypot(map.x[nearest] - x, map.y[nearest] - y)) nearest = i;
   });
   return { x: map.x[nearest], y: map.y[nearest], corners: [nearest], weights: [1] };
+}
+
+/** The point between a and b that is nearest to (x, y). */
+function nearestBetween([ax, ay]: Point, [bx, by]: Point, [x, y]: Point): Point {
+  const [dx, dy] = [bx - ax, by - ay];
+  const along = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1);
+  const share = Math.min(1, Math.max(0, along));
+  return [ax + share * dx, ay + share * dy];
+}
+
+/** The place itself where there are patterns around it; outside, the nearest one at the edge of the map's triangles. */
+function withinMap(map: PatternMap, place: Point): Point {
+  if (map.triangles.length === 0 || blendAt(map, ...place).corners.length > 1) return place;
+  const at = (i: number): Point => [map.x[i], map.y[i]];
+  const distance = ([x, y]: Point) => Math.hypot(x - place[0], y - place[1]);
+  return map.triangles
+    .flatMap(([a, b, c]) => [[a, b], [b, c], [c, a]])
+    .map(([a, b]) => nearestBetween(at(a), at(b), place))
+    .reduce((best, each) => (distance(each) < distance(best) ? each : best));
 }
 
 /** A map, asked for until it is there. */
@@ -176,7 +196,8 @@ function MapChart({
     if (ARROWS[event.key]) {
       const from = place ?? { x: map.x[0], y: map.y[0] };
       const [dx, dy] = ARROWS[event.key];
-      setPlace({ x: from.x + dx * STEP * width, y: from.y + dy * STEP * width });
+      const [x, y] = withinMap(map, [from.x + dx * STEP * width, from.y + dy * STEP * width]);
+      setPlace({ x, y });
     } else if ((event.key === "Enter" || event.key === " ") && blend?.between?.pattern)
       open(blend.between.pattern, null);
     else return;
@@ -452,11 +473,17 @@ export function MechanismTable({ family, mechanisms }: { family: string; mechani
         { heading: "patterns", show: (m) => m.patterns, value: (m) => m.patterns },
         {
           heading: "rank correlation",
+          csv: "spearman_with_toughness",
           show: (m) => figure(m.spearman_with_toughness, 2),
           value: (m) => m.spearman_with_toughness,
         },
         { heading: "partial", show: (m) => figure(m.partial, 2), value: (m) => m.partial },
-        { heading: "p, family-wise", show: (m) => figure(m.p_family_wise, 2), value: (m) => m.p_family_wise },
+        {
+          heading: "p, family-wise",
+          csv: "p_family_wise",
+          show: (m) => figure(m.p_family_wise, 2),
+          value: (m) => m.p_family_wise,
+        },
       ]}
     />
   );

@@ -159,26 +159,50 @@ function spotsOf(rounds: Rounds, families: Shown[], newest: number): FamilySpot[
   return spots;
 }
 
+type Kind = "modulus" | "toughness";
+
+const meanError = (e: Errors | null, kind: Kind) => (e && e[`${kind}_count`] > 0 ? e[`${kind}_mean`] : null);
+
+/** Where a family's own model foretells its variants worse than the global one, and no over-fit explains it. */
+function worseThanGlobal(f: Family): string[] {
+  const { global, family } = f.errors.chosen;
+  const isWorse = (kind: Kind) => (meanError(family, kind) ?? 0) > (meanError(global, kind) ?? Infinity);
+  return [isWorse("modulus") ? "E" : "", isWorse("toughness") ? "T" : ""].filter(
+    (kind) => kind && !f.over_fits.includes(kind as "E" | "T"),
+  );
+}
+
+/** What speaks against a family's own model; empty: nothing. */
+function faultsOf(f: Family): string {
+  const worse = worseThanGlobal(f);
+  return [
+    f.over_fits.length > 0 ? `over-fits ${f.over_fits.join(" and ")}` : "",
+    worse.length > 0 ? `worse than the global model in ${worse.join(" and ")}` : "",
+  ]
+    .filter(Boolean)
+    .join("; ");
+}
+
+const standingOf = (f: Family) => faultsOf(f) || (f.is_validated ? "does not over-fit" : "awaits its measurements");
+
 function ErrorTable({ families, which }: { families: Family[]; which: "seeds" | "chosen" }) {
-  const mean = (e: Errors | null, kind: "modulus" | "toughness") =>
-    e && e[`${kind}_count`] > 0 ? e[`${kind}_mean`] : null;
-  const column = (heading: string, model: "global" | "family", kind: "modulus" | "toughness") => ({
+  const column = (heading: string, model: "global" | "family", kind: Kind) => ({
     heading,
-    show: (f: Family) => percent(mean(f.errors[which][model], kind)),
-    value: (f: Family) => mean(f.errors[which][model], kind),
+    csv: `${model}_model_${kind}_error`,
+    show: (f: Family) => percent(meanError(f.errors[which][model], kind)),
+    value: (f: Family) => meanError(f.errors[which][model], kind),
   });
   const verdict = {
     heading: "own model",
+    csv: "own_model",
     words: true,
     show: (f: Family) =>
-      !f.is_validated ? (
-        <span class="quiet">awaits its measurements</span>
-      ) : f.over_fits.length > 0 ? (
-        <strong class="bad">over-fits {f.over_fits.join(" and ")}</strong>
+      faultsOf(f) ? (
+        <strong class="bad">{faultsOf(f)}</strong>
       ) : (
-        "does not over-fit"
+        <span class={f.is_validated ? "" : "quiet"}>{standingOf(f)}</span>
       ),
-    value: (f: Family) => (f.is_validated ? f.over_fits.join(" ") : "awaited"),
+    value: standingOf,
   };
   return (
     <Table
@@ -213,6 +237,7 @@ function DesignTable({ families, open }: { families: Family[]; open: (f: Family,
   type Row = (typeof rows)[number];
   const values = (heading: string, of: "measured" | "global_model" | "family_model", kind: "E" | "T") => ({
     heading,
+    csv: `${of}_${kind === "E" ? "modulus_pa" : "toughness_pa"}`,
     show: ({ design }: Row) => (kind === "E" ? gpa(design[of].modulus_pa) : mpa(design[of].toughness_pa)),
     value: ({ design }: Row) => (kind === "E" ? design[of].modulus_pa : design[of].toughness_pa),
   });
@@ -248,7 +273,12 @@ function DesignTable({ families, open }: { families: Family[]; open: (f: Family,
           ),
           value: (r) => r.design.design,
         },
-        { heading: "rigid", show: (r) => percent(r.design.rigid_fraction, 0), value: (r) => r.design.rigid_fraction },
+        {
+          heading: "rigid",
+          csv: "rigid_fraction",
+          show: (r) => percent(r.design.rigid_fraction, 0),
+          value: (r) => r.design.rigid_fraction,
+        },
         values("E measured", "measured", "E"),
         values("E global", "global_model", "E"),
         values("E own", "family_model", "E"),
@@ -289,6 +319,7 @@ function SubfamilyTable({ maps }: { maps: Maps }) {
           { heading: "growth", show: (r) => percent(r.growth), value: (r) => r.growth },
           {
             heading: "variance kept by the map",
+            csv: "variance_kept",
             show: (r) => percent(1 - r.residual_variance),
             value: (r) => 1 - r.residual_variance,
           },
@@ -301,6 +332,7 @@ function SubfamilyTable({ maps }: { maps: Maps }) {
 /** What there is to say before, or instead of, a stage. */
 function Standing({ said }: { said: Said }) {
   const over = said.stage.filter((f) => f.over_fits.length > 0);
+  const worse = said.stage.filter((f) => worseThanGlobal(f).length > 0);
   if (said.stage.length === 0)
     return (
       <p class="quiet">
@@ -319,6 +351,12 @@ function Standing({ said }: { said: Said }) {
         <p key={f.name} class="notice bad" role="status">
           {f.name}: its own model over-fits {f.over_fits.join(" and ")} – nearer to the seeds than the global one, farther
           from the variants. Trust the global model there.
+        </p>
+      ))}
+      {worse.map((f) => (
+        <p key={f.name} class="notice bad" role="status">
+          {f.name}: its own model is worse than the global model in {worseThanGlobal(f).join(" and ")} on the variants.
+          Trust the global model there.
         </p>
       ))}
     </>

@@ -28,11 +28,13 @@ export function Grouping({
   const kept = groups.filter((g) => g.seeds.length > 0);
   const fault = kept.some((g) => !/^[A-Za-z0-9_-]{1,64}$/.test(g.name))
     ? "A family's name has letters, digits, - and _, at most 64."
-    : new Set(kept.map((g) => g.name)).size < kept.length
-      ? "Two families have the same name."
-      : kept.length === 0
-        ? "A grouping has one family at least."
-        : "";
+    : kept.some((g) => /^[0-9]+$/.test(g.name))
+      ? "A family's name is not of digits alone: numbers name the models of rounds."
+      : new Set(kept.map((g) => g.name)).size < kept.length
+        ? "Two families have the same name."
+        : kept.length === 0
+          ? "A grouping has one family at least."
+          : "";
   const groupOf = (design: string) => groups.findIndex((g) => g.seeds.includes(design));
   const move = (design: string, to: number) => {
     const next = groups.map((g) => ({ ...g, seeds: g.seeds.filter((s) => s !== design) }));

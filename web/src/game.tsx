@@ -7,7 +7,7 @@ import { roundColour, themeColour } from "./colour";
 import { DesignPanel, NewestProposals, type Chosen } from "./design_panel";
 import { loadGamut, type Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
-import { figure, percent } from "./numbers";
+import { figure, GPA, MPA, percent, tick, withError } from "./numbers";
 import { Table } from "./parts";
 
 /** Gamuts of the rounds asked for, loaded again when they have grown. */
@@ -30,13 +30,15 @@ function useGamuts(rounds: Rounds, wanted: Set<number>): Map<number, Gamut> {
   return gamuts;
 }
 
-/** Lines by round: each a name, a colour, and a value per round. */
+/** Lines by round: each a name on the screen and in the file, a colour, and a value per round. */
 interface Trend {
   name: string;
+  csv: string;
   colour: string;
   dashed?: boolean;
   value: (round: Rounds["rounds"][number]) => number | null | undefined;
   error?: (round: Rounds["rounds"][number]) => number;
+  csvOfError?: string;
 }
 
 function TrendChart({
@@ -66,7 +68,7 @@ function TrendChart({
         axisLabel: {
           color: themeColour("quiet"),
           fontSize: 11,
-          formatter: (v: number) => figure(logarithmic ? 100 * v : v),
+          formatter: (v: number) => tick(logarithmic ? 100 * v : v),
         },
       }),
       series: trends.flatMap((trend) => {
@@ -123,14 +125,32 @@ function TrendChart({
           option={option}
           height={190}
           table={() => ({
-            heading: ["round", ...trends.map((t) => t.name)],
-            rows: closed.map((r) => [r.round, ...trends.map((t) => t.value(r) ?? "")]),
+            heading: ["round", ...trends.flatMap((t) => (t.csvOfError ? [t.csv, t.csvOfError] : [t.csv]))],
+            rows: closed.map((r) => [
+              r.round,
+              ...trends.flatMap((t) => (t.error ? [t.value(r), t.error(r)] : [t.value(r)])),
+            ]),
           })}
         />
       )}
     </section>
   );
 }
+
+/** Of hypervolumes and gaps; unbroken, a heading may be narrow. */
+const AREA = "GPa\u00a0MPa";
+
+/** Names of columns in the files, the same wherever they are written. */
+const CSV = {
+  gamut: "gamut_hypervolume_gpa_mpa",
+  measured: "measured_hypervolume_gpa_mpa",
+  hypervolumeError: "hypervolume_error_gpa_mpa",
+  gap: "gap_gpa_mpa",
+  heldOutE: "modulus_error_held_out",
+  heldOutT: "toughness_error_held_out",
+  afterE: "modulus_error_after",
+  afterT: "toughness_error_after",
+};
 
 const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
   e && e.modulus_count > 0 ? e.modulus_mean : null;
@@ -146,20 +166,23 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
     const [sim, meas, homo] = ["sim", "meas", "homo"].map(themeColour);
     return {
       hypervolume: [
-        { name: "gamut", colour: sim, value: (r) => r.summary!.gamut_hypervolume },
+        { name: "gamut", csv: CSV.gamut, colour: sim, value: (r) => r.summary!.gamut_hypervolume },
         {
           name: "measured",
+          csv: CSV.measured,
           colour: meas,
           value: (r) => r.summary!.measured_hypervolume,
           error: (r) => r.summary!.hypervolume_error,
+          csvOfError: CSV.hypervolumeError,
         },
       ] as Trend[],
-      gap: [{ name: "gap", colour: homo, value: (r) => r.summary!.gap }] as Trend[],
+      gap: [{ name: "gap", csv: CSV.gap, colour: homo, value: (r) => r.summary!.gap }] as Trend[],
       errors: [
-        { name: "E, held out", colour: sim, value: (r) => someE(r.summary!.held_out) },
-        { name: "T, held out", colour: meas, value: (r) => someT(r.summary!.held_out) },
+        { name: "E, held out", csv: CSV.heldOutE, colour: sim, value: (r) => someE(r.summary!.held_out) },
+        { name: "T, held out", csv: CSV.heldOutT, colour: meas, value: (r) => someT(r.summary!.held_out) },
         {
           name: "T, after calibration",
+          csv: CSV.afterT,
           colour: meas,
           dashed: true,
           value: (r) => (r.round > 0 ? someT(r.summary!.after) : null),
@@ -169,8 +192,8 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
   }, [theme]);
   return (
     <div class="trends">
-      <TrendChart title="Hypervolume" name="hypervolume" unit="GPa·MPa" rounds={rounds} trends={trends.hypervolume} />
-      <TrendChart title="Gap to the laboratory" name="gap" unit="GPa·MPa" rounds={rounds} trends={trends.gap} />
+      <TrendChart title="Hypervolume" name="hypervolume" unit={AREA} rounds={rounds} trends={trends.hypervolume} />
+      <TrendChart title="Gap to the laboratory" name="gap" unit={AREA} rounds={rounds} trends={trends.gap} />
       <TrendChart
         title="Mean relative errors"
         name="errors"
@@ -334,34 +357,61 @@ function RoundTable({ rounds }: { rounds: Rounds }) {
       columns={[
         { heading: "round", show: (r) => r.round, value: (r) => r.round },
         {
-          heading: "gamut hv",
+          heading: `gamut hv / ${AREA}`,
+          csv: CSV.gamut,
           show: (r) => figure(r.summary!.gamut_hypervolume),
           value: (r) => r.summary!.gamut_hypervolume,
         },
         {
-          heading: "measured hv",
-          show: (r) => `${figure(r.summary!.measured_hypervolume)} ± ${figure(r.summary!.hypervolume_error, 2)}`,
+          heading: `measured hv / ${AREA}`,
+          csv: CSV.measured,
+          show: (r) => withError(r.summary!.measured_hypervolume, r.summary!.hypervolume_error),
           value: (r) => r.summary!.measured_hypervolume,
         },
-        { heading: "gap", show: (r) => figure(r.summary!.gap), value: (r) => r.summary!.gap },
+        { heading: CSV.hypervolumeError, value: (r) => r.summary!.hypervolume_error },
+        {
+          heading: `gap / ${AREA}`,
+          csv: CSV.gap,
+          show: (r) => figure(r.summary!.gap),
+          value: (r) => r.summary!.gap,
+        },
         {
           heading: "E held out",
+          csv: CSV.heldOutE,
           show: (r) => percent(someE(r.summary!.held_out)),
           value: (r) => someE(r.summary!.held_out),
         },
         {
           heading: "T held out",
+          csv: CSV.heldOutT,
           show: (r) => percent(someT(r.summary!.held_out)),
           value: (r) => someT(r.summary!.held_out),
         },
         {
           heading: "T rank",
+          csv: "toughness_spearman_held_out",
           show: (r) => figure(rankT(r.summary!.held_out), 2),
-          value: (r) => rankT(r.summary!.held_out) ?? "",
+          value: (r) => rankT(r.summary!.held_out),
         },
-        { heading: "E after", show: (r) => percent(someE(r.summary!.after)), value: (r) => someE(r.summary!.after) },
-        { heading: "T after", show: (r) => percent(someT(r.summary!.after)), value: (r) => someT(r.summary!.after) },
-        { heading: "decided by", words: true, show: (r) => r.summary!.decided_by, value: (r) => r.summary!.decided_by },
+        {
+          heading: "E after",
+          csv: CSV.afterE,
+          show: (r) => percent(someE(r.summary!.after)),
+          value: (r) => someE(r.summary!.after),
+        },
+        {
+          heading: "T after",
+          csv: CSV.afterT,
+          show: (r) => percent(someT(r.summary!.after)),
+          value: (r) => someT(r.summary!.after),
+        },
+        {
+          heading: "decided by",
+          csv: "decided_by",
+          words: true,
+          show: (r) => r.summary!.decided_by,
+          value: (r) => r.summary!.decided_by,
+        },
       ]}
     />
   );
@@ -395,22 +445,29 @@ function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m:
           value: (m) => m.design,
         },
         { heading: "round", show: (m) => m.round, value: (m) => m.round },
-        { heading: "rigid", show: (m) => percent(m.rigid_fraction, 0), value: (m) => m.rigid_fraction },
+        {
+          heading: "rigid",
+          csv: "rigid_fraction",
+          show: (m) => percent(m.rigid_fraction, 0),
+          value: (m) => m.rigid_fraction,
+        },
         {
           heading: "E / GPa",
-          show: (m) => `${figure(m.modulus_pa * 1e-9)} ± ${figure(m.modulus_sd_pa * 1e-9, 2)}`,
+          csv: "modulus_pa",
+          show: (m) => withError(m.modulus_pa * GPA, m.modulus_sd_pa * GPA),
           value: (m) => m.modulus_pa,
         },
+        { heading: "modulus_sd_pa", value: (m) => m.modulus_sd_pa },
         {
           heading: "T / MPa",
-          show: (m) => `${figure(m.toughness_pa * 1e-6)} ± ${figure(m.toughness_sd_pa * 1e-6, 2)}`,
+          csv: "toughness_pa",
+          show: (m) => withError(m.toughness_pa * MPA, m.toughness_sd_pa * MPA),
           value: (m) => m.toughness_pa,
         },
-        {
-          heading: "specimens",
-          show: (m) => `${m.modulus_count} + ${m.toughness_count}`,
-          value: (m) => m.modulus_count + m.toughness_count,
-        },
+        { heading: "toughness_sd_pa", value: (m) => m.toughness_sd_pa },
+        { heading: "specimens", show: (m) => `${m.modulus_count} + ${m.toughness_count}` },
+        { heading: "modulus_count", value: (m) => m.modulus_count },
+        { heading: "toughness_count", value: (m) => m.toughness_count },
       ]}
     />
   );

@@ -18,8 +18,8 @@ export function useHandIn(
     setSaid({ kind: "busy", text: meanwhile });
     try {
       const { answer } = await post<Answer>(path, body);
+      await refresh().catch(() => undefined); // it has been taken, whether or not the page can read it yet
       setSaid({ kind: "good", text: answer === "repeated" ? "The run has this already." : done });
-      await refresh();
       return true;
     } catch (error) {
       setSaid({ kind: "bad", text: error instanceof Refusal ? error.message : "the server does not answer" });

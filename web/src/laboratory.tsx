@@ -1,7 +1,16 @@
 // The laboratory's work: decide on proposals, enter measurements, judge specimens.
 
 import { useState } from "preact/hooks";
-import { get, type DesignState, type Families, type Family, type Group, type Laboratory as Work, type RunInfo } from "./api";
+import {
+  get,
+  type DesignState,
+  type Families,
+  type Family,
+  type Group,
+  type Laboratory as Work,
+  type Rounds,
+  type RunInfo,
+} from "./api";
 import { Entry } from "./entry";
 import { gpa, mpa, percent } from "./numbers";
 import { Name, Table, Unit, useRepeated, useStored } from "./parts";
@@ -28,6 +37,7 @@ const stateColumns = [
   },
   {
     heading: "proposed",
+    csv: "proposed_in_round",
     show: (d: DesignState) => d.proposed_in_round ?? "–",
     value: (d: DesignState) => d.proposed_in_round,
   },
@@ -39,8 +49,9 @@ const stateColumns = [
     heading: "decision",
     words: true,
     show: (d: DesignState) => (d.by ? `${d.by}: ${d.why}` : ""),
-    value: (d: DesignState) => d.why,
   },
+  { heading: "by", value: (d: DesignState) => d.by },
+  { heading: "why", value: (d: DesignState) => d.why },
 ];
 
 const groupColumns = [
@@ -61,6 +72,7 @@ const groupColumns = [
     show: (g: Group) => `${g.test}${g.orientation_deg ? ", turned" : ""}`,
     value: (g: Group) => g.test,
   },
+  { heading: "orientation_deg", value: (g: Group) => g.orientation_deg },
   {
     heading: "state",
     words: true,
@@ -73,18 +85,22 @@ const groupColumns = [
   },
   {
     heading: "valid of tested",
+    csv: "valid",
     show: (g: Group) => `${g.valid.length} of ${g.tested.length}`,
     value: (g: Group) => g.valid.length,
   },
+  { heading: "tested", value: (g: Group) => g.tested.length },
+  { heading: "wanted", value: (g: Group) => g.wanted },
   {
     heading: "mean",
+    csv: "mean_pa",
     show: (g: Group) => (g.test === "modulus" ? `${gpa(g.mean_pa)} GPa` : `${mpa(g.mean_pa)} MPa`),
     value: (g: Group) => g.mean_pa,
   },
   { heading: "scatter", show: (g: Group) => percent(g.scatter), value: (g: Group) => g.scatter },
 ];
 
-export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean }) {
+export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: Rounds; playing: boolean }) {
   const [work, setWork] = useState<Work | null>(null);
   const [by, setBy] = useStored("by", info.user);
   const [stage, setStage] = useState<Family[]>([]);
@@ -96,6 +112,8 @@ export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean 
   };
   useRepeated(refresh, playing ? 2000 : 30_000);
   if (!work) return <p class="awaited wait">reading the laboratory's book …</p>;
+  const lastRound = rounds.rounds.find((r) => r.summary?.last)?.round ?? info.rounds;
+  const offer = offerOf(work, stage, lastRound);
   return (
     <>
       {playing && (
@@ -106,7 +124,7 @@ export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean 
           <span class="quiet">kept with everything you decide here</span>
         </div>
       )}
-      <Proposals work={work} offer={offerOf(work, stage)} by={by} refresh={refresh} playing={playing} approval={info.approval} />
+      <Proposals work={work} offer={offer} by={by} refresh={refresh} playing={playing} approval={info.approval} />
       <Entry work={work} refresh={refresh} playing={playing} />
       <Specimens work={work} by={by} refresh={refresh} playing={playing} />
       <section class="panel">
@@ -114,7 +132,7 @@ export function Laboratory({ info, playing }: { info: RunInfo; playing: boolean 
           name="replicates"
           caption="Replicates: a mean is sure once four are tested and three of them agree; the game goes on with what it ordered"
           rows={work.groups}
-          rowKey={(g) => `${g.design}${g.test}${g.orientation_deg}`}
+          rowKey={(g) => g.tested[0]}
           empty="Nothing has been measured yet."
           columns={groupColumns}
         />

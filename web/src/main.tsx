@@ -144,7 +144,7 @@ function Page() {
       {live && live.nodes.length > 0 && view !== "nodes" && <NodeStrip live={live} />}
       <main id="main" tabIndex={-1}>
         {view === "game" && <Game rounds={rounds} theme={theme} />}
-        {view === "laboratory" && <Laboratory info={info} playing={playing} />}
+        {view === "laboratory" && <Laboratory info={info} rounds={rounds} playing={playing} />}
         {view === "diagnosis" && <Diagnosis rounds={rounds} />}
         {view === "families" && <Families rounds={rounds} data={data} theme={theme} run={info.run} />}
         {view === "explorer" && <Explorer rounds={rounds} theme={theme} />}

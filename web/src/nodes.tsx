@@ -58,9 +58,16 @@ const WORK: Column<NodeState>[] = [
     show: (n) => (n.progress === null ? "–" : `${Math.round(100 * n.progress)} %`),
     value: (n) => n.progress,
   },
-  { heading: "time left", show: (n) => (n.eta_s === null ? "–" : duration(n.eta_s)), value: (n) => n.eta_s },
+  {
+    heading: "time left",
+    csv: "eta_s",
+    show: (n) => (n.eta_s === null ? "–" : duration(n.eta_s)),
+    value: (n) => n.eta_s,
+  },
+  { heading: "work", value: (n) => n.work },
   {
     heading: "work, last problem",
+    csv: "last_problem",
     words: true,
     show: (n) => (
       <>
@@ -73,6 +80,7 @@ const WORK: Column<NodeState>[] = [
 
 const count = (heading: string, counter: keyof NodeState): Column<NodeState> => ({
   heading,
+  csv: counter,
   show: (n) => Number(n[counter]).toLocaleString("en"),
   value: (n) => n[counter],
 });
@@ -90,7 +98,7 @@ const MESSAGES: Column<NodeState>[] = [
   count("to read", "queued"),
   count("to acknowledge", "owed"),
   count("computing", "computing"),
-  { heading: "journal", show: (n) => bytes(n.journal_bytes), value: (n) => n.journal_bytes },
+  { heading: "journal", csv: "journal_bytes", show: (n) => bytes(n.journal_bytes), value: (n) => n.journal_bytes },
 ];
 
 /** Two tables, so that each fits a window. */

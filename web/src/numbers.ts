@@ -10,7 +10,27 @@ export function figure(value: number | null | undefined, digits = 3): string {
   const size = Math.abs(value);
   return size >= 1e5 || size < 1e-4
     ? value.toExponential(digits - 1).replace("e+", "e")
-    : Number(value.toPrecision(digits)).toLocaleString("en", { maximumSignificantDigits: digits });
+    : value.toLocaleString("en", { minimumSignificantDigits: digits, maximumSignificantDigits: digits });
+}
+
+/** Decimals that show `digits` significant ones. */
+const decimalsFor = (value: number, digits: number) =>
+  value === 0 ? 0 : Math.min(9, Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value)) + 1e-12)));
+
+/** A mean with as many decimals as its error, as the report writes it. */
+export function withError(value: number, error: number): string {
+  if (!Number.isFinite(value) || !(error > 0)) return figure(value);
+  const decimals = Math.min(decimalsFor(error, 2), decimalsFor(value, 4));
+  return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
+}
+
+/** A number beside an axis: as short as it is exact. */
+export const tick = (value: number) => value.toLocaleString("en", { maximumSignificantDigits: 3 });
+
+/** The number in a typed text, with a point or a comma for its decimals; null: none is in it. */
+export function typedNumber(text: string): number | null {
+  const value = Number(text.trim().replace(",", "."));
+  return text.trim() !== "" && Number.isFinite(value) ? value : null;
 }
 
 export const gpa = (pa: number | null | undefined) => figure(pa === null || pa === undefined ? pa : pa * GPA);

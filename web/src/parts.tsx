@@ -54,16 +54,25 @@ export function saveUnit(design: string): void {
   );
 }
 
-/** A design's name as people read it: keys in fixed width. */
+/** A design's name as people read it: keys in fixed width, a coupon's shortened. */
 export function Name({ design }: { design: string }) {
-  return <code class="key">{design.length > 30 ? `${design.slice(0, 12)}…` : design}</code>;
+  const short = design.length > 30 ? `${design.slice(0, 12)}…` : design;
+  return (
+    <code class="key" title={short === design ? undefined : design}>
+      {short}
+    </code>
+  );
 }
 
+/** One column on the screen, in the CSV, or in both. */
 export interface Column<Row> {
   heading: string;
-  /** What the cell shows; what goes into the CSV when `value` is absent is its text. */
-  show: (row: Row) => ComponentChildren;
+  /** What the cell shows; absent: the column is in the file alone. */
+  show?: (row: Row) => ComponentChildren;
+  /** What the file holds, in SI units; absent: the column is on the screen alone. */
   value?: (row: Row) => unknown;
+  /** The column's name in the file where it is not the heading. */
+  csv?: string;
   words?: boolean;
 }
 
@@ -85,6 +94,7 @@ export function Table<Row>({
   empty: string;
   rowClass?: (row: Row) => string;
 }) {
+  const shown = columns.filter((column) => column.show);
   const stored = columns.filter((column) => column.value);
   return (
     <div class="table">
@@ -98,7 +108,7 @@ export function Table<Row>({
             onClick={() =>
               saveCsv(
                 name,
-                stored.map((c) => c.heading),
+                stored.map((c) => c.csv ?? c.heading),
                 rows.map((row) => stored.map((c) => c.value!(row))),
               )
             }
@@ -114,7 +124,7 @@ export function Table<Row>({
           <table>
             <thead>
               <tr>
-                {columns.map((c) => (
+                {shown.map((c) => (
                   <th key={c.heading} class={c.words ? "words" : ""} scope="col">
                     {c.heading}
                   </th>
@@ -124,9 +134,9 @@ export function Table<Row>({
             <tbody>
               {rows.map((row) => (
                 <tr key={rowKey(row)} class={rowClass?.(row)}>
-                  {columns.map((c) => (
+                  {shown.map((c) => (
                     <td key={c.heading} class={c.words ? "words" : ""}>
-                      {c.show(row)}
+                      {c.show!(row)}
                     </td>
                   ))}
                 </tr>

@@ -6,20 +6,23 @@ import { useHandIn } from "./hand_in";
 import { gpa, mpa } from "./numbers";
 import { Name, Notice, Unit } from "./parts";
 
-/** Designs that wait for a decision: of a round, or of the families of the stage after the last one. */
+/** Designs that may wait for a decision: of a round, or of the families of the stage after the last one. */
 export interface Offer {
   title: string;
   round: number;
   designs: Proposed[];
+  /** No round follows that would measure them. */
+  isLate: boolean;
 }
 
 /** The stage's variants while they are measured, else the newest proposal. */
-export function offerOf(work: Work, stage: Family[]): Offer | null {
+export function offerOf(work: Work, stage: Family[], lastRound: number): Offer | null {
   const open = stage.filter((f) => !f.is_validated);
   if (open.length > 0)
     return {
       title: "Variants of the families",
       round: open[0].round,
+      isLate: false,
       designs: open.flatMap((f) =>
         f.designs
           .filter((d) => !d.is_seed)
@@ -31,7 +34,15 @@ export function offerOf(work: Work, stage: Family[]): Offer | null {
           })),
       ),
     };
-  return work.proposal && { title: `Proposal of round ${work.proposal.round}`, ...work.proposal };
+  const { proposal } = work;
+  return proposal && { title: `Proposal of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
+}
+
+/** What becomes of the designs that are offered. */
+function outlook(offer: Offer, waits: boolean, approval: boolean): string {
+  if (offer.isLate) return "Proposed after the last round: nothing of this is measured any more.";
+  if (!approval) return "This game does not wait for a person's yes.";
+  return waits ? "The game waits for a yes or no to each design." : "";
 }
 
 export function Proposals({
@@ -59,6 +70,7 @@ export function Proposals({
       { design, round: offer!.round, approved, by, why },
       `${design} ${approved ? "approved" : "rejected"}.`,
     );
+  const isOpen = (design: string) => (stateOf(design)?.state ?? "pending") === "pending";
   if (!offer)
     return (
       <section class="panel">
@@ -66,18 +78,14 @@ export function Proposals({
         <p class="awaited">There is no proposal yet.</p>
       </section>
     );
+  const waits = approval && playing && !offer.isLate && offer.designs.some((p) => isOpen(p.design));
   return (
     <section class="panel">
       <h2>{offer.title}</h2>
-      <p class="quiet">
-        {approval
-          ? "The game waits for a yes or no to each design."
-          : "This game does not wait for a person's yes; a no still keeps a design from being measured when it comes in time."}
-      </p>
+      <p class="quiet">{outlook(offer, waits, approval)}</p>
       <ul class="cards">
         {offer.designs.map((p) => {
           const state = stateOf(p.design);
-          const open = state === undefined || state.state === "pending";
           return (
             <li key={p.design} class="card">
               <Unit design={p.design} size={92} />
@@ -96,7 +104,7 @@ export function Proposals({
                     </span>
                   )}
                 </p>
-                {open && playing && (
+                {waits && isOpen(p.design) && (
                   <div class="buttons">
                     <button type="button" disabled={busy || !by} onClick={() => decide(p.design, true)}>
                       Approve

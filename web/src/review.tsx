@@ -6,6 +6,13 @@ import { useHandIn } from "./hand_in";
 import { gpa, mpa } from "./numbers";
 import { Name, Notice, Table, Unit } from "./parts";
 
+/** The laboratory's note, and who has judged the specimen last and why. */
+function remarkOn(s: LaboratorySpecimen): string {
+  if (!s.by) return s.note;
+  const judged = `${s.by}: ${s.why}`;
+  return s.note && s.note !== s.why ? `${s.note}; ${judged}` : judged;
+}
+
 export function Specimens({
   work,
   by,
@@ -78,8 +85,10 @@ export function Specimens({
             show: (s) => `${s.test}${s.orientation_deg ? ", turned" : ""}`,
             value: (s) => s.test,
           },
-          { heading: "E / GPa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
-          { heading: "T / MPa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
+          { heading: "orientation_deg", value: (s) => s.orientation_deg },
+          { heading: "batch", value: (s) => s.batch },
+          { heading: "E / GPa", csv: "modulus_pa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
+          { heading: "T / MPa", csv: "toughness_pa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
           {
             heading: "valid",
             words: true,
@@ -90,6 +99,7 @@ export function Specimens({
           },
           {
             heading: "remarks",
+            csv: "note",
             words: true,
             show: (s) => (
               <>
@@ -98,11 +108,13 @@ export function Specimens({
                     {r}
                   </span>
                 ))}{" "}
-                <span class="quiet">{s.note}</span>
+                <span class="quiet">{remarkOn(s)}</span>
               </>
             ),
             value: (s) => s.note,
           },
+          { heading: "by", value: (s) => s.by },
+          { heading: "why", value: (s) => s.why },
           {
             heading: "judge",
             words: true,

@@ -1,6 +1,8 @@
 #pragma once
 // A desk without a run behind it: it keeps what is handed in.
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "dashboard/desk.hpp"
@@ -20,6 +22,7 @@ class FakeDesk : public Desk {
   std::vector<NodeReport> nodes() override { return reports; }
   Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
   Answer judge(const Judgement& judgement) override { return judgements.push_back(judgement), answer; }
+  std::optional<std::string> against(const Decision&) override { return reason_against; }
   Answer decide(const Decision& decision) override { return decisions.push_back(decision), answer; }
 
   void keep_grouping(const std::filesystem::path&, const std::vector<families::Family>& families) override {
@@ -29,6 +32,7 @@ class FakeDesk : public Desk {
   Laboratory picture;
   std::vector<NodeReport> reports;
   Answer answer = Answer::accepted;
+  std::optional<std::string> reason_against;
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<Judgement> judgements;
   std::vector<Decision> decisions;

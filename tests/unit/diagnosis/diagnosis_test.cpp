@@ -72,6 +72,39 @@ TEST(Diagnosis, ADriftFromBatchToBatchIsNamed) {
   expect_named(diagnose_effect("batch_drift", 0.05), "batch_drift", 0.05, 0.02);
 }
 
+// Alone, rigid_overprint explains more of these data than droplet_mixing does; beside the machine it is the other way.
+TEST(Diagnosis, TwoEffectsAreNamedAlsoWhereALookAlikeLeadsAlone) {
+  material::ParameterSet truth = synthetic_truth();
+  truth.extensions["droplet_mixing"] = {0.8};
+  truth.extensions["machine_compliance"] = {3e-10};
+  const Diagnosis diagnosis = diagnose_truth(truth);
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : diagnosis.effects) names.push_back(effect.name);
+  std::ranges::sort(names);
+  EXPECT_EQ(names, (std::vector<std::string>{"droplet_mixing", "machine_compliance"}));
+}
+
+// A bulk phase that is softer across its layers changes every turned specimen by the same factor. Interfaces that
+// differ come near to that and are not the cause.
+TEST(Diagnosis, ACauseThatActsEvenlyAlongAConditionGetsNoName) {
+  for (const double factor : {0.985, 1.02}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      SyntheticSet set;
+      set.seed = seed;
+      std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens(set, synthetic_truth());
+      for (measurement::SpecimenRecord& specimen : specimens)
+        if (specimen.conditions.orientation_deg == 90.0) *specimen.modulus_pa *= factor;
+      DiagnosisSettings settings;
+      settings.start = material::default_parameters();
+      settings.seed = seed;
+      settings.fidelity = tester::Fidelity::tiny;
+      const Diagnosis diagnosis = diagnose(specimens, settings);
+      EXPECT_NE(to_string(diagnosis.verdict), "named") << factor << ", seed " << seed << ": " << diagnosis.summary;
+    }
+  }
+}
+
 // Other constants of the materials explain a factor on force exactly.
 TEST(Diagnosis, AnErrorOfTheLoadCellIsInvisibleAndNothingIsNamed) {
   const Diagnosis diagnosis = diagnose_effect("load_cell_gain", 0.05);

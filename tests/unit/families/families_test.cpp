@@ -181,6 +181,8 @@ TEST(FamiliesFile, ComesBackAsItWasWritten) {
   refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1: a family is expected to have seeds");
   refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n",
           "families.toml:1: a family is expected to have a name");
+  refused("[[family]]\nname = \"2\"\nseeds = [\"577fffe9fffdef\"]\n", "not digits alone");
+  refused("[[family]]\nname = \"" + std::string(65, 'a') + "\"\nseeds = [\"577fffe9fffdef\"]\n", "at most 64");
   refused("[[family]]\nname = \"a\"\nseeds = [\"577f\"]\n", "families.toml:3: seed '577f'");
   refused(
       "[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = "

@@ -104,6 +104,24 @@ TEST(Film, DamageIsNamed) {
   EXPECT_THAT(decode(columns).error().message, HasSubstr("columns: -1, expected"));
 }
 
+// Whoever draws the crack walks along these elements.
+TEST(Film, BreaksThatCannotBeAreRefused) {
+  Film film = sample();
+  film.crack.order[1] = film.crack.order[0];
+  EXPECT_THAT(decode(encode(film)).error().message, HasSubstr("fails twice"));
+  film = sample();
+  const auto empty = std::find(film.material.begin(), film.material.end(), 3) - film.material.begin();
+  film.crack.order[0].element = static_cast<int>(empty);
+  EXPECT_THAT(decode(encode(film)).error().message, HasSubstr("is empty and cannot fail"));
+}
+
+TEST(Film, AnotherScaleOfEnergiesIsRefused) {
+  std::string bytes = encode(sample());
+  const std::size_t at = bytes.find("\"decades\":") + 10;
+  bytes[at] = bytes[at] == '9' ? '8' : '9';
+  EXPECT_THAT(decode(bytes).error().message, HasSubstr("energies over"));
+}
+
 TEST(Film, NoBytesMakeTheReaderFail) {
   const std::string bytes = encode(sample());
   for (std::size_t i = 0; i < bytes.size(); i += 1 + i / 40) {

@@ -86,6 +86,39 @@ TEST(DesignStates, TheOppositeOfTheFirstDecisionOnAProposalDoesNotCount) {
   EXPECT_FALSE(decision_against(facts, {1, kDesign, true, "other", "go"})) << "another proposal";
 }
 
+// The validation agent passes these over; a page that took them for decisions would hide the buttons that the game
+// waits for.
+TEST(DesignStates, WhatTheGamePassesOverDecidesNothing) {
+  LaboratoryFacts facts;
+  facts.proposed = {{1, kDesign}};
+  facts.decisions = {{-1, kDesign, true, "lab", "as my own"}, {7, kDesign, true, "lab", "no such round"}};
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::pending);
+  facts.decisions.push_back({1, kDesign, true, "lab", "go"});
+  EXPECT_EQ(stage_of(facts, kDesign), DesignStage::approved);
+  facts.decisions = {{-1, kOther, true, "lab", "as my own"}};
+  EXPECT_EQ(stage_of(facts, kOther), DesignStage::approved) << "nobody proposed it";
+}
+
+TEST(DesignStates, ADecisionThatWouldChangeNothingSaysWhy) {
+  LaboratoryFacts facts;
+  facts.proposed = {{0, kDesign}};
+  const auto reason = [&](const StatedDecision& decision, bool asks = true) {
+    return why_void(facts, decision, asks).value_or("");
+  };
+  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "");
+  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}, false),
+            "this game does not ask for approvals: what is proposed is ordered");
+  EXPECT_EQ(reason({3, kDesign, true, "lab", ""}), "577fffe9fffdef is not in proposal 3");
+  EXPECT_EQ(reason({-1, kDesign, true, "lab", ""}),
+            "577fffe9fffdef is proposed and waits for an answer: say yes to the proposal");
+  EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "");
+  EXPECT_NE(reason({-1, kOther, false, "lab", ""}), "");
+  facts.decisions = {{0, kDesign, false, "Ada", "islands"}};
+  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "577fffe9fffdef was rejected before by Ada: that stands");
+  facts.orders = {order_of(kOther)};
+  EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "3ffc9b4ad4d2d9 was ordered before: that stands");
+}
+
 TEST(DesignStates, AnOrderOfATurnedSpecimenIsNoneOfTheDesignAsAPersonAddsIt) {
   LaboratoryFacts facts;
   facts.orders = {order_of(kDesign)};

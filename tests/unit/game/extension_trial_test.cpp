@@ -89,6 +89,28 @@ TEST(ExtensionTrial, AModelThatIsNoBetterIsHardlyEverAdopted) {
   }
 }
 
+// One design a round that both models only extrapolate to, off by a factor of e or more: the less wrong one is not
+// right.
+TEST(ExtensionTrial, ADesignThatBothAreFarOffHardlyEverDecides) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  constexpr int kGames = 400;
+  int adopted = 0;
+  for (int game = 0; game < kGames; ++game) {
+    TrialErrors errors;
+    bool ever = false;
+    for (int round = 1; round <= 3; ++round) {
+      for (int design = 0; design < 8; ++design) {
+        const double scatter = 0.01 * normal(random), own = design == 0 ? 1.0 : 0.01;
+        errors.modulus.push_back({"", round, scatter + own * normal(random), scatter + own * normal(random)});
+      }
+      ever = ever || gain_is_established(errors);
+    }
+    adopted += ever;
+  }
+  EXPECT_LE(adopted, kGames / 10);
+}
+
 TEST(ExtensionTrial, OnlyDesignsThatBothHadForetoldCount) {
   measurement::Replicates measured;
   measured.design = *pattern::design_from_name("577fffe9fffdef");

@@ -55,6 +55,47 @@ class SetOnDisk : public testing::Test {
 
 constexpr const char* kShort = "specimen,pattern,test,modulus_pa\n";
 
+// A specimen that broke in the grips says nothing, and that is worth a row.
+TEST_F(SetOnDisk, AnInvalidSpecimenNeedNoResult) {
+  const MeasurementSet set = read(
+      "specimen,pattern,test,modulus_pa,toughness_pa,valid,note\n"
+      "A,577fffe9fffdef,toughness,,,0,broke in the grips\nB,soft,modulus,1e6,,,\nC,soft,modulus,,,1,\n");
+  ASSERT_EQ(set.specimens.size(), 2u);
+  EXPECT_FALSE(set.specimens[0].valid);
+  EXPECT_TRUE(missing_result(set.specimens[0]));
+  ASSERT_EQ(set.rejected.size(), 1u);
+  EXPECT_EQ(set.rejected[0].column, "modulus_pa");
+}
+
+TEST_F(SetOnDisk, CouponsGoByTheirNames) {
+  const MeasurementSet set =
+      read(std::string(kShort) +
+           "A,checkerboard:2,modulus,1e9\nB,laminate:x:3:2,modulus,1e9\nC,checkerboard:3,modulus,1e9\n");
+  ASSERT_EQ(set.specimens.size(), 2u);
+  EXPECT_NE(set.specimens[0].design.layout(), nullptr);
+  ASSERT_EQ(set.rejected.size(), 1u);
+  EXPECT_THAT(set.rejected[0].reason, HasSubstr("1, 2, 5"));
+}
+
+TEST_F(SetOnDisk, APrintOrderBelowOneCountsAsUnknown) {
+  const MeasurementSet set = read(
+      "specimen,pattern,test,modulus_pa,print_order\nA,soft,modulus,1e6,0\nB,soft,modulus,1e6,-3\n"
+      "C,soft,modulus,1e6,\nD,soft,modulus,1e6,4\n");
+  ASSERT_EQ(set.specimens.size(), 4u);
+  EXPECT_EQ(set.specimens[0].print_order, 0);
+  EXPECT_EQ(set.specimens[1].print_order, 0);
+  EXPECT_EQ(set.specimens[3].print_order, 4);
+  EXPECT_EQ(
+      std::ranges::count_if(set.warnings, [](const std::string& each) { return each.find("unknown") != each.npos; }),
+      2);
+}
+
+TEST_F(SetOnDisk, EveryRowThatCannotBeUsedIsNamedWhenNoneCan) {
+  const std::string error = error_of(std::string(kShort) + "A,nothing.txt,modulus,1e6\nB,soft,modulus,abc\n");
+  EXPECT_THAT(error, HasSubstr("line 2: column pattern"));
+  EXPECT_THAT(error, HasSubstr("line 3: column modulus_pa"));
+}
+
 // Units that were forgotten are what people get wrong most often.
 TEST_F(SetOnDisk, CurvesInOtherUnitsAndUnfinishedPullsAreDoubted) {
   const std::string heading = "specimen,pattern,test,curve\n", row = "A,577fffe9fffdef,toughness,a.csv\n";
@@ -199,7 +240,8 @@ TEST_F(SetOnDisk, ValuesOfAnotherUnitAreWarnedAbout) {
   ASSERT_EQ(plausible.rejected.size(), 2u);
   EXPECT_EQ(plausible.rejected[0].line, 2);
   EXPECT_EQ(plausible.rejected[0].column, "modulus_pa");
-  EXPECT_EQ(rejected("specimen,pattern,test,modulus_pa,toughness_pa", "S,rigid,toughness,,1.65e11").column, "toughness_pa");
+  EXPECT_EQ(rejected("specimen,pattern,test,modulus_pa,toughness_pa", "S,rigid,toughness,,1.65e11").column,
+            "toughness_pa");
 }
 
 TEST_F(SetOnDisk, IdenticalRepeatIsIgnoredAndADifferentOneIsAnError) {

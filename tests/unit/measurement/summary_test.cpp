@@ -160,6 +160,31 @@ TEST(Observe, DriftGoesWithTheBatchAndLeavesTheFirstOne) {
   EXPECT_NEAR(observe_curve(curve, drift, {.batch_step = 1.0}).stress_pa[1], 0.9e7, 1e-6);
 }
 
+TEST(Observe, TheWayBackThroughTheMachineIsExact) {
+  const material::Extensions machine = {{"machine_compliance", {3e-10}}, {"load_cell_gain", {0.04}}};
+  for (const double modulus_pa : {1e6, 5e8, 2.6e9})
+    EXPECT_NEAR(modulus_behind(observe_modulus(modulus_pa, machine), machine) / modulus_pa, 1.0, 1e-12);
+  EXPECT_TRUE(std::isinf(modulus_behind(5e9, machine))) << "the machine alone gives more";
+}
+
+TEST(Observe, ToughnessChangesAsTheAreaOfAPullToSeparationDoes) {
+  const material::Extensions machine = {
+      {"machine_compliance", {3e-10}}, {"toe_slack", {0.002}}, {"load_cell_gain", {0.04}}};
+  const tester::Curve curve = {{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, 2e7, 3e7, 1e7, 0.0}};
+  EXPECT_NEAR(observe_toughness(tester::area_under(curve), machine) / tester::area_under(observe_curve(curve, machine)),
+              1.0, 1e-12);
+}
+
+TEST(Summary, SaysHowManyBatchesAfterTheFirstItsSpecimensWerePrinted) {
+  std::vector<SpecimenRecord> specimens = {modulus_specimen("a", 1e9), modulus_specimen("b", 1e9),
+                                           toughness_specimen("c", 1e5)};
+  specimens[0].batch = "batch-1", specimens[1].batch = "batch-2", specimens[2].batch = "batch-10";
+  const std::vector<Replicates> groups = summarise(specimens);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_DOUBLE_EQ(groups[0].modulus_batch_step, 0.5);
+  EXPECT_DOUBLE_EQ(groups[0].toughness_batch_step, 2.0);
+}
+
 TEST(PrintContexts, CountBatchesInTheirNaturalOrder) {
   std::vector<SpecimenRecord> specimens(5);
   const char* const batches[] = {"batch-10", "batch-2", "", "batch-2", "batch-1"};

@@ -69,6 +69,27 @@ TEST(InstrumentText, IsReadInAnyOfItsEncodings) {
   EXPECT_FALSE(utf8_from_instrument("PK\x03\x04workbook"));
 }
 
+// What is written into a set must be read back from it, so halves of surrogate pairs cannot stay what they are.
+TEST(InstrumentText, HalvesOfSurrogatePairsBecomeReplacementCharacters) {
+  using namespace std::string_view_literals;
+  EXPECT_EQ(utf8_from_instrument("\xFF\xFE"
+                                 "A\0\x0B\xDC"
+                                 "B\0"sv)
+                .value(),
+            "A\xEF\xBF\xBD"
+            "B");
+  EXPECT_EQ(utf8_from_instrument("\xFF\xFE"
+                                 "\x3D\xD8"
+                                 "B\0"sv)
+                .value(),
+            "\xEF\xBF\xBD"
+            "B");
+  EXPECT_EQ(utf8_from_instrument("\xFF\xFE"
+                                 "\x3D\xD8\x00\xDE"sv)
+                .value(),
+            "\xF0\x9F\x98\x80");
+}
+
 TEST(Columns, AreRecognisedByNameInAnyLanguageWithTheirUnit) {
   struct Case {
     const char* heading;

@@ -132,16 +132,6 @@ TEST(BayesianOptimizer, BatchesOfAnySizeHoldDistinctPoints) {
   EXPECT_EQ(seen.size(), 60u);
 }
 
-TEST(BayesianOptimizer, StopsForLackOfProgress) {
-  BatchOptimizerSettings impatient = settings(2, 500);
-  impatient.patience = 24;
-  impatient.least_gain = 0.1;
-  const auto optimizer = make_optimizer(Algorithm::bayesian, impatient);
-  const std::size_t spent = run(*optimizer, 500).size();
-  EXPECT_LT(spent, 120u);
-  EXPECT_LT(*optimizer->best()->value, 0.01);
-}
-
 TEST(BayesianOptimizer, RefusesAHistoryOfOtherDimensions) {
   const auto optimizer = make_optimizer(Algorithm::bayesian, settings(3, 20));
   EXPECT_THROW(optimizer->resume({{{0.5, 0.5}, 1.0}}), InputError);

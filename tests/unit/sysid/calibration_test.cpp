@@ -12,6 +12,7 @@
 
 #include "base/random.hpp"
 #include "pattern/random_pattern.hpp"
+#include "sysid/objective.hpp"
 
 namespace nacre::sysid {
 namespace {
@@ -510,12 +511,24 @@ TEST(BaseCalibration, KeepsWhatHasNoBudget) {
   const Calibrated without_toughness = finish_by(moduli, measured, base_answer);
   EXPECT_EQ(to_vector(without_toughness.parameters.toughness), to_vector(base.start.toughness));
   EXPECT_LT(without_toughness.after.modulus_max, 3e-4);
+  EXPECT_EQ(without_toughness.before.toughness_count, 3) << "what is kept is told, too";
+  EXPECT_EQ(without_toughness.after.toughness_max, without_toughness.before.toughness_max);
   base.toughness_budget = 60;
   base.modulus_budget = 0;
   BaseCalibration toughness(measured, base);
   const Calibrated without_modulus = finish_by(toughness, measured, base_answer);
   EXPECT_EQ(to_vector(without_modulus.parameters.modulus), to_vector(base.start.modulus));
   EXPECT_LT(without_modulus.after.toughness_max, 0.01);
+}
+
+TEST(Observed, ADriftOfThePrintIsThatOfTheDesignsOwnBatches) {
+  Replicates measured;
+  measured.modulus_batch_step = 1.0;
+  measured.toughness_batch_step = 2.0;
+  const Prediction prediction{.modulus_pa = 1e9, .toughness_pa = 1e5, .curve = {{0.0, 0.1, 0.2}, {0.0, 1e6, 0.0}}};
+  const Prediction shown = observed(prediction, {{"batch_drift", {0.1}}}, measured);
+  EXPECT_NEAR(*shown.modulus_pa, 1.1e9, 1.0);
+  EXPECT_NEAR(*shown.toughness_pa, 1.21e5, 1e-6);
 }
 
 TEST(BaseCalibration, FitsSoftRigidAndInterface) {

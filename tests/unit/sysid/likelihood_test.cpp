@@ -29,14 +29,14 @@ Prediction modulus(double value_pa) {
   return prediction;
 }
 
-TEST(ReplicateScatter, IsPooledByDegreesOfFreedom) {
+TEST(RelativeScatter, IsPooledByDegreesOfFreedom) {
   const std::vector<Replicates> measured = {measured_modulus(1e9, 2e7, 3), measured_modulus(2e9, 2e7, 5),
                                             measured_modulus(1e9, 0.0, 1)};
-  EXPECT_NEAR(pooled_scatter(measured).log_modulus, std::sqrt((2 * 4e-4 + 4 * 1e-4) / 6), 1e-12);
+  EXPECT_NEAR(pooled_relative_scatter(measured).log_modulus, std::sqrt((2 * 4e-4 + 4 * 1e-4) / 6), 1e-12);
 }
 
-TEST(ReplicateScatter, IsTheDeclaredOneWithoutReplicates) {
-  EXPECT_EQ(pooled_scatter({measured_modulus(1e9, 0.0, 1)}, {0.03, 0.2}).log_modulus, 0.03);
+TEST(RelativeScatter, IsTheDeclaredOneWithoutReplicates) {
+  EXPECT_EQ(pooled_relative_scatter({measured_modulus(1e9, 0.0, 1)}, {0.03, 0.2}).log_modulus, 0.03);
 }
 
 TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {

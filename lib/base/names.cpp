@@ -1,0 +1,14 @@
+#include "base/names.hpp"
+
+#include <algorithm>
+
+namespace nacre {
+
+bool is_plain_name(std::string_view name, std::size_t most_bytes, std::string_view also) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  const auto holds = [](std::string_view letters, char letter) { return letters.find(letter) != letters.npos; };
+  return !name.empty() && name.size() <= most_bytes &&
+         std::ranges::all_of(name, [&](char letter) { return holds(kLetters, letter) || holds(also, letter); });
+}
+
+}  // namespace nacre
