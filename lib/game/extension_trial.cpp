@@ -11,6 +11,9 @@ namespace nacre::game {
 namespace {
 
 const double kOdds = std::log10(20.0);
+/// What the others may say against it: five to one. Designs that both foretell within the scatter, one from either side,
+/// come to that.
+constexpr double kStraddling = -0.7;
 constexpr int kFewestDesigns = 3;
 constexpr double kFreedom = 4.0;
 
@@ -114,7 +117,7 @@ bool gain_is_established(const TrialErrors& errors) {
   const TrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
                       toughness = standing_of(errors.toughness, kLeastToughnessError);
   return modulus.designs >= kFewestDesigns && modulus.for_extended >= kOdds && toughness.for_adopted < kOdds &&
-         least_without_one(errors.modulus, kLeastModulusError) >= 0.0;
+         least_without_one(errors.modulus, kLeastModulusError) >= kStraddling;
 }
 
 }  // namespace nacre::game

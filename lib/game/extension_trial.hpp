@@ -46,7 +46,7 @@ TrialStanding standing_of(std::span<const ForetoldError> errors, double least);
 /// What scatter and numerics leave of log E and of log T.
 inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
 
-/// Odds of 20 to 1 that E is foretold better, which no single design brings about against all others, and not the same
+/// Odds of 20 to 1 that E is foretold better, which no single design brings about while all others speak against it, and not the same
 /// odds that T is foretold worse. At least three designs. How many games adopt an extension that is no better:
 /// docs/decisions/0015.
 bool gain_is_established(const TrialErrors& errors);

@@ -119,6 +119,10 @@ void ValidationCore::accept_measurement(const std::string& payload) {
                fmt::format("specimen {} is refused: measured at fidelity {}, the game is played at {}", record.specimen,
                            tester::to_string(measured->fidelity), tester::to_string(scenario_.fidelity)));
   }
+  if (measured->round > round_) {  // this agent's journal was lost, and the order is yet to be given again
+    early_measurements_[measured->round].push_back(payload);
+    return;
+  }
   switch (book_.enter(record, measured->order_id)) {
     case game::MeasurementBook::Entry::repeated:
       return;

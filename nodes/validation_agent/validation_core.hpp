@@ -101,6 +101,7 @@ class ValidationCore : public runtime::NodeCore {
   void diagnose();
   std::optional<material::ParameterSet> extended_by(const diagnosis_t& diagnosis);
   bool model_holds(const diagnosis_t& diagnosis) const;
+  void take_early_measurements();
   void take_diagnosis(const diagnosis_t& diagnosis);
   void weigh(const diagnosis_t& diagnosis);
   void finish_trial(const sysid::Calibrated& result);
@@ -152,6 +153,7 @@ class ValidationCore : public runtime::NodeCore {
   wire::GamutCollector gamut_chunks_;
   std::map<int, std::vector<explore::Evaluated>> gamuts_;
   std::map<int, wire::Proposal> proposals_;
+  std::map<int, std::vector<std::string>> early_measurements_;
   std::map<int, diagnosis_t> early_diagnoses_;  // that came before they were asked for: this agent's journal was lost
   std::optional<diagnosis_t> diagnosis_;        // of the last round that had one
   std::vector<game::RoundFigures> history_;

@@ -24,8 +24,15 @@ void ValidationCore::begin_round(int round) {
     if (calibration_set_.empty()) return begin_unfitted();
     return begin_calibration(model_);
   }
+  take_early_measurements();
   if (trial_ && !proposals_.at(round - 1).designs.empty()) return foretell();
   order();
+}
+
+void ValidationCore::take_early_measurements() {
+  const auto early = early_measurements_.extract(round_);
+  if (!early) return;
+  for (const std::string& payload : early.mapped()) accept_measurement(payload);
 }
 
 void ValidationCore::begin_unfitted() {
@@ -242,7 +249,7 @@ void ValidationCore::close_round_when_proposed() {
   round.decided_by = verdict.decided_by;
   if (round.last && !verdict.equilibrium)
     round.decided_by += fmt::format("; the limit of {} rounds is reached", scenario_.rounds);
-  gamuts_.clear();
+  gamuts_.erase(round_);
   StageBeginning beginning = stage_beginning();
   const bool families_follow = round.last && scenario_.families.enabled && FamilyStage::is_possible(beginning);
   if (families_follow) {
@@ -279,6 +286,7 @@ StageBeginning ValidationCore::stage_beginning() const {
 void ValidationCore::measure_families_when_chosen() {
   if (!families_->has_chosen()) return;
   ++round_;
+  take_early_measurements();
   phase_ = Phase::measuring;
   send_orders(desk_.open_family_round(round_, families_->chosen()));
   measure_on();

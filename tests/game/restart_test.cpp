@@ -75,6 +75,12 @@ TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
   for (const char* channel : {"GAMUT", "PROPOSAL", "DIAGNOSIS", "MEASUREMENT"})
     for (const std::string& payload : whole.payloads(channel)) again.publish(runtime::Message{channel, payload});
   again.play();
+  const auto counts = [](const InProcessGame& game) {
+    std::vector<int> of_rounds;
+    for (const auto& round : game.said<wire::RoundSummary>("ROUND")) of_rounds.push_back(round.calibration_count);
+    return of_rounds;
+  };
+  EXPECT_EQ(counts(again), counts(whole));
   EXPECT_EQ(again.payloads("PARAMETERS"), whole.payloads("PARAMETERS"));
   EXPECT_EQ(again.payloads("ROUND"), whole.payloads("ROUND"));
 }

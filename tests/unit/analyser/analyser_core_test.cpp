@@ -61,6 +61,7 @@ struct Watched {
 
 std::string measurement_of(const std::string& specimen, std::uint64_t bits, int round = 1) {
   wire::Measurement m;
+  m.fidelity = game::Scenario{}.fidelity;
   m.round = round;
   m.record.specimen = specimen;
   m.record.design = pattern::Pattern(bits);
@@ -72,6 +73,7 @@ std::string measurement_of(const std::string& specimen, std::uint64_t bits, int 
 /// A coupon of linear material, pulled to 0.1 % strain.
 std::string coupon_of(const std::string& specimen, const char* material, double modulus_pa) {
   wire::Measurement m;
+  m.fidelity = game::Scenario{}.fidelity;
   m.round = 1;
   m.record.specimen = specimen;
   m.record.design = *pattern::design_from_name(material);

@@ -108,7 +108,7 @@ TEST(ExtensionTrial, ADesignThatBothAreFarOffHardlyEverDecides) {
     }
     adopted += ever;
   }
-  EXPECT_LE(adopted, kGames / 10);
+  EXPECT_LE(adopted, 3 * kGames / 20);
 }
 
 TEST(ExtensionTrial, OnlyDesignsThatBothHadForetoldCount) {

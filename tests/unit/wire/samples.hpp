@@ -15,7 +15,7 @@ inline material::ParameterSet parameters() {
   return set;
 }
 
-inline tester::Curve curve() { return {{0.0, 0.01, 0.02}, {0.0, 2e6, 1e6}}; }
+inline tester::Curve curve() { return {{0.0, 0.01, 0.02, 0.03, 0.04}, {0.0, 2e6, 1e6, 1e6, 0.0}}; }
 
 inline SimulateRequest request() {
   SimulateRequest request;
