@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "game/model.hpp"
+
 namespace nacre::game {
 namespace {
 
@@ -125,6 +127,20 @@ TEST(Standings, ForetoldDesignsAreMeasuredOnesWithTheirPredictions) {
   ASSERT_EQ(foretold.predicted.size(), 1u);
   EXPECT_EQ(foretold.measured.front().design, predicted_design);
   EXPECT_EQ(foretold.predicted.front().modulus_pa, 1.2e9);
+}
+
+// With an adopted machine the gamut, which knows the material side alone, would lie far above what can be measured.
+TEST(Machine, GamutAndMeasurementsMeetInWhatItShows) {
+  material::ParameterSet model = material::default_parameters();
+  const optimize::Performance simulated{1.9e9, 3e5};
+  EXPECT_EQ(through_machine(simulated, model).modulus_pa, simulated.modulus_pa);
+  model.extensions = {{"machine_compliance", {3e-10}}, {"load_cell_gain", {0.02}}, {"droplet_mixing", {1.0}}};
+  const optimize::Performance shown = through_machine(simulated, model);
+  EXPECT_NEAR(shown.modulus_pa, 1.02 * 1.9e9 / (1.0 + 3e-10 * 1.9e9), 1.0);
+  EXPECT_NEAR(shown.toughness_pa, 1.02 * 3e5, 1e-6);
+  const optimize::Performance back = behind_machine(shown, model);
+  EXPECT_NEAR(back.modulus_pa / simulated.modulus_pa, 1.0, 1e-12);
+  EXPECT_NEAR(back.toughness_pa / simulated.toughness_pa, 1.0, 1e-12);
 }
 
 }  // namespace
