@@ -33,7 +33,7 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
   // The row parser would look for a file of that name.
   if (const auto pattern = fields.find(std::string(kColumns[kPattern]));
       pattern != fields.end() && !pattern->second.empty()) {
-    const auto design = pattern::design_from_name(trimmed(pattern->second));
+    const auto design = pattern::design_from_word(trimmed(pattern->second));
     if (!design) return tl::unexpected(rejected(pattern->first, design.error().message));
   }
   heading.position[kCurve] = row.cells.size();

@@ -146,11 +146,10 @@ class RowParser {
       reject(kPattern, "is empty, expected a pattern file, a key, rigid, soft, interface or mix:F");
       return {};
     }
-    const Result<pattern::Design> named = pattern::design_from_name(name);
+    const Result<pattern::Design> named = pattern::design_from_word(name);
     if (named) return *named;
-    if (const std::optional<Result<pattern::Layout>> coupon = pattern::coupon_from_name(name)) {
-      if (*coupon) return **coupon;
-      reject(kPattern, coupon->error().message);
+    if (pattern::coupon_from_name(name)) {
+      reject(kPattern, named.error().message);
       return {};
     }
     const Result<std::filesystem::path> path = file_inside(folder_, name);

@@ -56,13 +56,17 @@ Result<Design> design_from_name(std::string_view name) {
               name);
 }
 
+Result<Design> design_from_word(std::string_view word) {
+  const std::optional<Result<Layout>> coupon = coupon_from_name(word);
+  if (!coupon) return design_from_name(word);
+  if (!*coupon) return tl::unexpected(coupon->error());
+  return Design(**coupon);
+}
+
 Design design_from_argument(const std::string& argument) {
-  const Result<Design> named = design_from_name(argument);
+  const Result<Design> named = design_from_word(argument);
   if (named) return *named;
-  if (const auto coupon = coupon_from_name(argument)) {
-    if (!*coupon) throw InputError(coupon->error().message);
-    return Design(**coupon);
-  }
+  if (coupon_from_name(argument)) throw InputError(named.error().message);
   std::error_code ignored;
   if (!std::filesystem::exists(argument, ignored)) {
     throw InputError::format("{}; nor is there a file of that name", named.error().message);

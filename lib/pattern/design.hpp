@@ -37,6 +37,9 @@ class Design {
 /// 0 <= F <= 1. `mix:0`, `mix:0.5` and `mix:1` are the same designs as soft, interface and rigid.
 Result<Design> design_from_name(std::string_view name);
 
+/// A canonical name, or that of a coupon (`checkerboard:2`, `laminate:x:3:2`).
+Result<Design> design_from_word(std::string_view word);
+
 /// What a person types: a canonical name, a coupon (`checkerboard:2`, `laminate:x:3:2`), or the path of a layout file.
 /// Throws InputError.
 Design design_from_argument(const std::string& argument);
