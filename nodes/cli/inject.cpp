@@ -76,10 +76,18 @@ measurement::RejectedRow refused(const measurement::SpecimenRecord& specimen, in
   return {line, "", reason};
 }
 
+void say_conflicting(const std::string& specimen) {
+  warn(
+      fmt::format("specimen {}: the run has another measurement of this name, which stays; expected a new name, or "
+                  "`nacre review` to judge the old one",
+                  specimen));
+}
+
 /// Content hashes of the messages that are under way.
 struct Offered {
   std::vector<std::string> hashes;
-  std::set<std::string> repeated;  ///< those that the validation agent has already
+  std::map<std::string, std::string> specimens;  ///< by hash
+  std::set<std::string> repeated;                ///< those that the validation agent has already
 };
 
 /// Offers what the validation agent does not contradict and every node would take; the rest goes into `delivery`.
@@ -93,10 +101,7 @@ Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet&
     const auto same_name = known.find(specimen.specimen);
     const bool is_known = same_name != known.end();
     if (is_known && same_name->second != wire::message_hash(message.channel, message.payload)) {
-      warn(
-          fmt::format("specimen {}: the run has another measurement of this name, which stays; expected a new name, or "
-                      "`nacre review` to judge the old one",
-                      specimen.specimen));
+      say_conflicting(specimen.specimen);
       delivery.conflicting.push_back(specimen.specimen);
       continue;
     }
@@ -107,6 +112,7 @@ Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet&
       continue;
     }
     offered.hashes.push_back(*hash);
+    offered.specimens.emplace(*hash, specimen.specimen);
     if (is_known) offered.repeated.insert(*hash);
   }
   return offered;
@@ -117,11 +123,19 @@ Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, cons
   const auto endpoint = speak(run, "inject");
   Delivery delivery;
   delivery.rejected = set.rejected;
-  const auto [hashes, repeated] = offer_specimens(run, set, options.set, *endpoint, delivery);
+  const auto [hashes, specimens, repeated] = offer_specimens(run, set, options.set, *endpoint, delivery);
   if (hashes.empty() && delivery.conflicting.empty())
     throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
   wait_for_receivers(*endpoint, hashes, options.timeout_s);
+  // Another program may have brought the same names meanwhile: what the validation agent wrote down first stays.
+  const std::map<std::string, std::string> held = hashes_by_specimen(run);
   for (const std::string& hash : hashes) {
+    const std::string& specimen = specimens.at(hash);
+    if (const auto found = held.find(specimen); found != held.end() && found->second != hash) {
+      say_conflicting(specimen);
+      delivery.conflicting.push_back(specimen);
+      continue;
+    }
     std::set<std::string> missing = endpoint->waiting_for(hash);
     ++(!missing.empty() ? delivery.unanswered : repeated.count(hash) > 0 ? delivery.repeated : delivery.accepted);
     delivery.unanswered_by.merge(missing);
