@@ -107,16 +107,21 @@ LaboratoryView view_laboratory(const RunAccess& run) {
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
     if (!view.newest_proposal || proposal.round >= view.newest_proposal->round) view.newest_proposal = proposal;
   };
+  const auto take_family = [&](const wire::Family& family) {
+    for (const game::FamilyDesign& design : family.designs)
+      if (!design.is_seed) facts.proposed.push_back({family.round, design.pattern});
+  };
   const auto take_order = [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); };
   const auto take_measurement = [&](const wire::Measurement& one) {
     if (one.fidelity == run.scenario.fidelity) facts.book.enter(one.record, one.order_id);
   };
-  read_validation_agent(run,
-                        {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
-                         {"MEASUREMENT", each<wire::Measurement>(take_measurement)},
-                         {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
-                         {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
-                        {{"TEST_ORDER", each<wire::TestOrder>(take_order)}});
+  read_validation_agent(
+      run,
+      {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
+       {"MEASUREMENT", each<wire::Measurement>(take_measurement)},
+       {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
+       {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
+      {{"TEST_ORDER", each<wire::TestOrder>(take_order)}, {"FAMILY", each<wire::Family>(take_family)}});
   for (const auto& [specimen, by] : read_printed(run)) facts.printed.push_back(specimen);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);
