@@ -37,7 +37,7 @@ const std::array<ShapeGradients, kGaussPoints>& shape_gradients() {
 }
 
 bool internal_force(const ElementVector& displacement, const material::Lame& lame, ElementVector& force) {
-  // first_piola and displacement_gradient, written out. The solvers have kernels of their own; tests hold them to this.
+  // first_piola and displacement_gradient, written out. The solvers have kernels of their own.
   double fx[kElementNodes] = {}, fy[kElementNodes] = {};
   bool usable = true;
   for (const ShapeGradients& gradients : shape_gradients()) {
