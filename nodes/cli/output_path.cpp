@@ -21,7 +21,7 @@ void prepare_output_file(const std::string& file) {
   const fs::file_status status = fs::status(file, unreadable);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw InputError::format("{}: is no regular file, expected the name of one to write", file);
-  const std::string aside = file + ".part";  // as write_file_atomically() does
+  const std::string aside = file + ".part";  // beside it, where write_file_atomically() writes first
   const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor < 0 && errno != EEXIST)
     throw InputError::format("{}: cannot be written: {}", file, std::strerror(errno));

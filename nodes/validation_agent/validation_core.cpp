@@ -121,7 +121,7 @@ void ValidationCore::accept_measurement(const std::string& payload) {
   }
   if (measured->round > round_) {  // this agent's journal was lost, and the order is yet to be given again
     early_measurements_[measured->round].push_back(payload);
-    return;
+    return say(LogLevel::info, fmt::format("specimen {} waits for round {}", record.specimen, measured->round));
   }
   switch (book_.enter(record, measured->order_id)) {
     case game::MeasurementBook::Entry::repeated:

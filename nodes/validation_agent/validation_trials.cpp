@@ -25,12 +25,11 @@ std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosi
           fmt::format("the diagnosis names {}, which is not in the library of effects", effect.name));
       return std::nullopt;
     }
-    if (effect.name == "batch_drift") {
-      say(LogLevel::info,
-          "the print drifts from batch to batch: that foretells no new design, and is not put on trial");
-      return std::nullopt;
-    }
     numbers[effect.name].push_back(effect.parameter);
+  }
+  if (numbers.size() == 1 && numbers.contains("batch_drift")) {
+    say(LogLevel::info, "the print drifts from batch to batch: that foretells no new design, and is not put on trial");
+    return std::nullopt;
   }
   for (auto& [name, values] : numbers) extended.extensions[name] = std::move(values);
   if (const std::string fault = material::parameter_fault(extended); !fault.empty()) {
