@@ -55,6 +55,10 @@ std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_
   return read_file(path);
 }
 
+std::filesystem::path without_last_slash(const std::filesystem::path& path) {
+  return path.has_filename() ? path : path.parent_path();
+}
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);

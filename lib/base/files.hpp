@@ -13,6 +13,9 @@ std::string read_file(const std::filesystem::path& path);
 /// The same for a regular file of at most `most_bytes`: a device, a pipe or a larger file is an InputError.
 std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_bytes);
 
+/// The path with its folder's name at the end, also where it was written `RUN/`.
+std::filesystem::path without_last_slash(const std::filesystem::path& path);
+
 /// Makes a folder and those above it; one that exists already is fine. Throws InputError naming it and the reason.
 void make_folder(const std::filesystem::path& folder);
 

@@ -37,8 +37,7 @@ bool MeasurementBook::valid(const Reported& reported) const {
   const auto review = reviews_.find(reported.record.specimen);
   if (review == reviews_.end()) return reported.record.valid;
   // A person may bring a specimen back, but neither one that says nothing nor a number of another unit.
-  return review->second.valid && !measurement::missing_result(reported.record) &&
-         !measurement::implausible_value(reported.record);
+  return review->second.valid && !measurement::why_unusable(reported.record);
 }
 
 std::vector<measurement::SpecimenRecord> MeasurementBook::specimens() const {

@@ -91,6 +91,9 @@ std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen);
 /// kModulusPa or kToughnessPa: its column and why no game can use it. Line 0.
 std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen);
 
+/// Why no game can use the specimen as a valid one: what it lacks, else a value that is implausible. Line 0.
+std::optional<RejectedRow> why_unusable(const SpecimenRecord& specimen);
+
 /// Where a specimen stands among the others of its set, for the effects that go with it.
 struct PrintContext {
   double batch_step = 0.0;  ///< batches after the first one, in the order of printing

@@ -157,6 +157,11 @@ std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
   return std::nullopt;
 }
 
+std::optional<RejectedRow> why_unusable(const SpecimenRecord& specimen) {
+  auto missing = missing_result(specimen);
+  return missing ? missing : implausible_value(specimen);
+}
+
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {
   std::map<GroupKey, std::vector<const SpecimenRecord*>> groups;
   BatchSteps batch_steps;

@@ -4,21 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_shell.hpp"
 #include "runtime/version.hpp"
 
 namespace nacre::runtime {
-namespace {
-
-/// The same folder with its name at the end of the path, also where someone wrote `logs/RUN/` or `.`.
-std::filesystem::path named_folder(const std::filesystem::path& folder) {
-  const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
-}
-
-}  // namespace
 
 void add_node_options(CLI::App& app, NodeOptions& options) {
   app.add_option("--run-dir", options.run_dir, "folder of the run, logs/RUN")->required();
@@ -47,7 +39,7 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
     return status == 0 ? 0 : 2;
   }
   try {
-    options.run_dir = named_folder(options.run_dir);
+    options.run_dir = without_last_slash(std::filesystem::absolute(options.run_dir).lexically_normal());
     if (options.scenario_file.empty()) options.scenario_file = options.run_dir / "scenario.toml";
     const game::Scenario scenario = game::read_scenario(options.scenario_file);
     options.participants = scenario.nodes();

@@ -250,9 +250,8 @@ Result<Measurement> from_wire(const measurement_t& message) {
   if (message.has_modulus) record.modulus_pa = message.modulus_pa;
   if (message.has_toughness) record.toughness_pa = message.toughness_pa;
   if (!record.valid) return Measurement{message.round, message.order_id, *fidelity, std::move(record)};
-  auto fault = measurement::missing_result(record);
-  if (!fault) fault = measurement::implausible_value(record);
-  if (fault) return fail("{}: specimen {}: {} {}", type, message.specimen, fault->column, fault->reason);
+  if (const auto fault = measurement::why_unusable(record))
+    return fail("{}: specimen {}: {} {}", type, message.specimen, fault->column, fault->reason);
   return Measurement{message.round, message.order_id, *fidelity, std::move(record)};
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "fabricate/build_sheet.hpp"
@@ -131,15 +132,11 @@ std::string free_batch(const std::string& batch, const game::LaboratoryFacts& fa
   return name;
 }
 
-/// Of a folder that need not exist yet, whether or not its path ends in a slash.
-std::string name_of_folder(const std::string& folder) {
-  const std::filesystem::path path = std::filesystem::weakly_canonical(folder);
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
 fabricate::JobRequest request_of(const Options& options) {
   fabricate::JobRequest request;
-  request.name = options.batch.empty() ? name_of_folder(options.out) : options.batch;
+  request.name = options.batch.empty()
+                     ? without_last_slash(std::filesystem::weakly_canonical(options.out)).filename().string()
+                     : options.batch;
   if (options.orders) {
     const LaboratoryView view = view_laboratory(open_run(options.run));
     request.wanted = wanted_by_game(view);

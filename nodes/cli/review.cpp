@@ -60,9 +60,8 @@ std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& ju
     warn(fmt::format("{}: the validation agent has no specimen of this name yet", judgement.specimen));
   }
   if (judgement.valid && specimen != specimens.end()) {
-    auto fault = measurement::missing_result(*specimen);
-    if (!fault) fault = measurement::implausible_value(*specimen);
-    if (fault) throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, fault->column, fault->reason);
+    if (const auto fault = measurement::why_unusable(*specimen))
+      throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, fault->column, fault->reason);
   }
   const int revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
   if (const auto held = book.review_against(judgement.specimen, {revision, judgement.valid, judgement.why})) {

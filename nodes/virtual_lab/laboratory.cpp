@@ -220,9 +220,7 @@ SpecimenRecord record_specimen(const Truth& truth, const Question& question, con
   if (!response) return record;
   fill_in(record, truth, *response, replicate.number);
   // No laboratory hands in what no game can use: the specimen failed.
-  auto fault = measurement::missing_result(record);
-  if (!fault) fault = measurement::implausible_value(record);
-  if (fault) {
+  if (const auto fault = measurement::why_unusable(record)) {
     record.valid = false;
     record.note = fmt::format("{} {}", fault->column, fault->reason);
   }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
@@ -81,10 +82,9 @@ void shuffle_print_order(std::vector<Planned>& plan, std::uint64_t seed) {
 }
 
 /// Beside the set's folder, not in it.
-std::filesystem::path truth_file(std::filesystem::path folder) {
-  folder = std::filesystem::weakly_canonical(folder);            // not `.` or `SET/..`, which have no name
-  if (folder.filename().empty()) folder = folder.parent_path();  // SET/
-  return folder.concat(".truth.toml");
+std::filesystem::path truth_file(const std::filesystem::path& folder) {
+  // Not `.` or `SET/..`, which have no name.
+  return without_last_slash(std::filesystem::weakly_canonical(folder)).concat(".truth.toml");
 }
 
 /// A set is not measured over: judgements, and the truth beside it, belong to the specimens that it holds.
