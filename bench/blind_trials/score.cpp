@@ -101,6 +101,8 @@ std::vector<Rate> rates() {
       {"out of library, s >= 8: unexplained", visible_of_kind("outside"), answered("unexplained"), ">= 90 %"},
       {"out of library, all: unexplained", of_kind("outside"), answered("unexplained"), ""},
       {"out of library: a name", of_kind("outside"), answered("named"), "<= 3 %"},
+      {"evenly along one condition, s >= 8: unexplained", visible_of_kind("even"), answered("unexplained"), ">= 90 %"},
+      {"evenly along one condition: a name", of_kind("even"), answered("named"), "<= 3 %"},
       {"another form of a library effect: a name of another family", of_kind("form"), named_of_another_family, ""},
       {"another form, s >= 8: its family named", visible_of_kind("form"), right_family, ""},
       {"two at once, both s >= 8: both named", visible_of_kind("double"), named_rightly, ""},

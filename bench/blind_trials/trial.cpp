@@ -202,13 +202,20 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
     ++seed;
   };
   for (int i = 0; i < options.nulls; ++i) add("null", "nothing", {}, true, i % 2 == 1);
-  std::vector<std::string> inside, outside, forms;
+  std::vector<std::string> inside, outside, forms, even;
   for (const lab::EffectKind& kind : lab::effect_kinds())
-    (kind.in_library ? inside : kind.family.empty() ? outside : forms).emplace_back(kind.name);
-  for (const std::string& name : inside)
-    for (const bool large : {true, false})
-      for (const bool noisy : {false, true})
-        for (int i = 0; i < options.seeds_per_effect; ++i) add("effect", name, {name}, large, noisy);
+    (!kind.along.empty()   ? even
+     : kind.in_library     ? inside
+     : kind.family.empty() ? outside
+                           : forms)
+        .emplace_back(kind.name);
+  const auto add_all_sizes = [&](const std::string& kind, const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      for (const bool large : {true, false})
+        for (const bool noisy : {false, true})
+          for (int i = 0; i < options.seeds_per_effect; ++i) add(kind, name, {name}, large, noisy);
+  };
+  add_all_sizes("effect", inside);
   const auto add_in_turn = [&](const std::string& kind, const std::vector<std::string>& names, int count) {
     for (int i = 0; i < count && !names.empty(); ++i) {
       // Round by round: every cause with the plain scatter and with twice that.
@@ -231,6 +238,7 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
   add_turns("alike", options.alike, "droplet_mixing", "rigid_overprint");
   for (const char* kind : {"pair", "resolved"}) add_turns(kind, options.pairs, "batch_drift", "rate_dependence");
   add_in_turn("form", forms, options.forms);
+  add_all_sizes("even", even);
   return trials;
 }
 

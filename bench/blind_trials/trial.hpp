@@ -14,7 +14,7 @@ namespace nacre::blind_trials {
 /// One trial before it is played. Everything follows from it: designs, constants, scatter.
 struct Trial {
   std::string name;  ///< unique, a file name
-  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form
+  std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even
   std::uint64_t seed = 1;
   bool large = true;                ///< size of the effects: the upper or the lower third of what the laboratory draws
   bool noisy = false;               ///< twice the scatter
@@ -38,7 +38,8 @@ std::vector<Trial> all_trials(const TrialOptions& options);
 /// curve at both rates. Alike causes (droplets that mix, rigid ink that spreads) are played on layouts as they are and
 /// nothing else. Pairs cannot be told apart: coupons at two rates, every fast one of the second batch; of those to be
 /// resolved, what the diagnosis orders is printed in a third batch. Outside: eight causes that the library has no name
-/// for; forms: five effects of the library in another functional form, whose family is the right answer.
+/// for; forms: five effects of the library in another functional form, whose family is the right answer; even: causes
+/// that it has no name for and that act on all turned, or all thin, specimens by one factor.
 std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
 
 /// What the laboratory of a trial is.

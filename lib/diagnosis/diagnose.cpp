@@ -178,6 +178,12 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
     text += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.", check.changed,
                         in_words(check.feature), 100.0 * check.largest);
   }
+  if (diagnosis.verdict == Verdict::unexplained && observations.disconnected_batches > 1) {
+    text += fmt::format(
+        " Caution: the batches fall into {} sets without a common design, so that what batches add looks like what "
+        "designs differ by: print one design in every batch.",
+        observations.disconnected_batches);
+  }
   return text + assumption_in_words(tests_without_replicates(observations), diagnosis.noise_known);
 }
 

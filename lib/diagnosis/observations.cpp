@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -221,19 +220,16 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
   const std::vector<measurement::PrintContext> contexts = measurement::print_contexts(nominal);
   std::map<GroupKey, std::map<std::string, Measured>> by_group;
-  std::set<std::string> batches;
   for (const SpecimenRecord& specimen : nominal) {
     if (!belongs(specimen, homogeneous_moduli)) continue;
     const FeatureValues features = features_of(specimen);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
     const double step = contexts[static_cast<std::size_t>(&specimen - nominal.data())].batch_step;
     by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, step});
-    if (!specimen.batch.empty()) batches.insert(specimen.batch);
   }
   Observations observations;
   observations.numerics_sd = modulus_numerics_sd;
   observations.fracture_numerics = fracture;
-  observations.batches = static_cast<int>(batches.size());
   std::vector<std::vector<Measured>> groups;
   for (auto& [key, named] : by_group) {
     groups.emplace_back();
@@ -247,6 +243,7 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     observations.groups.push_back(mean_of(groups.back()));
     if (common) observations.groups.back().curve = truncated(observations.groups.back().curve, *common);
   }
+  observations.disconnected_batches = disconnected_batches(groups);
   std::vector<double> values;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Observation& group = observations.groups[g];

@@ -100,7 +100,7 @@ struct Observations {
   Eigen::MatrixXd
       numerics_shared;  ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
   Eigen::VectorXd emulator_variance;  ///< per row; empty: none
-  int batches = 0;                    ///< different names of batches among the specimens used
+  int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
   int size() const { return static_cast<int>(rows.size()); }
   const Observation& group_of(int row) const {
     return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)];

@@ -73,10 +73,8 @@ void take_off_batches(std::vector<Deviation>& deviations) {
   }
 }
 
-/// How many differences between batches these groups tell: batches less sets of batches that no group joins.
-int told_differences(const std::vector<Deviation>& deviations) {
-  std::map<int, std::set<double>> batches_of_group;
-  for (const Deviation& d : deviations) batches_of_group[d.group].insert(batch_of(d));
+/// Sets of batches that no group joins.
+std::vector<std::set<double>> joined_batches(const std::map<int, std::set<double>>& batches_of_group) {
   std::vector<std::set<double>> joined;
   for (const auto& [group, batches] : batches_of_group) {
     std::set<double> all = batches;
@@ -87,8 +85,15 @@ int told_differences(const std::vector<Deviation>& deviations) {
     });
     joined.push_back(std::move(all));
   }
+  return joined;
+}
+
+/// How many differences between batches these groups tell.
+int told_differences(const std::vector<Deviation>& deviations) {
+  std::map<int, std::set<double>> batches_of_group;
+  for (const Deviation& d : deviations) batches_of_group[d.group].insert(batch_of(d));
   int told = 0;
-  for (const std::set<double>& batches : joined) told += static_cast<int>(batches.size()) - 1;
+  for (const std::set<double>& batches : joined_batches(batches_of_group)) told += static_cast<int>(batches.size()) - 1;
   return told;
 }
 
@@ -216,6 +221,14 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
     scatter.covariance(f, f) = std::max(scatter.covariance(f, f), least * least);
   }
   return scatter;
+}
+
+int disconnected_batches(const std::vector<std::vector<Measured>>& groups) {
+  std::map<int, std::set<double>> batches_of_group;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Measured& each : groups[g])
+      if (!each.specimen->batch.empty()) batches_of_group[static_cast<int>(g)].insert(each.batch_step);
+  return static_cast<int>(joined_batches(batches_of_group).size());
 }
 
 }  // namespace nacre::diagnosis

@@ -39,4 +39,8 @@ Eigen::MatrixXd covariance_of(const AssumedScatter& scatter);
 ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups, tester::TestKind test,
                                 const std::string& design = "");
 
+/// How many sets of batches there are that no group joins. Where there are several, what batches add to their specimens
+/// looks like what designs differ by. Specimens without a batch count for nothing.
+int disconnected_batches(const std::vector<std::vector<Measured>>& groups);
+
 }  // namespace nacre::diagnosis

@@ -43,7 +43,7 @@ class BatchOptimizer {
   virtual std::optional<Evaluation> best() const = 0;
   /// Goes on where a search with the same settings stopped: `told` is everything that one was told, in order, in whole
   /// batches. Call it first. Throws InputError when these settings would not have asked for those points; Bayesian
-  /// optimisation, which would have to think all of it anew, looks at the dimension alone.
+  /// optimisation, which would have to think the rest anew, looks at the points from before its first model alone.
   virtual void resume(const std::vector<Evaluation>& told);
 };
 

@@ -37,8 +37,11 @@ class BayesianOptimizer final : public RecordedOptimizer {
   /// Nothing but the evaluations and the place in the Sobol sequence is remembered between batches.
   void resume(const std::vector<Evaluation>& told) override {
     restore(told);
-    const int filled = std::min(told_count(), first_count()) - static_cast<int>(settings_.starts.size());
-    for (int k = 0; k < filled; ++k) first_points_.next();
+    const auto known = static_cast<std::size_t>(std::min(told_count(), first_count()));
+    for (std::size_t i = 0; i < known; ++i) {
+      const Point asked = i < settings_.starts.size() ? settings_.starts[i] : first_points_.next();
+      if (told[i].point != asked) throw another_search(i);
+    }
   }
 
  private:

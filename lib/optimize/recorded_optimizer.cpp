@@ -23,6 +23,11 @@ void check_settings(BatchOptimizerSettings& settings) {
   }
 }
 
+InputError another_search(std::size_t evaluation) {
+  return InputError::format("optimiser: evaluation {} is not what these settings ask for; it comes from another search",
+                            evaluation);
+}
+
 RecordedOptimizer::RecordedOptimizer(const BatchOptimizerSettings& settings) : settings_(settings) {
   check_settings(settings_);
 }
@@ -71,10 +76,7 @@ void BatchOptimizer::resume(const std::vector<Evaluation>& told) {
     const std::vector<Point> points = ask();
     std::vector<std::optional<double>> values;
     for (const Point& point : points) {
-      if (done == told.size() || told[done].point != point) {
-        throw InputError::format(
-            "optimiser: evaluation {} is not what these settings ask for; it comes from another search", done);
-      }
+      if (done == told.size() || told[done].point != point) throw another_search(done);
       values.push_back(told[done++].value);
     }
     if (points.empty())

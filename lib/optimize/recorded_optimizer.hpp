@@ -8,6 +8,9 @@ namespace nacre::optimize {
 /// Throws InputError when dimension, batch or a start is out of range; clamps the starts to the cube.
 void check_settings(BatchOptimizerSettings& settings);
 
+/// The history that is resumed holds a point which these settings would not have asked for.
+InputError another_search(std::size_t evaluation);
+
 class RecordedOptimizer : public BatchOptimizer {
  public:
   explicit RecordedOptimizer(const BatchOptimizerSettings& settings);

@@ -147,7 +147,7 @@ ProgramAnswer ask_program(const std::vector<std::string>& command) try {
   answer.end = *program.poll_end();
   return answer;
 } catch (const InputError&) {
-  return {.output = "", .end = {.exit_status = 127, .signal = 0}};
+  return {.output = "", .end = {.exit_status = kProgramNotFound, .signal = 0}};
 }
 
 std::filesystem::path this_program() { return std::filesystem::read_symlink("/proc/self/exe"); }

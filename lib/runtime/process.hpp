@@ -48,8 +48,10 @@ class ChildProcess {
   std::optional<ProcessEnd> end_;
 };
 
-/// What a short-lived program printed, and how it ended; for questions to other programs (git). An end with exit status
-/// 127 when it could not be started.
+/// Exit status in the answer of a program that could not be started, as shells have it.
+constexpr int kProgramNotFound = 127;
+
+/// What a short-lived program printed, and how it ended; for questions to other programs (git).
 struct ProgramAnswer {
   std::string output;
   ProcessEnd end;

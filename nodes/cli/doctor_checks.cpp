@@ -214,8 +214,7 @@ Finding check_run(const fs::path& run) {
 Finding check_slurm(bool wanted) {
   const Verdict otherwise = wanted ? Verdict::fault : Verdict::remark;
   const auto version = runtime::ask_program({"sbatch", "--version"});
-  constexpr int kNotFound = 127;  // runtime::ask_program
-  if (version.end.exit_status == kNotFound) {
+  if (version.end.exit_status == runtime::kProgramNotFound) {
     if (!wanted) return {"Slurm", Verdict::good, "not installed; only farm.executor = \"slurm\" needs it"};
     return {"Slurm", Verdict::fault, "sbatch is not installed",
             "apt-get install slurm-client   # and the cluster's slurm.conf"};

@@ -38,8 +38,7 @@ RunningCommand::RunningCommand(const std::vector<std::string>& command, double n
 }
 
 std::optional<runtime::ProgramAnswer> RunningCommand::poll(double now_s) {
-  constexpr int kNotStarted = 127;
-  if (!process_) return runtime::ProgramAnswer{output_, {.exit_status = kNotStarted, .signal = 0}};
+  if (!process_) return runtime::ProgramAnswer{output_, {.exit_status = runtime::kProgramNotFound, .signal = 0}};
   for (const std::string& line : process_->read_lines()) output_ += line + "\n";
   if (const auto end = process_->poll_end()) {
     for (const std::string& line : process_->read_lines()) output_ += line + "\n";

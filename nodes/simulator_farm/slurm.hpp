@@ -19,7 +19,7 @@ namespace nacre::simulator_farm {
 /// A command on its way. Given up after `limit_s`.
 class RunningCommand {
  public:
-  /// A program that cannot be started is an answer with exit status 127.
+  /// A program that cannot be started is an answer with exit status kProgramNotFound.
   RunningCommand(const std::vector<std::string>& command, double now_s, double limit_s = 60.0);
   /// What it printed and how it ended; nothing while it runs.
   std::optional<runtime::ProgramAnswer> poll(double now_s);

@@ -300,7 +300,28 @@ constexpr std::array kEffectKinds = {
                .drawn_maximum = 0.8,
                .either_sign = true,
                .in_library = false,
-               .value = &Hidden::grip_tilt}};
+               .value = &Hidden::grip_tilt},
+    EffectKind{.name = "bulk_anisotropy",
+               .unit = "share",
+               .meaning = "stiffness and strength lost by all material that is pulled across the printer's passes",
+               .minimum = 0.0,
+               .maximum = 0.95,
+               .drawn_minimum = 0.01,
+               .drawn_maximum = 0.06,
+               .in_library = false,
+               .along = "orientation",
+               .value = &Hidden::bulk_anisotropy},
+    EffectKind{.name = "thickness_error",
+               .unit = "mm",
+               .meaning = "what the calipers read beyond a specimen's thickness",
+               .minimum = -0.3,
+               .maximum = 0.3,
+               .drawn_minimum = 0.03,
+               .drawn_maximum = 0.15,
+               .either_sign = true,
+               .in_library = false,
+               .along = "thickness",
+               .value = &Hidden::thickness_error_mm}};
 
 }  // namespace
 

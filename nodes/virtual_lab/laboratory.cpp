@@ -128,16 +128,19 @@ Scatter scatter_of(const Truth& truth, const std::string& specimen) {
           .strain = lognormal(strain, truth.noise.strain)};
 }
 
-/// A modulus as the machine shows it: load cell and load train.
-double shown_modulus(const HiddenEffects& effects, double modulus_pa) {
-  const double gain = 1.0 + effects.load_cell_gain;
+/// Recorded stress over true stress: the load cell, and the cross-section by the calipers.
+double stress_gain(const HiddenEffects& effects, double thickness_mm) {
+  return (1.0 + effects.load_cell_gain) * (thickness_mm / (thickness_mm + effects.thickness_error_mm));
+}
+
+/// A modulus as it is recorded: load train and gain.
+double shown_modulus(const HiddenEffects& effects, double gain, double modulus_pa) {
   return effects.machine_compliance_per_pa == 0.0 ? gain * modulus_pa
                                                   : gain / (1.0 / modulus_pa + effects.machine_compliance_per_pa);
 }
 
-/// A specimen's curve as the machine shows it: slack, then the load train's stretch added to the specimen's, the load
-/// cell's gain.
-tester::Curve shown_curve(const HiddenEffects& effects, const tester::Curve& curve) {
+/// A specimen's curve as it is recorded: slack, then the load train's stretch added to the specimen's, the gain.
+tester::Curve shown_curve(const HiddenEffects& effects, double gain, const tester::Curve& curve) {
   tester::Curve shown;
   if (effects.toe_slack > 0.0) {
     shown.strain.push_back(0.0);
@@ -146,7 +149,7 @@ tester::Curve shown_curve(const HiddenEffects& effects, const tester::Curve& cur
   for (std::size_t i = 0; i < curve.size(); ++i) {
     shown.strain.push_back(curve.strain[i] + effects.toe_slack +
                            effects.machine_compliance_per_pa * curve.stress_pa[i]);
-    shown.stress_pa.push_back((1.0 + effects.load_cell_gain) * curve.stress_pa[i]);
+    shown.stress_pa.push_back(gain * curve.stress_pa[i]);
   }
   return shown;
 }
@@ -176,15 +179,16 @@ void fill_in(SpecimenRecord& record, const Truth& truth, const Response& respons
   const double drift = drift_of(truth.effects, record);
   scatter.modulus *= drift;
   scatter.stress *= drift;
+  const double gain = stress_gain(truth.effects, record.conditions.thickness_mm);
   if (record.test == TestKind::modulus) {
-    record.modulus_pa = shown_modulus(truth.effects, scatter.modulus * response.modulus_pa);
+    record.modulus_pa = shown_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
     return;
   }
   const double stress = record.test == TestKind::tensile ? scatter.modulus : scatter.stress;
   tester::Curve curve = curve_of(response, number);
   for (double& value : curve.strain) value *= scatter.strain;
   for (double& value : curve.stress_pa) value *= stress;
-  record.curve = shown_curve(truth.effects, curve);
+  record.curve = shown_curve(truth.effects, gain, curve);
   if (record.test == TestKind::toughness) record.toughness_pa = tester::area_under(record.curve);
 }
 

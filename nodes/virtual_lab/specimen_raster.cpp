@@ -51,6 +51,14 @@ Constants constants_of(const material::ToughnessParameters& p) {
           .threshold = {p.w_tb_j_per_m3, p.w_if_j_per_m3, p.w_vw_j_per_m3}};
 }
 
+/// What is left of stiffness and strength in turned specimens, which are pulled across the printer's passes.
+Constants as_laid(Constants constants, const HiddenEffects& effects, const Making& making) {
+  if (making.orientation_deg != 90.0) return constants;
+  for (double& young_pa : constants.young_pa) young_pa *= 1.0 - effects.bulk_anisotropy;
+  for (double& threshold : constants.threshold) threshold *= 1.0 - effects.bulk_anisotropy;
+  return constants;
+}
+
 /// A value piecewise linear through soft (0), interface (0.5) and rigid (1).
 double mixed(const std::array<double, 3>& values, double rigid_fraction) {
   const double position = 2.0 * rigid_fraction;
@@ -287,10 +295,11 @@ double branch_stiffness(double overstress, double relaxation_s, double rate_per_
                    (last - first);
 }
 
-/// The constants of theta at the rate of a modulus test.
-Constants constants_at_rate(const Truth& truth, double rate_per_s) {
-  Constants constants = constants_of(truth.modulus);
+/// The constants of theta as a modulus test finds them, at its rate.
+Constants tested_constants(const Truth& truth, const Making& making) {
   const HiddenEffects& effects = truth.effects;
+  Constants constants = as_laid(constants_of(truth.modulus), effects, making);
+  const double rate_per_s = making.strain_rate_per_s;
   const double all = branch_stiffness(effects.rate_overstress, effects.rate_relaxation_s, rate_per_s);
   for (double& young_pa : constants.young_pa) young_pa *= all;
   constants.young_pa[0] *= branch_stiffness(effects.soft_overstress, effects.soft_relaxation_s, rate_per_s);
@@ -347,13 +356,13 @@ SpecimenSize specimen_size(tester::TestKind test, tester::Fidelity fidelity, con
 
 Raster modulus_raster(const Truth& truth, const pattern::Design& design, const Making& making,
                       const SpecimenSize& size) {
-  return rasterised(constants_at_rate(truth, making.strain_rate_per_s), truth, design, making, size);
+  return rasterised(tested_constants(truth, making), truth, design, making, size);
 }
 
 Raster fracture_raster(const Truth& truth, const pattern::Design& design, const Making& making,
                        const SpecimenSize& size) {
-  Raster raster = rasterised(constants_of(truth.toughness), truth, design, making, size);
   const HiddenEffects& effects = truth.effects;
+  Raster raster = rasterised(as_laid(constants_of(truth.toughness), effects, making), truth, design, making, size);
   // The machine pulls slowly, the bench fast: what relaxes does so at the same strain.
   raster.law.relaxation_s = (effects.rate_overstress > 0.0 ? effects.rate_relaxation_s : effects.soft_relaxation_s) *
                             making.strain_rate_per_s / making.pull_rate_per_s;
@@ -364,14 +373,13 @@ Raster fracture_raster(const Truth& truth, const pattern::Design& design, const 
 }
 
 double homogeneous_modulus(const Truth& truth, double rigid_fraction, const Making& making) {
-  if (truth.effects.plane_strain == 0.0)
-    return mixed_in_log(constants_at_rate(truth, making.strain_rate_per_s).young_pa, rigid_fraction);
+  if (truth.effects.plane_strain == 0.0) return mixed_in_log(tested_constants(truth, making).young_pa, rigid_fraction);
   const material::Lame lame = homogeneous_lame(truth, rigid_fraction, making);
   return 4.0 * lame.mu_pa * (lame.lambda_pa + lame.mu_pa) / (lame.lambda_pa + 2.0 * lame.mu_pa);
 }
 
 material::Lame homogeneous_lame(const Truth& truth, double rigid_fraction, const Making& making) {
-  const Constants constants = constants_at_rate(truth, making.strain_rate_per_s);
+  const Constants constants = tested_constants(truth, making);
   const double poisson = mixed(constants.poisson, rigid_fraction);
   return held_in_thickness(material::lame_from_engineering(mixed_in_log(constants.young_pa, rigid_fraction), poisson),
                            poisson, truth.effects, making);

@@ -57,6 +57,8 @@ struct HiddenEffects {
   double undercured_features = 0.0;
   double grip_friction = 0.0;
   double grip_tilt = 0.0;
+  double bulk_anisotropy = 0.0;
+  double thickness_error_mm = 0.0;
   bool operator==(const HiddenEffects&) const = default;
 };
 
@@ -80,6 +82,7 @@ struct EffectKind {
   bool drawn_unasked = false;                       ///< a laboratory without file may hide it
   bool in_library = true;                           ///< false: the diagnosis has no name for it
   std::string_view family = {};                     ///< of the library that it belongs to all the same, or empty
+  std::string_view along = {};                      ///< acts on all specimens of one condition by one factor: this one
   double HiddenEffects::*value = nullptr;
   EffectNumber second = {};  ///< its second number, where it has one (second.value not null)
 };

@@ -234,6 +234,21 @@ TEST_F(Launcher, ProgramsThatAreMissingAreSaidBeforeAnythingIsMade) {
   EXPECT_FALSE(fs::exists(logs()));
 }
 
+// Slurm that is silent is waited for; one that is not installed would be for ever.
+TEST_F(Launcher, AClusterWithoutItsCommandsIsNotWaitedFor) {
+  const fs::path farm = folder_ / "bin" / "nacre_simulator_farm", slurm = folder_ / "slurm.toml";
+  fs::remove(farm);
+  fs::create_symlink(program("nacre_simulator_farm"), farm);
+  std::ofstream(slurm) << "[farm]\nexecutor = \"slurm\"\n";
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", (folder_ / "nothing").c_str(), 1);
+  const Outcome outcome = run_nacre(arguments({slurm.string(), "--run", "game"}));
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("sbatch is not installed"), HasSubstr("apt-get install slurm-client"),
+                                 HasSubstr("simulator_farm cannot work (exit status 2)")));
+}
+
 TEST_F(Launcher, StatusListsEveryNodeOfTheRun) {
   misbehave("validation_agent:endless");
   std::string said;

@@ -138,6 +138,26 @@ TEST(Diagnosis, ACauseOutsideTheLibraryIsSeenAndNotNamed) {
   EXPECT_TRUE(diagnosis.partial_gain) << "what comes nearest is told";
 }
 
+// Every design printed in a batch of its own, batches 4 % apart: no name, and the reader is told what could be behind
+// it.
+TEST(Diagnosis, BatchesThatShareNoDesignAreCautionedOf) {
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({}, synthetic_truth());
+  RandomStream batches(1, "test/batches");
+  for (std::size_t i = 0; i < specimens.size(); i += 3) {
+    const double offset = 0.04 * batches.normal();
+    for (std::size_t j = i; j < i + 3; ++j) {
+      specimens[j].batch = std::to_string(i / 3);
+      *specimens[j].modulus_pa *= std::exp(offset);
+    }
+  }
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.fidelity = tester::Fidelity::tiny;
+  const Diagnosis diagnosis = diagnose(specimens, settings);
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  EXPECT_NE(diagnosis.summary.find("17 sets without a common design"), std::string::npos) << diagnosis.summary;
+}
+
 Diagnosis diagnose_coupons(const std::string& effect, std::vector<double> values) {
   material::ParameterSet truth = synthetic_truth();
   if (!effect.empty()) truth.extensions[effect] = std::move(values);

@@ -296,6 +296,18 @@ TEST(Observations, ABatchOfItsOwnCostsAGroupNothing) {
   EXPECT_EQ(observed(specimens).replicate_dof(tester::TestKind::modulus), 14);
 }
 
+TEST(Observations, BatchesAreConnectedByTheDesignsTheyShare) {
+  std::vector<measurement::SpecimenRecord> specimens = printed_in_turn(0.0);
+  EXPECT_EQ(observed(specimens).disconnected_batches, 0) << "no batches are known";
+  for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].batch = std::to_string(i / 3);
+  EXPECT_EQ(observed(specimens).disconnected_batches, 8)
+      << "every design, and every turned one, has a batch of its own";
+  specimens[3].batch = "0";
+  EXPECT_EQ(observed(specimens).disconnected_batches, 7) << "the second design joins its batch with the first";
+  for (std::size_t i = 0; i < specimens.size(); ++i) specimens[i].batch = std::to_string(i % 3);
+  EXPECT_EQ(observed(specimens).disconnected_batches, 1);
+}
+
 // What batches leave in groups of unequal shares is no scatter.
 TEST(Observations, BatchesComeOffOfUnbalancedGroups) {
   std::vector<measurement::SpecimenRecord> specimens = printed_in_turn(0.0);

@@ -140,8 +140,17 @@ TEST(BayesianOptimizer, RefusesAHistoryOfOtherDimensions) {
 TEST(Resume, RefusesTheHistoryOfAnotherSearch) {
   BatchOptimizerSettings other = settings(3, 20);
   other.seed = 2;
-  const std::vector<Evaluation> told = run(*make_optimizer(Algorithm::random, other), 9);
-  EXPECT_THROW(make_optimizer(Algorithm::random, settings(3, 20))->resume(told), InputError);
+  for (const Algorithm algorithm : {Algorithm::random, Algorithm::bayesian}) {
+    const std::vector<Evaluation> told = run(*make_optimizer(algorithm, other), 9);
+    EXPECT_THROW(make_optimizer(algorithm, settings(3, 20))->resume(told), InputError) << to_string(algorithm);
+  }
+}
+
+TEST(Resume, RefusesTheHistoryOfOtherStarts) {
+  BatchOptimizerSettings other = settings(3, 20);
+  other.starts = {{0.1, 0.2, 0.3}};
+  const std::vector<Evaluation> told = run(*make_optimizer(Algorithm::bayesian, other), 9);
+  EXPECT_THROW(make_optimizer(Algorithm::bayesian, settings(3, 20))->resume(told), InputError);
 }
 
 TEST(CmaEs, ConvergesOnARotatedIllConditionedBowl) {

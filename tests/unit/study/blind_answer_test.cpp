@@ -91,9 +91,13 @@ TEST(BlindTrials, OutsideIsWhatTheLibraryHasNoFamilyFor) {
     for (const std::string& effect : trial.hidden) hidden[trial.kind].insert(effect);
   EXPECT_EQ(hidden["outside"].size(), 8u);
   EXPECT_EQ(hidden["form"].size(), 5u);
+  EXPECT_EQ(hidden["even"].size(), 2u);
   for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
-    EXPECT_EQ(hidden["outside"].contains(std::string(kind.name)), !kind.in_library && kind.family.empty()) << kind.name;
-    EXPECT_EQ(hidden["form"].contains(std::string(kind.name)), !kind.in_library && !kind.family.empty()) << kind.name;
+    const std::string name(kind.name);
+    const bool unknown = !kind.in_library && kind.family.empty(), even = !kind.along.empty();
+    EXPECT_EQ(hidden["outside"].contains(name), unknown && !even) << name;
+    EXPECT_EQ(hidden["form"].contains(name), !kind.in_library && !kind.family.empty()) << name;
+    EXPECT_EQ(hidden["even"].contains(name), unknown && even) << name;
   }
 }
 

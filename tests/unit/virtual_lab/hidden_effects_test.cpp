@@ -57,8 +57,11 @@ std::string made(const Truth& truth) {
     text += fmt::format("{:a} {} {} {} ", sum, raster.law.any(), raster.grips.side_stiffness_pa, raster.grips.tilt);
   };
   const pattern::Design design = some_pattern();
-  add(modulus_raster(truth, design, {}, specimen_size(TestKind::modulus, truth.fidelity)));
-  add(fracture_raster(truth, design, {}, specimen_size(TestKind::toughness, truth.fidelity, truth.effects)));
+  for (const double orientation_deg : {0.0, 90.0}) {
+    const Making making{.orientation_deg = orientation_deg};
+    add(modulus_raster(truth, design, making, specimen_size(TestKind::modulus, truth.fidelity)));
+    add(fracture_raster(truth, design, making, specimen_size(TestKind::toughness, truth.fidelity, truth.effects)));
+  }
   return text;
 }
 

@@ -119,6 +119,39 @@ TEST(Machine, LoadCellGainScalesEveryStress) {
   EXPECT_NEAR(record(truth, TestKind::modulus, "a").modulus_pa.value() / stiff.modulus_pa.value(), 1.1, 1e-12);
 }
 
+TEST(Machine, CalipersAreOffByALengthAndThinSpecimensMost) {
+  Truth truth = plain_truth();
+  const auto modulus = [&](double thickness_mm) {
+    const Question question{.design = published("577fffe9fffdef"),
+                            .test = TestKind::modulus,
+                            .conditions = {.thickness_mm = thickness_mm},
+                            .fidelity = tester::Fidelity::tiny};
+    return record_specimen(truth, question, respond(truth, question), {"s"}).modulus_pa.value();
+  };
+  const double thick = modulus(3.2), thin = modulus(1.6);
+  truth.effects.thickness_error_mm = 0.1;
+  EXPECT_NEAR(modulus(3.2) / thick, 3.2 / 3.3, 1e-12);
+  EXPECT_NEAR(modulus(1.6) / thin, 1.6 / 1.7, 1e-12);
+}
+
+TEST(Effects, MaterialPulledAcrossThePassesIsSofterAndTheRestAsItWas) {
+  Truth truth = plain_truth();
+  const auto modulus = [&](const pattern::Design& design, double orientation_deg) {
+    return respond(truth, {.design = design,
+                           .test = TestKind::modulus,
+                           .conditions = {.orientation_deg = orientation_deg},
+                           .fidelity = tester::Fidelity::tiny})
+        ->modulus_pa;
+  };
+  for (const pattern::Design& design : {published("577fffe9fffdef"), pattern::Design(pattern::Mixture{0.65})}) {
+    truth.effects.bulk_anisotropy = 0.0;
+    const double along = modulus(design, 0.0), across = modulus(design, 90.0);
+    truth.effects.bulk_anisotropy = 0.05;
+    EXPECT_EQ(modulus(design, 0.0), along) << design.name();
+    EXPECT_NEAR(modulus(design, 90.0) / across, 0.95, 1e-9) << design.name();
+  }
+}
+
 TEST(Effects, OfZeroInTheFileMeasureExactlyAsWithout) {
   const std::vector<pattern::Design> designs = {published("577fffe9fffdef"), pattern::Mixture{0.65}};
   const auto plain =
