@@ -58,7 +58,9 @@ Rebuilt rebuild_run_database(const fs::path& run_dir) {
     remove_database(anew);
     throw;
   }
-  if (fs::exists(file)) store::move_aside(file);
+  // A whole database holds nothing that the whole journal does not; anything else is kept.
+  if (fs::exists(file) && (rebuilt.torn_bytes > 0 || !fault_of(file).empty())) store::move_aside(file);
+  remove_database(file);
   fs::rename(anew, file);
   return rebuilt;
 }

@@ -17,8 +17,9 @@ struct Rebuilt {
   std::int64_t torn_bytes = 0;  ///< of a record that was being written when the analyser ended
 };
 
-/// Makes RUN/run.db anew from RUN/nodes/analyser/journal.lcm; what stood there before is renamed first (to
-/// run.db.damaged). Nobody may be writing it. Throws InputError, and then leaves everything as it was.
+/// Makes RUN/run.db anew from RUN/nodes/analyser/journal.lcm; what stood there before is renamed to
+/// run.db.damaged, unless it and the journal are whole. Nobody may be writing it. Throws InputError, and then leaves
+/// everything as it was.
 Rebuilt rebuild_run_database(const std::filesystem::path& run_dir);
 
 /// Opens RUN/run.db. Where a journal tells that messages were kept before and the file is missing, damaged or of

@@ -101,6 +101,9 @@ TEST_F(Durability, TheDatabaseIsAProjectionOfTheJournal) {
   const Outcome rebuilt = run_nacre({"rebuild", "--run", copy_.string()});
   ASSERT_EQ(rebuilt.status, 0) << rebuilt.err;
   EXPECT_EQ(content(copy_ / "run.db"), before);
+  ASSERT_EQ(run_nacre({"rebuild", "--run", copy_.string()}).status, 0);
+  EXPECT_EQ(content(copy_ / "run.db"), before);
+  EXPECT_FALSE(fs::exists(copy_ / "run.db.damaged")) << "a whole one is not kept beside its equal";
 }
 
 TEST_F(Durability, ADatabaseFromATornJournalSaysSoAndOneFromNoneLeavesEverything) {
@@ -110,6 +113,7 @@ TEST_F(Durability, ADatabaseFromATornJournalSaysSoAndOneFromNoneLeavesEverything
   ASSERT_EQ(torn.status, 0) << torn.err;
   EXPECT_GT(nlohmann::json::parse(torn.out)["torn_bytes"], 0);
   EXPECT_THAT(torn.err, HasSubstr("torn record"));
+  EXPECT_TRUE(fs::exists(copy_ / "run.db.damaged")) << "it may hold what the journal has lost";
   const std::string before = content(copy_ / "run.db");
   fs::remove(journal);
   EXPECT_EQ(run_nacre({"rebuild", "--run", copy_.string()}).status, 2);
