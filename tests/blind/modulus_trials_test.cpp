@@ -44,5 +44,12 @@ TEST(BlindModulusTrials, AnEffectOutsideTheLibraryIsUnexplained) {
   EXPECT_TRUE(trial.diagnosis["effects"].empty());
 }
 
+// Material that is softer across the printer's passes resembles anisotropic interfaces (docs/decisions/0022).
+TEST(BlindModulusTrials, ACauseThatActsEvenlyOnTurnedSpecimensIsUnexplained) {
+  const Trial trial = play(laboratory(17, "bulk_anisotropy", "0.05"));
+  EXPECT_EQ(trial.diagnosis["verdict"], "unexplained") << trial.diagnosis.dump(2);
+  EXPECT_TRUE(trial.diagnosis["effects"].empty());
+}
+
 }  // namespace
 }  // namespace nacre::blind
