@@ -200,4 +200,21 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
   return directions;
 }
 
+std::vector<ContrastDirection> even_directions(const Observations& observations) {
+  const std::array<Descriptor, 2> conditions = {
+      Descriptor{"orientation", [](const Observation& g) { return g.conditions.orientation_deg; }},
+      Descriptor{"thickness", [](const Observation& g) { return 1.0 / g.conditions.thickness_mm; }}};
+  std::vector<int> rows;
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const bool scales = row.feature == Feature::log_modulus || is_curve_stress(row.feature);
+    if (row.probe == Probe::mean && scales) rows.push_back(i);
+  }
+  std::vector<ContrastDirection> directions;
+  for (const Descriptor& condition : conditions)
+    add_if_varying(directions, condition.name, {Feature::log_modulus, tester::TestKind::modulus, condition.name},
+                   spread(observations, rows, condition.of), rows);
+  return directions;
+}
+
 }  // namespace nacre::diagnosis

@@ -31,4 +31,9 @@ std::vector<Descriptor> descriptors();
 /// peak stress; every feature as a whole; every row of history by itself.
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted);
 
+/// One factor on every stress and stiffness of the turned specimens, and one that grows with 1 / thickness: what causes
+/// outside the library do that none of its effects does exactly (a bulk that is softer across its layers, calipers that
+/// are off). None for a condition that does not vary.
+std::vector<ContrastDirection> even_directions(const Observations& observations);
+
 }  // namespace nacre::diagnosis

@@ -36,6 +36,8 @@ inline constexpr int kFeatureCount = 14;
 std::string_view to_string(Feature feature);
 /// For a person: "stress at the peak".
 std::string_view in_words(Feature feature);
+/// Whether a feature of a curve is the logarithm of something that grows as all its stresses grow.
+bool is_curve_stress(Feature feature);
 Result<Feature> feature_from_string(std::string_view name);
 
 /// One value per feature, in their order; nothing where the test does not say.

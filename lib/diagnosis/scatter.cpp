@@ -42,11 +42,6 @@ double assumed_sd(Feature f, const AssumedScatter& scatter) {
   }
 }
 
-bool is_stress(Feature f) {
-  return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 ||
-         f == Feature::log_tangent_50 || f == Feature::log_peak || f == Feature::log_unloading;
-}
-
 /// The mean of all deviations of one kind comes off each of them.
 void take_off_means(std::vector<Deviation>& deviations, const std::function<double(const Deviation&)>& kind) {
   std::map<double, std::pair<FeatureValues, std::array<int, kFeatureCount>>> sums;
@@ -157,7 +152,7 @@ Eigen::MatrixXd covariance_of(const AssumedScatter& scatter) {
   for (int i = 0; i < kFeatureCount; ++i) {
     for (int j = 0; j < kFeatureCount; ++j) {
       const auto a = static_cast<Feature>(i), b = static_cast<Feature>(j);
-      const double correlation = i == j ? 1.0 : is_stress(a) && is_stress(b) ? kTogether : 0.0;
+      const double correlation = i == j ? 1.0 : is_curve_stress(a) && is_curve_stress(b) ? kTogether : 0.0;
       covariance(i, j) = correlation * assumed_sd(a, scatter) * assumed_sd(b, scatter);
     }
   }

@@ -1,7 +1,6 @@
 #include "diagnosis/verdict.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -19,12 +18,9 @@ constexpr double kOutOfReach = 60.0;
 /// In chi squared: what noise and rounding make of a tie.
 constexpr double kContrastTie = 2.0;
 
-/// Conditions along which causes outside the library act, all specimens of one condition by one factor (a bulk that is
-/// softer across its layers, calipers that are off), and no effect of the library does exactly that; and by how much in
-/// chi squared an effect must beat such a factor. Where the factor is true the lead is normal with mean -d^2 and
-/// deviation 2 d, d the distance between the two; at the worst d chance reaches 7.6 in 0.3 % of sets, the level of a
-/// name.
-constexpr std::array kEvenConditions = {"orientation", "thickness"};
+/// By how much in chi squared an effect must beat one factor on all specimens of a condition (even_directions()). Where
+/// the factor is true the lead is normal with mean -d^2 and deviation 2 d, d the distance between the two; at the worst
+/// d chance reaches 7.6 in 0.3 % of sets, the level of a name.
 constexpr double kEvenLead = 7.6;
 
 template <class Value>
@@ -224,15 +220,14 @@ const Fit& without(const Evidence& evidence, const Fit& model, std::size_t effec
 /// A condition of the specimens, one factor on which does as well as one of a model's effects does beside the others;
 /// empty when none does.
 std::string condition_instead(const Evidence& evidence, const Fit& model) {
+  const NoisyData data{evidence.observations.values, Whitener(evidence.observations.covariance())};
+  Anchor anchor{.fit = {}, .signatures = {}, .directions = even_directions(evidence.observations), .scatter = {}};
   for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
-    const Fit& rest = without(evidence, model, effect);
-    const Anchor anchor{rest, {}, contrast_directions(evidence.observations, rest.predicted), {}};
-    const DrawStatistics own =
-        anchor_statistics(anchor, {evidence.observations.values, Whitener(evidence.observations.covariance())});
-    for (std::size_t i = 0; i < anchor.directions.size(); ++i) {
-      const std::string& against = anchor.directions[i].view.against;
-      const double lead_of_effect = rest.chi2 - model.chi2 - std::pow(own.contrasts[i], 2);
-      if (std::ranges::count(kEvenConditions, against) > 0 && lead_of_effect < kEvenLead) return against;
+    anchor.fit = without(evidence, model, effect);
+    const std::vector<double> by_factors = anchor_statistics(anchor, data).contrasts;
+    for (std::size_t i = 0; i < by_factors.size(); ++i) {
+      const double lead = anchor.fit.chi2 - model.chi2 - std::pow(by_factors[i], 2);
+      if (lead < kEvenLead) return anchor.directions[i].name;
     }
   }
   return {};
@@ -260,7 +255,7 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
     return unexplained(
         std::move(decision), possible,
         fmt::format("{}, but one factor on all specimens of one {} explains these data as well: a cause that the "
-                    "library does not hold may act there",
+                    "library does not hold may act there (homogeneous coupons of both kinds would tell)",
                     nearest, condition));
   }
   if (decision.p_outside > kOutsiderLevel) {
