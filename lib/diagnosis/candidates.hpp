@@ -19,6 +19,11 @@ inline constexpr double kExclusionLevel = 0.005;
 /// it too: odds of one to 200, as the exclusion level of the draws has it; and when they do not: out even if specimens
 /// scattered 1.7 times as much as replicates say.
 inline constexpr double kOwnLead = 10.6, kCertainLead = 3.0 * kOwnLead;
+/// In chi squared: by how much the strongest contrast may explain more than a named effect, what noise and rounding
+/// make of a tie; and by how much an effect must beat one factor on all specimens of a condition (even_directions()).
+/// Where the factor is true the lead is normal with mean -d^2 and deviation 2 d, d the distance between the two; at the
+/// worst d chance reaches 7.6 in 0.3 % of sets, the level of a name (docs/decisions/0022).
+inline constexpr double kContrastTie = 2.0, kEvenLead = 7.6;
 
 /// What became of every effect of the library: fitted size and drop, absorption, signal-to-noise at the fitted size
 /// where it was noticed and at a typical one otherwise (0.3 of its range), and its nearest rival among the effects that

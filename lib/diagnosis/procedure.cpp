@@ -15,7 +15,7 @@ std::string procedure_text(const DiagnosisSettings& settings) {
   std::string text = fmt::format("kernel {} fidelity {}\nlevels {} {} {} {} bootstraps {}\n", tester::kKernelVersion,
                                  tester::to_string(settings.fidelity), settings.name_level, settings.unexplained_level,
                                  kExclusionLevel, kOutsiderLevel, settings.bootstraps);
-  text += fmt::format("leads {} {}\n", kOwnLead, kCertainLead);
+  text += fmt::format("leads {} {} contrasts {} {}\n", kOwnLead, kCertainLead, kContrastTie, kEvenLead);
   text += fmt::format("signal {} {} (at the named constants) distance {} sizes {}\n", kVisibleSignal, kNameableSignal,
                       kToldApart, fmt::join(kSizes, " "));
   text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,

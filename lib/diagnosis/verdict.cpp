@@ -15,14 +15,6 @@ namespace {
 /// So far behind the best fit that no draw would let a rival catch up.
 constexpr double kOutOfReach = 60.0;
 
-/// In chi squared: what noise and rounding make of a tie.
-constexpr double kContrastTie = 2.0;
-
-/// By how much in chi squared an effect must beat one factor on all specimens of a condition (even_directions()). Where
-/// the factor is true the lead is normal with mean -d^2 and deviation 2 d, d the distance between the two; at the worst
-/// d chance reaches 7.6 in 0.3 % of sets, the level of a name.
-constexpr double kEvenLead = 7.6;
-
 template <class Value>
 std::vector<double> over_draws(const std::vector<DrawStatistics>& draws, Value value) {
   std::vector<double> values;
