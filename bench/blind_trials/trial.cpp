@@ -204,11 +204,7 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
   for (int i = 0; i < options.nulls; ++i) add("null", "nothing", {}, true, i % 2 == 1);
   std::vector<std::string> inside, outside, forms, even;
   for (const lab::EffectKind& kind : lab::effect_kinds())
-    (!kind.along.empty()   ? even
-     : kind.in_library     ? inside
-     : kind.family.empty() ? outside
-                           : forms)
-        .emplace_back(kind.name);
+    (kind.even ? even : kind.in_library ? inside : kind.family.empty() ? outside : forms).emplace_back(kind.name);
   const auto add_all_sizes = [&](const std::string& kind, const std::vector<std::string>& names) {
     for (const std::string& name : names)
       for (const bool large : {true, false})

@@ -68,9 +68,9 @@ runtime::NodeProgram make_farm(const FarmOptions& options, const runtime::NodeOp
   if (executor == "slurm") {
     // A controller that is silent is waited for; a program that is not installed would be for ever.
     if (runtime::ask_program({"sbatch", "--version"}).end.exit_status == runtime::kProgramNotFound) {
-      throw InputError::format(
-          "the scenario has farm.executor = \"slurm\" and sbatch is not installed here, expected Slurm's commands in "
-          "PATH (apt-get install slurm-client), or another executor");
+      throw InputError(
+          "executor \"slurm\": sbatch is not installed here, expected Slurm's commands in PATH (apt-get install "
+          "slurm-client), or another executor");
     }
     const SlurmSettings settings{.spool = run / "slurm",
                                  .films = run / "films",

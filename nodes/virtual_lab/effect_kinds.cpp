@@ -309,7 +309,7 @@ constexpr std::array kEffectKinds = {
                .drawn_minimum = 0.01,
                .drawn_maximum = 0.06,
                .in_library = false,
-               .along = "orientation",
+               .even = true,
                .value = &Hidden::bulk_anisotropy},
     EffectKind{.name = "thickness_error",
                .unit = "mm",
@@ -320,7 +320,7 @@ constexpr std::array kEffectKinds = {
                .drawn_maximum = 0.15,
                .either_sign = true,
                .in_library = false,
-               .along = "thickness",
+               .even = true,
                .value = &Hidden::thickness_error_mm}};
 
 }  // namespace

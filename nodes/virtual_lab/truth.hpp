@@ -82,7 +82,7 @@ struct EffectKind {
   bool drawn_unasked = false;                       ///< a laboratory without file may hide it
   bool in_library = true;                           ///< false: the diagnosis has no name for it
   std::string_view family = {};                     ///< of the library that it belongs to all the same, or empty
-  std::string_view along = {};                      ///< acts on all specimens of one condition by one factor: this one
+  bool even = false;                                ///< acts on all specimens of one condition by one factor
   double HiddenEffects::*value = nullptr;
   EffectNumber second = {};  ///< its second number, where it has one (second.value not null)
 };

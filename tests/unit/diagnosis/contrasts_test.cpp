@@ -1,7 +1,5 @@
 #include "diagnosis/contrasts.hpp"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "diagnosis/observations.hpp"
