@@ -13,16 +13,23 @@
 
 namespace nacre {
 
-/// A TOML document from text. Throws InputError naming `source` and line.
-inline toml::table read_toml(std::string_view text, const std::string& source) {
+/// Where something stands, `demo.toml:12:5`: file, line and column.
+inline std::string place(std::string_view source, const toml::source_region& region) {
+  return fmt::format("{}:{}:{}", source, region.begin.line, region.begin.column);
+}
+
+inline std::string place(std::string_view source, const toml::node& node) { return place(source, node.source()); }
+
+/// A TOML document from text. Throws InputError naming the place.
+inline toml::table read_toml(std::string_view text, std::string_view source) {
   try {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
-    throw InputError::format("{}:{}: {}", source, error.source().begin.line, error.description());
+    throw InputError::format("{}: not TOML: {}", place(source, error.source()), error.description());
   }
 }
 
-/// The document of a TOML file. Throws InputError naming file and line.
+/// The document of a TOML file. Throws InputError naming file, line and column.
 inline toml::table read_toml_file(const std::filesystem::path& file) {
   return read_toml(read_file(file), file.string());
 }

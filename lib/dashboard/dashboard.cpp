@@ -39,7 +39,7 @@ int number(const std::string& text, const char* name) {
 int round_of(const Request& request) { return number(parameter(request, "round"), "round"); }
 
 pattern::Design design_of(const Request& request) {
-  const auto design = pattern::design_from_name(parameter(request, "design"));
+  const auto design = pattern::design_from_word(parameter(request, "design"));
   if (!design) throw Unanswerable{400, "design: " + design.error().message};
   return *design;
 }
@@ -49,6 +49,11 @@ std::string model_of(const Request& request) {
   const std::string model = parameter(request, "model");
   if (!is_model_name(model)) throw Unanswerable{400, "model: expected the number of a round or the name of a family"};
   return model;
+}
+
+/// What would change nothing.
+Response void_response(const std::string& reason) {
+  return json_response({{"answer", to_string(Answer::conflicting)}, {"error", reason}}, 409);
 }
 
 bool is_round(const std::string& model) { return model.find_first_not_of("0123456789") == std::string::npos; }
@@ -172,9 +177,47 @@ Response Dashboard::design(const Request& request) {
   return json_response(design_json(*data_.record(), design_of(request)));
 }
 
-Json Dashboard::simulation_state(const std::string& design, const std::string& model) {
-  if (films_.name_in_run(*data_.record(), design, model)) return {{"state", "ready"}, {"source", "run"}};
-  const Background::State state = films_.made(design, model);
+Dashboard::Breaking Dashboard::breaking_of(const Request& request, const pattern::Design& design,
+                                           const std::string& model) {
+  const auto map = request.query.find("map");
+  return {design, model, map != request.query.end() && map->second.starts_with(model + "/")};
+}
+
+Dashboard::Breaking Dashboard::breaking_of(const Request& request) {
+  return breaking_of(request, design_of(request), model_of(request));
+}
+
+std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string& model) {
+  const std::lock_guard lock(models_mutex_);
+  if (const auto known = models_of_game_.find(model); known != models_of_game_.end()) return known->second;
+  const std::lock_guard desk_lock(desk_mutex_);
+  const auto parameters = is_round(model) ? desk_.model(number(model, "model")) : desk_.family_model(model);
+  if (parameters) models_of_game_.emplace(model, *parameters);
+  return parameters;
+}
+
+Result<material::ParameterSet> Dashboard::parameters_of(const Breaking& breaking) {
+  if (!breaking.is_of_folder)
+    if (const auto parameters = model_of_game(breaking.model)) return *parameters;
+  if (is_round(breaking.model)) return fail("round {} has no model yet", breaking.model);
+  return family_folder_.model(breaking.model);  // of a family grouped otherwise the folder alone knows
+}
+
+bool Dashboard::is_by_game(const Breaking& breaking) {
+  if (!breaking.is_of_folder) return true;
+  const auto of_folder = family_folder_.model(breaking.model);
+  return of_folder && model_of_game(breaking.model) == *of_folder;  // `nacre families` takes models from the stage
+}
+
+Background::State Dashboard::made(const Breaking& breaking) {
+  const auto parameters = parameters_of(breaking);
+  return parameters ? films_.made(breaking.design, *parameters) : Background::State{};
+}
+
+Json Dashboard::simulation_state(const Breaking& breaking) {
+  if (films_.name_in_run(*data_.record(), breaking.design.name(), breaking.model) && is_by_game(breaking))
+    return {{"state", "ready"}, {"source", "run"}};
+  const Background::State state = made(breaking);
   Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
   if (state.result) {
     const auto modulus = unpacked(*state.result).modulus_pa;
@@ -184,33 +227,24 @@ Json Dashboard::simulation_state(const std::string& design, const std::string& m
   return json;
 }
 
-Response Dashboard::simulation(const Request& request) {
-  return json_response(simulation_state(design_of(request).name(), model_of(request)));
-}
+Response Dashboard::simulation(const Request& request) { return json_response(simulation_state(breaking_of(request))); }
 
 Response Dashboard::film(const Request& request) {
-  const std::string design = design_of(request).name(), model = model_of(request);
-  if (const auto film = films_.of_run(*data_.record(), design, model)) return binary(film);
-  const Background::State state = films_.made(design, model);
+  const Breaking breaking = breaking_of(request);
+  const auto film = films_.of_run(*data_.record(), breaking.design.name(), breaking.model);
+  if (film && is_by_game(breaking)) return binary(film);
+  const Background::State state = made(breaking);
   if (!state.result) return error_response(404, "there is no film of this design yet");
   return binary(std::make_shared<const std::string>(unpacked(*state.result).film));
 }
 
 Response Dashboard::simulate(const Request& request) {
   const SimulationWish wish = or_refuse(wish_from_json(request.body));
-  std::optional<material::ParameterSet> parameters;
-  if (is_round(wish.model)) {
-    const std::lock_guard lock(desk_mutex_);
-    parameters = desk_.model(number(wish.model, "model"));
-  } else {
-    const std::lock_guard lock(desk_mutex_);
-    parameters = desk_.family_model(wish.model);  // of a family grouped otherwise the folder alone knows
-    if (!parameters) parameters = or_refuse(family_folder_.model(wish.model));
-  }
-  if (!parameters) return error_response(409, fmt::format("round {} has no model yet", wish.model));
-  if (!films_.make(wish.design, wish.model, *parameters))
-    return error_response(503, "too many simulations are waiting already");
-  return json_response(simulation_state(wish.design.name(), wish.model), 202);
+  const Breaking breaking = breaking_of(request, wish.design, wish.model);
+  const auto parameters = parameters_of(breaking);
+  if (!parameters) return error_response(409, parameters.error().message);
+  if (!films_.make(wish.design, *parameters)) return error_response(503, "too many simulations are waiting already");
+  return json_response(simulation_state(breaking), 202);
 }
 
 Response Dashboard::laboratory(const Request&) {
@@ -305,14 +339,14 @@ Response Dashboard::enter(const Request& request) {
 Response Dashboard::judge(const Request& request) {
   const auto judgement = or_refuse(judgement_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
+  if (const auto reason = desk_.against(judgement)) return void_response(*reason);
   return answered(desk_.judge(judgement));
 }
 
 Response Dashboard::decide(const Request& request) {
   const auto decision = or_refuse(decision_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  if (const auto reason = desk_.against(decision))
-    return json_response({{"answer", to_string(Answer::conflicting)}, {"error", *reason}}, 409);
+  if (const auto reason = desk_.against(decision)) return void_response(*reason);
   return answered(desk_.decide(decision));
 }
 

@@ -2,7 +2,9 @@
 // The dashboard of one run: requests in, answers out. The routes are listed in docs/FORMATS.md.
 
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "dashboard/background.hpp"
@@ -58,7 +60,22 @@ class Dashboard {
   Response simulate(const Request&);
   Response group(const Request&);
 
-  Json simulation_state(const std::string& design, const std::string& model);
+  /// A design, and the model that is to break it: the number of a round or the name of a family.
+  struct Breaking {
+    pattern::Design design;
+    std::string model;
+    bool is_of_folder = false;  ///< the model of `nacre families`, not that of the game's family stage
+  };
+  /// The query may say `map`, FAMILY/SEED: the map of the folder that the design was picked on.
+  static Breaking breaking_of(const Request& request, const pattern::Design& design, const std::string& model);
+  static Breaking breaking_of(const Request& request);
+  /// The error says what there is no model of.
+  Result<material::ParameterSet> parameters_of(const Breaking& breaking);
+  std::optional<material::ParameterSet> model_of_game(const std::string& model);
+  /// Whether the film that the game has under this model's name is by the model that is meant.
+  bool is_by_game(const Breaking& breaking);
+  Background::State made(const Breaking& breaking);
+  Json simulation_state(const Breaking& breaking);
   Response answered(Answer answer);
 
   Settings settings_;
@@ -66,6 +83,8 @@ class Dashboard {
   std::mutex desk_mutex_;  ///< the desk serves one at a time
   Json laboratory_;        ///< as last read; reading a long journal takes a while
   std::int64_t laboratory_fresh_until_us_ = 0;
+  std::mutex models_mutex_;                                       ///< taken before the desk's
+  std::map<std::string, material::ParameterSet> models_of_game_;  ///< once there they stay as they are
   RunData data_;
   PageFiles page_;
   FamilyFolder family_folder_;

@@ -70,7 +70,8 @@ class Desk {
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Answer judge(const Judgement& judgement) = 0;
   virtual Answer decide(const Decision& decision) = 0;
-  /// Why a decision would change nothing, as a sentence; nothing where it counts.
+  /// Why a judgement or a decision would change nothing, as a sentence; nothing where it counts.
+  virtual std::optional<std::string> against(const Judgement& judgement) = 0;
   virtual std::optional<std::string> against(const Decision& decision) = 0;
   /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is
   /// called.

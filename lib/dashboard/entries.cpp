@@ -61,7 +61,7 @@ Result<int> round_of(const Json& object, int absent) {
 Result<pattern::Design> design_of(const Json& object, const char* name) {
   const Result<std::string> text = text_of(object, name, true);
   if (!text) return tl::unexpected(text.error());
-  const auto design = pattern::design_from_name(*text);
+  const auto design = pattern::design_from_word(*text);
   if (!design) return fail("{}: {}", name, design.error().message);
   return *design;
 }

@@ -18,7 +18,11 @@ bool is_film_name(const std::string& name) {
   return length > 0 && length <= 64 && name.ends_with(kSuffix) && name.find_first_not_of("0123456789abcdef") == length;
 }
 
-std::string key_of(const std::string& design, const std::string& model) { return design + "@" + model; }
+/// By the questions, parameters included: a family keeps its name when another grouping gives it another model.
+std::string key_of(const tester::Simulation& simulation) {
+  return tester::simulation_key(simulation, tester::TestKind::modulus) +
+         tester::simulation_key(simulation, tester::TestKind::toughness);
+}
 
 /// How the model lets designs break, where the run knows; nullptr where it has no such model.
 const std::map<std::string, store::RecordedCrack>* cracks_by(const store::RunRecord& run, const std::string& model) {
@@ -76,14 +80,13 @@ std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, co
   }
 }
 
-bool Films::make(const pattern::Design& design, const std::string& model, const material::ParameterSet& parameters) {
-  const tester::Simulation simulation{design, parameters, {}, fidelity_};
-  return background_.ask(key_of(design.name(), model),
-                         [simulation](const auto&) { return simulated_film(simulation); });
+bool Films::make(const pattern::Design& design, const material::ParameterSet& parameters) {
+  const tester::Simulation simulation = simulation_of(design, parameters);
+  return background_.ask(key_of(simulation), [simulation](const auto&) { return simulated_film(simulation); });
 }
 
-Background::State Films::made(const std::string& design, const std::string& model) const {
-  return background_.state(key_of(design, model));
+Background::State Films::made(const pattern::Design& design, const material::ParameterSet& parameters) const {
+  return background_.state(key_of(simulation_of(design, parameters)));
 }
 
 }  // namespace nacre::dashboard

@@ -1,5 +1,6 @@
 #pragma once
-// Fracture films by design and model: those of the run's folder, and those that are made here because somebody looks.
+// Fracture films: those of the run's folder, by design and the name of the model that broke it, and those that are made
+// here because somebody looks, by design and parameters.
 
 #include <filesystem>
 #include <memory>
@@ -25,12 +26,14 @@ class Films {
   std::optional<std::string> name_in_run(const store::RunRecord& run, const std::string& design,
                                          const std::string& model) const;
 
-  /// Starts simulating and filming; `model` names the parameters among those of this design. False when too much waits
-  /// already.
-  bool make(const pattern::Design& design, const std::string& model, const material::ParameterSet& parameters);
-  Background::State made(const std::string& design, const std::string& model) const;
+  /// Starts simulating and filming. False when too much waits already.
+  bool make(const pattern::Design& design, const material::ParameterSet& parameters);
+  Background::State made(const pattern::Design& design, const material::ParameterSet& parameters) const;
 
  private:
+  tester::Simulation simulation_of(const pattern::Design& design, const material::ParameterSet& parameters) const {
+    return {design, parameters, {}, fidelity_};
+  }
   std::filesystem::path folder_;
   tester::Fidelity fidelity_;
   Background background_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -44,8 +45,14 @@ bool is_address(const std::string& host) {
          host.find_first_not_of(brackets ? "0123456789abcdefABCDEF.:[]" : "0123456789.:") == std::string::npos;
 }
 
+/// Names have no case; browsers send small letters.
+std::string in_small_letters(std::string name) {
+  for (char& letter : name) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return name;
+}
+
 bool is_named(const AccessRules& rules, const std::string& host) {
-  if (std::find(rules.hosts.begin(), rules.hosts.end(), host) != rules.hosts.end()) return true;
+  if (std::ranges::find(rules.hosts, in_small_letters(host), in_small_letters) != rules.hosts.end()) return true;
   return !rules.token.empty() && is_address(host);
 }
 
@@ -83,13 +90,28 @@ std::optional<Response> refused_post(const Request& request) {
   return std::nullopt;
 }
 
+/// The machine's name; empty when it has none.
+std::string own_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// As it stands in an address: colons of IPv6 in brackets.
+std::string in_address(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
 }  // namespace
 
+std::string page_link(const std::string& host, int port, const std::string& token) {
+  const bool everywhere = host == "0.0.0.0" || host == "::";
+  const std::string name = everywhere && !own_name().empty() ? own_name() : in_address(host);
+  return fmt::format("http://{}:{}/{}", name, port, token.empty() ? "" : "?token=" + token);
+}
+
 std::vector<std::string> host_names(const std::string& host, int port) {
-  std::array<char, 256> own{};
-  std::vector<std::string> names = {"localhost", "127.0.0.1", "[::1]",
-                                    host.find(':') == std::string::npos ? host : "[" + host + "]"};
-  if (::gethostname(own.data(), own.size() - 1) == 0) names.emplace_back(own.data());
+  std::vector<std::string> names = {"localhost", "127.0.0.1", "[::1]", in_address(host)};
+  if (const std::string own = own_name(); !own.empty()) names.push_back(own);
   std::vector<std::string> with_port;
   for (const std::string& name : names) {
     with_port.push_back(fmt::format("{}:{}", name, port));

@@ -21,6 +21,10 @@ struct AccessRules {
 /// The names of a server that listens to `host`, in Host headers.
 std::vector<std::string> host_names(const std::string& host, int port);
 
+/// What a browser opens, `http://HOST:PORT/`, and the token that it brings. A server that listens to every address goes
+/// by the name of its machine.
+std::string page_link(const std::string& host, int port, const std::string& token);
+
 /// 128 random bits of the system, in hex.
 std::string random_token();
 

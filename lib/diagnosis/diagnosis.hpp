@@ -165,7 +165,7 @@ struct Diagnosis {
   double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over groups
   bool noise_known = true;          ///< false: no test has replicates, relative statements only
   material::ParameterSet base_fit;
-  material::ParameterSet extended_fit;  ///< base parameters and extension of the named model; base fit otherwise
+  material::ParameterSet extended_fit;  ///< of what is named, else of the best that stays possible or comes nearest
   std::vector<ResidualRow> residuals;
   std::vector<SanityCheck> sanity;       ///< what other numerics change, before anything is called physics
   std::vector<std::string> descriptors;  ///< names of what residuals are shown against

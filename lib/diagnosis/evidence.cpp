@@ -134,7 +134,7 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
 Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
 
 Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) {
-  const Eigen::VectorXd first = evidence.model.base_map().coordinates(evidence.settings.start);
+  const Eigen::VectorXd first = evidence.model.base_map().coordinates(evidence.model.basis().centre);
   u.head(first.size()) = first;
   return u;
 }
@@ -181,7 +181,8 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   for (int pass = 0; pass < passes; ++pass) {
     if (pass > 0) share_numerics(evidence);
     const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
-    fit_models(evidence, pass == 0 ? map.coordinates(settings.start) : evidence.base.fit.u, {begin, end});
+    fit_models(evidence, pass == 0 ? map.coordinates(evidence.model.basis().centre) : evidence.base.fit.u,
+               {begin, end});
     if (pass == 0) refine_fractures(evidence, workbench);
   }
   const Observations& observations = evidence.observations;

@@ -34,14 +34,26 @@ double noise_sd(const Observations& observations, TestKind test, Feature feature
   return std::sqrt(variance);
 }
 
-/// How far apart two models see a test.
-Separation separation_of(const FeatureValues& one, const FeatureValues& other, TestKind test,
+/// Whether E of what a homogeneous coupon consists of is still anybody's guess: none of it has been pulled.
+bool is_of_unknown_stiffness(const PossibleTest& test, const Observations& observations) {
+  return test.design.mixture() != nullptr &&
+         std::ranges::none_of(observations.groups, [&](const Observation& g) { return g.design == test.design; });
+}
+
+/// How far apart two models see a test. Where the stiffness is unknown it is fitted to either, and what is left to tell
+/// them apart is the shape of the curve.
+Separation separation_of(const FeatureValues& one, const FeatureValues& other, const PossibleTest& test,
                          const Observations& observations, int replicates) {
+  const auto &own_slope = value_of(one, Feature::log_tangent_30),
+             &other_slope = value_of(other, Feature::log_tangent_30);
+  const bool fitted = is_of_unknown_stiffness(test, observations) && own_slope && other_slope;
+  const double scale = fitted ? *own_slope - *other_slope : 0.0;
   Separation best;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     if (!one[f] || !other[f]) continue;
     const auto feature = static_cast<Feature>(f);
-    const double errors = std::abs(*one[f] - *other[f]) / noise_sd(observations, test, feature, replicates);
+    const double apart = *one[f] - *other[f] - (is_curve_stress(feature) ? scale : 0.0);
+    const double errors = std::abs(apart) / noise_sd(observations, test.test, feature, replicates);
     if (errors > best.errors) best = {errors, feature};
   }
   return best;
@@ -70,8 +82,11 @@ FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& 
       value_of(values, Feature::log_modulus) =
           std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
   } else if (test.test == TestKind::tensile) {
-    if (const auto curve = tester::test_tensile(simulation, unload_history()))
-      values = tensile_features(measurement::observe_curve(*curve, set.extensions));
+    const auto pull = [&](const std::vector<double>& strain) {
+      return tester::test_tensile(simulation, strain).value_or(tester::Curve{});
+    };
+    const std::vector<double> history = unload_history();
+    if (!pull(history).empty()) values = tensile_features(measurement::observe_along(history, pull, set.extensions));
   } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
     sysid::Prediction prediction;
     prediction.toughness_pa = result->toughness_pa;
@@ -185,7 +200,7 @@ std::vector<NextExperiment> next_experiments(const std::vector<Fit>& models, con
     values.push_back({tests[t].words, {}});
     for (const auto& [a, b] : pairs)
       values.back().pairs.push_back(
-          separation_of(predicted[t][a], predicted[t][b], tests[t].test, observations, replicates));
+          separation_of(predicted[t][a], predicted[t][b], tests[t], observations, replicates));
   }
   std::vector<NextExperiment> experiments;
   for (const TestChoice& choice : choose_tests(values, count)) {

@@ -177,8 +177,9 @@ FeatureValues tensile_features(const tester::Curve& curve) {
   if (!rise) return values;
   put_rise(values, *rise);
   value_of(values, Feature::log_peak_strain).reset();
-  if (auto& toe = value_of(values, Feature::toe_strain))
-    value_of(values, Feature::toe_share) = *toe / rise->strain_at(0.3);
+  const double scale = rise->strain_at(0.3);
+  if (const auto& toe = value_of(values, Feature::toe_strain); toe && scale > 0.0)
+    value_of(values, Feature::toe_share) = *toe / scale;
   value_of(values, Feature::toe_strain).reset();
   if (const double energy = tester::area_under(forward); energy > 0.0)
     value_of(values, Feature::knee) = std::log(energy / (0.5 * rise->peak_pa * forward.strain.back()));
@@ -195,23 +196,6 @@ std::optional<double> carried_strain(const tester::Curve& curve) {
   const auto parted =
       std::find_if(peak, curve.stress_pa.end(), [&](double stress) { return stress < kCarriedShare * *peak; });
   return curve.strain[static_cast<std::size_t>(std::prev(parted) - curve.stress_pa.begin())];
-}
-
-tester::Curve truncated(const tester::Curve& curve, double strain) {
-  tester::Curve result;
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (curve.strain[i] > strain) {
-      if (i > 0) {
-        const double t = (strain - curve.strain[i - 1]) / (curve.strain[i] - curve.strain[i - 1]);
-        result.strain.push_back(strain);
-        result.stress_pa.push_back(curve.stress_pa[i - 1] + t * (curve.stress_pa[i] - curve.stress_pa[i - 1]));
-      }
-      break;
-    }
-    result.strain.push_back(curve.strain[i]);
-    result.stress_pa.push_back(curve.stress_pa[i]);
-  }
-  return result;
 }
 
 }  // namespace nacre::diagnosis

@@ -66,7 +66,5 @@ bool is_unloaded(const tester::Curve& curve);
 /// a material that flows is read while it flows, and none while it parts; nothing when it was unloaded on the way (then
 /// all of it).
 std::optional<double> carried_strain(const tester::Curve& curve);
-/// The curve as far as `strain`, its last point interpolated.
-tester::Curve truncated(const tester::Curve& curve, double strain);
 
 }  // namespace nacre::diagnosis

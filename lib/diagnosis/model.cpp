@@ -19,11 +19,15 @@ double unshown(const FeatureValues& values, Feature feature) {
 }  // namespace
 
 tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
-  const auto pulled = tester::test_tensile({group.design, set, group.conditions, fidelity_}, group.curve.strain);
-  if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
-  const tester::Curve shown = measurement::observe_curve(*pulled, set.extensions, {.batch_step = group.batch_step});
+  const auto pull = [&](const std::vector<double>& strain) {
+    auto pulled = tester::test_tensile({group.design, set, group.conditions, fidelity_}, strain);
+    if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
+    return *std::move(pulled);
+  };
+  const tester::Curve shown =
+      measurement::observe_along(group.curve.strain, pull, set.extensions, {.batch_step = group.batch_step});
   const auto end = carried_strain(group.curve);
-  return end ? truncated(shown, *end) : shown;
+  return end ? tester::cut_at(shown, *end) : shown;
 }
 
 Basis basis_for(const Observations& observations, const material::ParameterSet& start) {
@@ -101,7 +105,12 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
                              Eigen::Ref<Eigen::VectorXd> rows) const {
   const Observation& g = observations_.groups[group];
   if (g.test == TestKind::modulus) return put_modulus(group, modulus(group, set), set, rows);
-  const FeatureValues values = tensile_features(coupon_curve(g, set));
+  FeatureValues values = tensile_features(coupon_curve(g, set));
+  if (!value_of(values, Feature::log_peak)) {  // more slack than it was pulled: of stresses that says nothing
+    material::ParameterSet without = set;
+    without.extensions.erase("toe_slack");
+    values = tensile_features(coupon_curve(g, without));
+  }
   for (const int row : rows_of_group_[group]) {
     const auto& value = value_of(values, observations_.rows[static_cast<std::size_t>(row)].feature);
     rows[row] = value.value_or(unshown(values, observations_.rows[static_cast<std::size_t>(row)].feature));

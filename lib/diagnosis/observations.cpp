@@ -239,9 +239,10 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     const bool coupons = groups.back().front().specimen->test == TestKind::tensile;
     const auto common = coupons ? common_strain(groups.back()) : std::nullopt;
     if (common)
-      for (Measured& each : groups.back()) each.features = tensile_features(truncated(each.specimen->curve, *common));
+      for (Measured& each : groups.back())
+        each.features = tensile_features(tester::cut_at(each.specimen->curve, *common));
     observations.groups.push_back(mean_of(groups.back()));
-    if (common) observations.groups.back().curve = truncated(observations.groups.back().curve, *common);
+    if (common) observations.groups.back().curve = tester::cut_at(observations.groups.back().curve, *common);
   }
   observations.disconnected_batches = disconnected_batches(groups);
   std::vector<double> values;

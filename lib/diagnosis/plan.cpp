@@ -135,8 +135,8 @@ void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenReco
     tester::Curve &one = specimens[i].curve, &other = changed[i].curve;
     if (specimens[i].test != TestKind::tensile || one.empty() || other.empty() || is_unloaded(one)) continue;
     const double strain = std::min(one.strain.back(), other.strain.back());
-    one = truncated(one, strain);
-    other = truncated(other, strain);
+    one = tester::cut_at(one, strain);
+    other = tester::cut_at(other, strain);
   }
 }
 

@@ -29,7 +29,8 @@ struct Decision {
   Verdict verdict = Verdict::base_sufficient;
   std::vector<Fit> possible;
   std::optional<Fit> partial;  ///< best model of an unexplained misfit
-  std::vector<double> p_fit;  ///< per effect: chance of a misfit as large when base + effect is true; 1 when not tested
+  std::vector<double> p_fit;   ///< per effect: chance of a misfit as large when base + effect is true; 1 where no name
+                              ///< was in question, 0 too far behind the best to be tested
   std::vector<double> p_family_wise;  ///< per effect
   double p_misfit = 1.0;
   double p_outside = 1.0;  ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1

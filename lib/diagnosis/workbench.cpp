@@ -115,8 +115,8 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
                                      [](const Observation& g) { return g.test == tester::TestKind::tensile; });
   if (layouts < kLeastGroups && coupons < kLeastCoupons) {
     throw TooFewSpecimens(fmt::format(
-        "a diagnosis needs at least {} designs with a valid modulus or toughness, or {} coupons with a curve; there "
-        "are {} and {}",
+        "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
+        "coupons with a curve; there are {} and {}",
         kLeastGroups, kLeastCoupons, layouts, coupons));
   }
   material::ParameterSet centre = settings.start;

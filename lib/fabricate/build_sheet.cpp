@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "fabricate/preview.hpp"
+#include "measurement/specimen_sheet.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -36,14 +37,14 @@ std::pair<double, double> fraction_by_layer(const StackCount& count) {
 }
 
 Json test_json(const Model& model) {
-  const SpecimenGeometry geometry = geometry_of(model.wanted.kind);
+  const SpecimenGeometry geometry = geometry_of(model.plan.kind);
   Json test{{"width_mm", geometry.test_width_mm},
             {"gauge_mm", geometry.gauge_mm},
             {"grip_mm", geometry.grip_mm},
             {"strain_rate_per_s", model.wanted.strain_rate_per_s},
             {"speed_mm_per_min", test_speed_mm_per_min(model.wanted)},
-            {"loading", model.wanted.loading}};
-  if (model.wanted.kind == SpecimenKind::tensile_bar) test["gauge_without_extensometer_mm"] = bar_effective_gauge_mm();
+            {"loading", tester::to_string(model.wanted.loading)}};
+  if (model.plan.kind == SpecimenKind::tensile_bar) test["gauge_without_extensometer_mm"] = bar_effective_gauge_mm();
   return test;
 }
 
@@ -53,7 +54,7 @@ Json model_json(const Model& model, const WrittenModel& written) {
           {"slices", slices_of(written)},
           {"design", model.wanted.design.name()},
           {"readable_name", readable_name(model.wanted.design)},
-          {"test", std::string(to_string(model.wanted.kind))},
+          {"test", std::string(tester::to_string(model.wanted.test))},
           {"orientation_deg", model.wanted.orientation_deg},
           {"replicates", model.wanted.replicates},
           {"order_id", model.wanted.order_id},
@@ -75,7 +76,7 @@ Json specimen_json(const Job& job, const Placed& specimen) {
   return {{"label", specimen.label},
           {"model", model.name},
           {"design", model.wanted.design.name()},
-          {"test", std::string(to_string(model.wanted.kind))},
+          {"test", std::string(tester::to_string(model.wanted.test))},
           {"replicate", specimen.replicate},
           {"print_order", specimen.print_order},
           {"batch", job.batch(specimen.tray)},
@@ -112,6 +113,18 @@ Json plan_of(Json sheet) {
       model.erase(counted);
   }
   return sheet;
+}
+
+/// One row under measurement::kJobHeading.
+std::string specimen_row(const Job& job, const Placed& specimen) {
+  const Model& model = job.models[specimen.model];
+  const Wanted& wanted = model.wanted;
+  const SpecimenGeometry geometry = geometry_of(model.plan.kind);
+  return fmt::format("{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7:.6g},{8},{9},{10},{11},{12},,,,,\n", specimen.label,
+                     csv_cell(wanted.design.name()), tester::to_string(wanted.test), geometry.test_width_mm,
+                     wanted.thickness_mm, geometry.gauge_mm, wanted.orientation_deg, wanted.strain_rate_per_s,
+                     csv_cell(pull_in_words(wanted.loading)), job.batch(specimen.tray), specimen.print_order,
+                     csv_cell(wanted.order_id), specimen.tray);
 }
 
 void take_away(const std::filesystem::path& file) {
@@ -189,17 +202,8 @@ void forget_job(const std::filesystem::path& folder) {
 }
 
 std::string specimen_table(const Job& job) {
-  std::string table =
-      "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,orientation_deg,batch,print_order,date,operator,"
-      "machine,path,note\n";
-  for (const Placed& specimen : job.specimens) {
-    const Model& model = job.models[specimen.model];
-    const SpecimenGeometry geometry = geometry_of(model.wanted.kind);
-    table += fmt::format("{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7},{8},,,,,\n", specimen.label,
-                         csv_cell(model.wanted.design.name()), to_string(model.wanted.kind), geometry.test_width_mm,
-                         model.wanted.thickness_mm, geometry.gauge_mm, model.wanted.orientation_deg,
-                         job.batch(specimen.tray), specimen.print_order);
-  }
+  std::string table = fmt::format("{}\n", measurement::kJobHeading);
+  for (const Placed& specimen : job.specimens) table += specimen_row(job, specimen);
   return table;
 }
 

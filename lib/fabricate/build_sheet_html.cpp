@@ -57,10 +57,11 @@ std::string models_table(const Job& job, const std::vector<WrittenModel>& writte
         "<tr><td><a href=\"{0}preview.png\">{1}</a></td><td><code>{2}</code></td><td>{3}</td><td class=n>{4}</td>"
         "<td class=n>{5:g} x {6:g} x {7:g}</td><td><code>{0}slices/</code> {8} slices of {9} x {10}</td>"
         "<td class=n>{11:.4f}</td><td class=n>{12:.4f}</td><td class=n>{13:.2f}</td><td>{14}</td></tr>\n",
-        folder, escaped(model.name), escaped(readable_name(model.wanted.design)), to_string(model.wanted.kind),
+        folder, escaped(model.name), escaped(readable_name(model.wanted.design)), tester::to_string(model.wanted.test),
         model.wanted.replicates, model.size_x_mm, model.size_y_mm, model.size_z_mm, written[i].count.layers,
         written[i].count.columns, written[i].count.rows, model.wanted.design.rigid_fraction(),
-        rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted), escaped(model.wanted.loading));
+        rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted),
+        escaped(pull_in_words(model.wanted.loading)));
   }
   return "<h2>Models</h2>\n<p>Pictures (preview.png): soft is black, rigid white, what is not printed "
          "blue.</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
@@ -127,9 +128,10 @@ std::string instructions(const Job& job) {
       "<li>Measure width and thickness of each specimen in the gauge and put them into <code>specimens.csv</code>, "
       "with "
       "date, operator and machine.</li>\n"
-      "<li>Pull at the speed above. Toughness: grips 54 mm apart, to complete separation. Modulus (ASTM D638 type I): "
-      "grips 115 mm apart; <code>gauge_mm</code> is the extensometer's gauge (50), or {:.1f} where only the travel of "
-      "the grips is recorded.</li>\n"
+      "<li>Pull at the speed above. Toughness: grips 54 mm apart, to complete separation. Modulus and tensile (ASTM "
+      "D638 type I): grips 115 mm apart; <code>gauge_mm</code> is the extensometer's gauge (50), or {:.1f} where only "
+      "the travel of the grips is recorded. Where <i>pull</i> above names strains, from one to the next at that speed, "
+      "in one record with the ways back.</li>\n"
       "<li>Export time, extension and force of each test as CSV, name the files in the column <code>file</code>, note "
       "under <code>path</code> how the crack ran (any word, the same word for the same course), then "
       "<code>nacre import *.csv --specimens specimens.csv --out SET</code>.</li>\n</ol>\n",

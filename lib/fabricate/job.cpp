@@ -35,7 +35,7 @@ Model model_of(const Wanted& wanted, const JobRequest& request) {
   }
   Model model{.wanted = wanted, .plan = {}, .name = {}};
   model.plan = {.design = wanted.design,
-                .kind = wanted.kind,
+                .kind = specimen_kind(wanted.test),
                 .orientation_deg = wanted.orientation_deg,
                 .thickness_mm = wanted.thickness_mm,
                 .interface = request.interface,
@@ -43,11 +43,12 @@ Model model_of(const Wanted& wanted, const JobRequest& request) {
                 .notch = request.notch,
                 .seed = RandomStream(request.seed, "mixture of " + wanted.design.name()).bits()};
   const bool turned = wanted.orientation_deg == 90.0;
-  const SpecimenGeometry geometry = geometry_of(wanted.kind);
+  const SpecimenGeometry geometry = geometry_of(model.plan.kind);
   model.size_x_mm = 1e-3 * static_cast<double>(turned ? geometry.length_um : geometry.width_um);
   model.size_y_mm = 1e-3 * static_cast<double>(turned ? geometry.width_um : geometry.length_um);
   model.size_z_mm = wanted.thickness_mm;
-  model.name = fmt::format("{}-{}{}", short_name(wanted.design), to_string(wanted.kind), turned ? "-turned" : "");
+  model.name =
+      fmt::format("{}-{}{}", short_name(wanted.design), tester::to_string(wanted.test), turned ? "-turned" : "");
   if (wanted.thickness_mm != 3.2) model.name += fmt::format("-{}mm", wanted.thickness_mm);
   return model;
 }
@@ -160,10 +161,22 @@ std::string readable_name(const pattern::Design& design) {
   return layout == nullptr ? design.name() : pattern::coupon_name(*layout).value_or(design.name());
 }
 
+std::string pull_in_words(const tester::Loading& loading) {
+  std::string words;
+  double before = 0.0;
+  for (const double turn : loading.turns) {
+    const double percent = 100.0 * turn;
+    words += words.empty() ? fmt::format("to {:g} % strain", percent)
+                           : fmt::format(", {} to {:g} %", turn < before ? "back" : "on", percent);
+    before = turn;
+  }
+  return words.empty() ? tester::to_string(loading) : words;
+}
+
 double test_speed_mm_per_min(const Wanted& wanted) {
   // A bar is strained by the travel over its effective length, whatever the extensometer's gauge is.
-  const double length_mm =
-      wanted.kind == SpecimenKind::toughness ? geometry_of(wanted.kind).gauge_mm : bar_effective_gauge_mm();
+  const SpecimenKind kind = specimen_kind(wanted.test);
+  const double length_mm = kind == SpecimenKind::toughness ? geometry_of(kind).gauge_mm : bar_effective_gauge_mm();
   return 60.0 * wanted.strain_rate_per_s * length_mm;
 }
 

@@ -6,18 +6,20 @@
 #include <vector>
 
 #include "fabricate/droplet_plan.hpp"
+#include "tester/loading.hpp"
+#include "tester/tester.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::fabricate {
 
-/// Specimens of one kind that somebody wants.
+/// Specimens that somebody wants tested in one way.
 struct Wanted {
   pattern::Design design;
-  SpecimenKind kind = SpecimenKind::toughness;
+  tester::TestKind test = tester::TestKind::toughness;
   double orientation_deg = 0.0;
   double thickness_mm = 3.2;
   double strain_rate_per_s = thesis::kTestStrainRate;
-  std::string loading = "monotonic";           ///< as of TEST_ORDER: how a coupon is pulled
+  tester::Loading loading = {};                ///< how a coupon is pulled
   int replicates = thesis::kModulusSpecimens;  ///< at least four are tested, three consistent ones count (2.2.2)
   std::string order_id = {};                   ///< of the game; empty when nobody ordered them
   std::string reason = {};
@@ -69,6 +71,9 @@ Job plan_job(const JobRequest& request);
 
 /// A name for people: `checkerboard:2`, `laminate:x:3:2`, otherwise the design's own.
 std::string readable_name(const pattern::Design& design);
+
+/// How a specimen is pulled, for people: `monotonic`, `to 2 % strain, back to 0.5 %, on to 2.2 %`.
+std::string pull_in_words(const tester::Loading& loading);
 
 /// Speed of the grips in mm/min that strains the specimen at its rate.
 double test_speed_mm_per_min(const Wanted& wanted);

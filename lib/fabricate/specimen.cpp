@@ -39,13 +39,8 @@ double notch_depth(double from_axis_mm, const NotchOptions& notch) {
 
 }  // namespace
 
-std::string_view to_string(SpecimenKind kind) { return kind == SpecimenKind::toughness ? "toughness" : "modulus"; }
-
-Result<SpecimenKind> specimen_kind_from_string(std::string_view name) {
-  for (const SpecimenKind kind : {SpecimenKind::toughness, SpecimenKind::tensile_bar}) {
-    if (name == to_string(kind)) return kind;
-  }
-  return fail("\"{}\" is no kind of specimen, expected toughness or modulus", name);
+SpecimenKind specimen_kind(tester::TestKind test) {
+  return test == tester::TestKind::toughness ? SpecimenKind::toughness : SpecimenKind::tensile_bar;
 }
 
 SpecimenGeometry geometry_of(SpecimenKind kind) {

@@ -2,19 +2,19 @@
 // The outlines of what is printed: the thesis' toughness specimen and the ASTM D638 type I tensile bar.
 
 #include <cstdint>
-#include <string_view>
 #include <utility>
 
-#include "base/result.hpp"
+#include "tester/tester.hpp"
 
 namespace nacre::fabricate {
 
 enum class SpecimenKind {
   toughness,    ///< 104 x 52 mm, notched on the left at mid-length (2.2.2)
-  tensile_bar,  ///< ASTM D638 type I, for Young's modulus
+  tensile_bar,  ///< ASTM D638 type I, for Young's modulus and the tensile tests of homogeneous coupons
 };
-std::string_view to_string(SpecimenKind kind);
-Result<SpecimenKind> specimen_kind_from_string(std::string_view name);
+
+/// What a test is made on.
+SpecimenKind specimen_kind(tester::TestKind test);
 
 /// What a specimen looks like and how it is gripped, lengths in mm. The long axis is the pulling direction.
 struct SpecimenGeometry {

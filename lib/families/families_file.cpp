@@ -11,7 +11,7 @@ namespace nacre::families {
 namespace {
 
 [[noreturn]] void refuse(const std::string& source, const toml::node& node, const std::string& what) {
-  throw InputError::format("{}:{}: {}", source, node.source().begin.line, what);
+  throw InputError::format("{}: {}", place(source, node), what);
 }
 
 pattern::Pattern seed_of(const toml::node& node, const std::string& source) {

@@ -1,5 +1,6 @@
 #include "game/family_errors.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace nacre::game {
@@ -23,15 +24,26 @@ sysid::PredictionErrors errors_of(std::span<const FamilyDesign> designs, bool se
   return sysid::prediction_errors(measured, predictions);
 }
 
+bool judges(const FamilyErrors& errors, int sysid::PredictionErrors::*count) {
+  return std::min({errors.seeds_global.*count, errors.seeds_family.*count, errors.chosen_global.*count,
+                   errors.chosen_family.*count}) > 0;
+}
+
 }  // namespace
 
+std::optional<double> error_over(int count, double error) { return count > 0 ? std::optional(error) : std::nullopt; }
+
+bool FamilyErrors::judges_modulus() const { return judges(*this, &sysid::PredictionErrors::modulus_count); }
+
+bool FamilyErrors::judges_toughness() const { return judges(*this, &sysid::PredictionErrors::toughness_count); }
+
 bool FamilyErrors::over_fits_modulus() const {
-  return chosen_family.modulus_count > 0 && seeds_family.modulus_mean < seeds_global.modulus_mean &&
+  return judges_modulus() && seeds_family.modulus_mean < seeds_global.modulus_mean &&
          chosen_family.modulus_mean > chosen_global.modulus_mean;
 }
 
 bool FamilyErrors::over_fits_toughness() const {
-  return chosen_family.toughness_count > 0 && seeds_family.toughness_mean < seeds_global.toughness_mean &&
+  return judges_toughness() && seeds_family.toughness_mean < seeds_global.toughness_mean &&
          chosen_family.toughness_mean > chosen_global.toughness_mean;
 }
 

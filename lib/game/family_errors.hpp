@@ -26,11 +26,17 @@ struct FamilyDesign {
   bool operator==(const FamilyDesign&) const = default;
 };
 
+/// A mean or largest error over `count` designs; nothing over none: an error of nothing is no error of 0.
+std::optional<double> error_over(int count, double error);
+
 /// Tables 3.6 (seeds) and 3.7 (chosen designs) of one family.
 struct FamilyErrors {
   sysid::PredictionErrors seeds_global, seeds_family, chosen_global, chosen_family;
+  /// Both models met measured seeds and measured chosen designs: whether the family's over-fits can be said.
+  bool judges_modulus() const;
+  bool judges_toughness() const;
   /// The family's model knows the seeds better than the global one and the chosen designs worse: it over-fits. False
-  /// before the chosen designs are measured.
+  /// where that cannot be judged, as before the chosen designs are measured.
   bool over_fits_modulus() const;
   bool over_fits_toughness() const;
   bool operator==(const FamilyErrors&) const = default;

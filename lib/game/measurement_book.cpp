@@ -1,8 +1,15 @@
 #include "game/measurement_book.hpp"
 
-#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
 
 namespace nacre::game {
+
+bool answers(const measurement::SpecimenRecord& specimen, const Order& order) {
+  return specimen.test == order.test && specimen.design == order.design &&
+         answers(specimen.conditions, order.conditions);
+}
 
 MeasurementBook::Entry MeasurementBook::enter(const measurement::SpecimenRecord& record, const std::string& order_id) {
   const auto [position, is_new] = entries_.try_emplace(record.specimen, Reported{record, order_id});
@@ -26,6 +33,14 @@ std::optional<Review> MeasurementBook::review_against(const std::string& specime
   const bool loses_tie = review.valid && !held->second.valid;
   if (held->second.revision == review.revision && !loses_tie) return std::nullopt;
   return held->second;
+}
+
+std::optional<std::string> MeasurementBook::against_validity(const std::string& specimen) const {
+  const auto known = entries_.find(specimen);
+  if (known == entries_.end()) return std::nullopt;
+  const auto fault = measurement::why_unusable(known->second.record);
+  if (!fault) return std::nullopt;
+  return fmt::format("{}: cannot be valid: {} {}", specimen, fault->column, fault->reason);
 }
 
 const Review* MeasurementBook::review_of(const std::string& specimen) const {
@@ -53,12 +68,13 @@ std::vector<measurement::SpecimenRecord> MeasurementBook::specimens() const {
 }
 
 std::vector<OrderProgress> MeasurementBook::progress(std::span<const Order> orders, int enough_valid) const {
-  std::set<std::string, std::less<>> ids;
-  for (const Order& order : orders) ids.insert(order.id);
+  std::map<std::string_view, const Order*> by_id;
+  for (const Order& order : orders) by_id.emplace(order.id, &order);
   std::vector<const Reported*> unassigned;
   std::map<std::string, std::vector<const Reported*>> assigned;
   for (const auto& [name, reported] : entries_) {
-    if (ids.contains(reported.order_id)) {
+    const auto order = by_id.find(reported.order_id);
+    if (order != by_id.end() && answers(reported.record, *order->second)) {
       assigned[reported.order_id].push_back(&reported);
     } else {
       unassigned.push_back(&reported);
@@ -75,10 +91,7 @@ std::vector<OrderProgress> MeasurementBook::progress(std::span<const Order> orde
     for (const Reported* reported : assigned[order.id]) count(*reported);
     for (const Reported*& reported : unassigned) {
       if (progress.arrived >= order.replicates) break;
-      if (reported == nullptr || reported->record.test != order.test || !(reported->record.design == order.design) ||
-          !answers(reported->record.conditions, order.conditions)) {
-        continue;
-      }
+      if (reported == nullptr || !answers(reported->record, order)) continue;
       count(*reported);
       reported = nullptr;
     }

@@ -28,6 +28,9 @@ struct OrderProgress {
   bool complete = false;
 };
 
+/// Whether a specimen is what an order asked for: its design in its test, under conditions that answer the order's.
+bool answers(const measurement::SpecimenRecord& specimen, const Order& order);
+
 class MeasurementBook {
  public:
   enum class Entry {
@@ -46,14 +49,17 @@ class MeasurementBook {
   /// one may stand.
   std::optional<Review> review_against(const std::string& specimen, const Review& review) const;
 
+  /// Why no review makes the specimen a valid one, as a sentence; nothing where one may, or it is not known.
+  std::optional<std::string> against_validity(const std::string& specimen) const;
+
   /// The review that stands; nothing where nobody said anything.
   const Review* review_of(const std::string& specimen) const;
   /// All specimens, sorted by name, with validity as reviewed.
   std::vector<measurement::SpecimenRecord> specimens() const;
 
   /// Progress of each order: complete when all replicates have arrived, or `enough_valid` > 0 valid ones. Specimens
-  /// that carry an order's id count for it; others count for the orders, in the given sequence, that asked the same
-  /// question.
+  /// that carry an order's id and answer it count for it; others, also those of swapped labels, count for the orders,
+  /// in the given sequence, that asked the same question.
   std::vector<OrderProgress> progress(std::span<const Order> orders, int enough_valid) const;
 
   int size() const { return static_cast<int>(entries_.size()); }

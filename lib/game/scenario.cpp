@@ -13,11 +13,6 @@
 namespace nacre::game {
 namespace {
 
-/// Where something stands, `demo.toml:12`.
-std::string place(std::string_view source, const toml::node& node) {
-  return fmt::format("{}:{}", source, node.source().begin.line);
-}
-
 std::string names_in_table(std::string_view table) {
   std::string names;
   for (const ScenarioKey& key : scenario_keys()) {
@@ -99,13 +94,7 @@ void check_together(std::string_view source, const toml::table& entries, const S
 
 /// The document, and the scenario that it says.
 std::pair<toml::table, Scenario> parse(std::string_view text, std::string_view source) {
-  toml::table entries;
-  try {
-    entries = toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    throw InputError::format("{}:{}:{}: not TOML: {}", source, error.source().begin.line, error.source().begin.column,
-                             error.description());
-  }
+  toml::table entries = read_toml(text, source);
   Scenario scenario;
   read_table(source, "", entries, scenario);
   check_together(source, entries, scenario);

@@ -110,7 +110,7 @@ ScenarioKey file_name(std::string_view table, std::string_view name, std::string
 ScenarioKey fidelity_key() {
   return {"",
           "fidelity",
-          "size of the simulated and measured specimens",
+          "how specimens are simulated and measured",
           R"(one of "tiny", "preview", "full")",
           [](const toml::node& node, Scenario& scenario) {
             const auto value = node.value_exact<std::string>();

@@ -34,11 +34,18 @@ double redrawn_mean(const std::vector<double>& values, RandomStream& random) {
 
 }  // namespace
 
+bool is_standard(const tester::TestConditions& conditions) { return answers(conditions, {}); }
+
+std::vector<measurement::Replicates> under_standard_conditions(std::vector<measurement::Replicates> measured) {
+  std::erase_if(measured, [](const measurement::Replicates& each) { return !is_standard(each.conditions); });
+  return measured;
+}
+
 std::map<pattern::Pattern, MeasuredValues> measured_values(std::span<const measurement::SpecimenRecord> specimens) {
   std::map<pattern::Pattern, MeasuredValues> values;
   for (const measurement::SpecimenRecord& specimen : specimens) {
     const pattern::Layout* layout = specimen.design.layout();
-    if (!specimen.valid || layout == nullptr || !answers(specimen.conditions, {})) continue;
+    if (!specimen.valid || layout == nullptr || !is_standard(specimen.conditions)) continue;
     const auto pattern = pattern::Pattern::from_layout(*layout);
     if (!pattern) continue;
     if (specimen.test == tester::TestKind::modulus) {
@@ -84,10 +91,9 @@ double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& value
 
 std::vector<optimize::Performance> benchmark_line(const std::vector<measurement::SpecimenRecord>& specimens) {
   std::map<double, optimize::Performance> by_fraction;
-  for (const measurement::Replicates& each : summarise_nominally(specimens)) {
+  for (const measurement::Replicates& each : under_standard_conditions(summarise_nominally(specimens))) {
     const pattern::Mixture* mixture = each.design.mixture();
-    if (mixture == nullptr || !upright(each.conditions) || each.modulus_count == 0 || each.toughness_count == 0)
-      continue;
+    if (mixture == nullptr || each.modulus_count == 0 || each.toughness_count == 0) continue;
     by_fraction.try_emplace(mixture->rigid_fraction, optimize::Performance{each.modulus_pa, each.toughness_pa});
   }
   std::vector<optimize::Performance> line;
@@ -133,7 +139,7 @@ std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design)
 }
 
 std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens) {
-  std::vector<measurement::Replicates> set = calibration_set(specimens);
+  std::vector<measurement::Replicates> set = under_standard_conditions(calibration_set(specimens));
   std::erase_if(set, [](const measurement::Replicates& each) {
     return !eightfold_pattern(each.design) || each.modulus_count == 0 || each.toughness_count == 0;
   });
@@ -143,7 +149,7 @@ std::vector<measurement::Replicates> patterns_with_both(const std::vector<measur
 Foretold foretold_among(const std::vector<measurement::Replicates>& measured,
                         const std::map<std::string, sysid::Prediction>& predictions) {
   Foretold foretold;
-  for (const measurement::Replicates& each : measured) {
+  for (const measurement::Replicates& each : under_standard_conditions(measured)) {
     const auto prediction = predictions.find(each.design.name());
     if (prediction == predictions.end()) continue;
     foretold.measured.push_back(each);

@@ -20,6 +20,12 @@ struct MeasuredValues {
   std::vector<double> toughness_pa;
 };
 
+/// Whether these answer the standard conditions, which proposals and their predictions mean.
+bool is_standard(const tester::TestConditions& conditions);
+
+/// The groups tested under standard conditions: a twin pulled ten times faster is no measurement of the design itself.
+std::vector<measurement::Replicates> under_standard_conditions(std::vector<measurement::Replicates> measured);
+
 /// Valid specimens of patterns tested under standard conditions, by pattern: what the measured front is made of.
 /// Coupons without the eightfold symmetry, homogeneous designs and turned twins are no competitors of proposals.
 /// `specimens` sorted by name.
@@ -34,7 +40,8 @@ std::vector<optimize::Performance> measured_performances(const std::map<pattern:
 double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& values, std::uint64_t seed,
                          int resamples = 1000);
 
-/// l1 of 2.3.4: measured homogeneous designs that have both E and T, by increasing rigid fraction.
+/// l1 of 2.3.4: homogeneous designs that have both E and T, measured under standard conditions, by increasing rigid
+/// fraction.
 std::vector<optimize::Performance> benchmark_line(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens that
@@ -50,7 +57,8 @@ std::vector<std::string> specimens_to_name(const std::vector<measurement::Specim
 /// The pattern of a design with eightfold symmetry; nothing for other layouts and mixtures.
 std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design);
 
-/// Those of the calibration set that are patterns and measured in both tests: what families are made of.
+/// Those of the calibration set that are patterns and measured in both tests under standard conditions: what families
+/// are made of.
 std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Designs with the predictions that were made before they were measured, one each.
@@ -58,7 +66,8 @@ struct Foretold {
   std::vector<measurement::Replicates> measured;
   std::vector<sysid::Prediction> predicted;
 };
-/// Those of `measured` that `predictions` foretold, in their order. Predictions by canonical design name.
+/// Those of `measured` that `predictions` foretold, in their order. Predictions are of standard conditions, by
+/// canonical design name.
 Foretold foretold_among(const std::vector<measurement::Replicates>& measured,
                         const std::map<std::string, sysid::Prediction>& predictions);
 

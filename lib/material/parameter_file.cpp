@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "base/files.hpp"
 #include "base/toml_file.hpp"
 #include "material/extensions.hpp"
 #include "material/parameters.hpp"
@@ -19,8 +18,7 @@ struct Place {
   std::string file;
   [[nodiscard]] InputError error(const toml::node& node, std::string_view key, std::string_view expected) const {
     const std::string value = node.is_value() ? " = " + shown(node) : "";
-    return InputError::format("{}:{}:{}: {}{}: {}", file, node.source().begin.line, node.source().begin.column, key,
-                              value, expected);
+    return InputError::format("{}: {}{}: {}", place(file, node), key, value, expected);
   }
 };
 
@@ -97,15 +95,6 @@ void read_extensions(const Place& place, const toml::node& node, Extensions& ext
   }
 }
 
-toml::table parsed(const std::string& text, const std::string& file) {
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    throw InputError::format("{}:{}:{}: {}", file, error.source().begin.line, error.source().begin.column,
-                             error.description());
-  }
-}
-
 template <class Vector>
 std::string table_text(std::string_view name, std::span<const std::string_view> names, const Vector& vector) {
   std::string text = fmt::format("[{}]\n", name);
@@ -117,7 +106,7 @@ std::string table_text(std::string_view name, std::span<const std::string_view> 
 
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start) {
   const Place place{path.string()};
-  const toml::table file = parsed(read_file(path), place.file);
+  const toml::table file = read_toml_file(path);
   ModulusVector modulus = to_vector(start.modulus);
   ToughnessVector toughness = to_vector(start.toughness);
   Extensions extensions = start.extensions;

@@ -40,14 +40,7 @@ std::vector<tester::Curve> comparable_curves(const Members& members) {
       common_strain = std::min(common_strain, curves.back().strain.back());
   }
   for (tester::Curve& curve : curves) {
-    if (curve.empty() || curve.strain.back() <= common_strain) continue;
-    const double end_pa = tester::stress_at(curve, common_strain);
-    while (!curve.empty() && curve.strain.back() >= common_strain) {
-      curve.strain.pop_back();
-      curve.stress_pa.pop_back();
-    }
-    curve.strain.push_back(common_strain);
-    curve.stress_pa.push_back(end_pa);
+    curve = tester::cut_at(curve, common_strain);
   }
   return curves;
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/files.hpp"
+#include "measurement/conditions.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "thesis/constants.hpp"
@@ -200,12 +201,27 @@ std::string doubt_of_size(const SheetRow& row) {
                      row.record.conditions.thickness_mm, width_mm, thickness_mm);
 }
 
+/// A doubt about how fast a specimen was pulled, or nothing.
+std::string doubt_of_rate(const SpecimenRecord& record, const SheetRow& row) {
+  constexpr double kSlowest = 1e-6, kFastest = 1.0;
+  const double rate = record.conditions.strain_rate_per_s;
+  if (rate < kSlowest || rate > kFastest)
+    return fmt::format("strain rate {} 1/s: are the units of time and extension right?", rate);
+  tester::TestConditions planned = record.conditions;
+  planned.strain_rate_per_s = row.planned_rate_per_s.value_or(rate);
+  if (same_conditions(record.conditions, planned)) return "";
+  return fmt::format(
+      "strain rate {} 1/s, planned was {}: was the speed another, or does the gauge ({} mm) not belong "
+      "to the recorded extension?",
+      rate, planned.strain_rate_per_s, row.gauge_mm);
+}
+
 /// Doubts about a specimen, as sentences.
 void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vector<std::string>& warnings) {
   const std::string who = fmt::format("specimen {}", one.record.specimen);
   if (!one.test.separated && one.record.test == tester::TestKind::toughness)
     warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
-  constexpr double kSlowest = 1e-6, kFastest = 1.0, kStiff = 1.25;
+  constexpr double kStiff = 1.25;
   if (one.test.toe_kept != 0.0) {
     warnings.push_back(fmt::format(
         "{}: its straight part meets zero stress at {:.2f} % strain; of more than {} % nothing is taken off: "
@@ -230,9 +246,7 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   if (one.test.peak_stress_pa > kUsualPeakPa.most)
     warnings.push_back(fmt::format("{}: peak stress {:.3g} Pa is no usual one: are force and size right?", who,
                                    one.test.peak_stress_pa));
-  const double rate = one.record.conditions.strain_rate_per_s;
-  if (rate < kSlowest || rate > kFastest)
-    warnings.push_back(fmt::format("{}: strain rate {} 1/s: are the units of time and extension right?", who, rate));
+  if (const std::string doubt = doubt_of_rate(one.record, row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
   if (!kUsualModulusPa.hold(one.test.modulus_pa)) {
     warnings.push_back(
         fmt::format("{}: initial modulus {:.3g} Pa is no usual one: are the units of force and the size ({} x {} mm, "

@@ -2,6 +2,7 @@
 // Physical (or virtual-laboratory) measurements: one row per specimen.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -116,5 +117,13 @@ double modulus_behind(double shown_pa, const material::Extensions& extensions);
 /// up. Strain may decrease where stress falls steeply.
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
                             const PrintContext& context = {});
+
+/// Stresses of a specimen along a history of its own strains.
+using Pull = std::function<tester::Curve(const std::vector<double>& strain)>;
+
+/// The other way round: what the machine shows at strains that it recorded, on the way back too. The specimen itself is
+/// stretched by less, strain = shown - slack - c stress, and by nothing while slack is taken up.
+tester::Curve observe_along(const std::vector<double>& shown_strain, const Pull& pull,
+                            const material::Extensions& extensions, const PrintContext& context = {});
 
 }  // namespace nacre::measurement

@@ -20,11 +20,21 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",     "pattern",
                                                        "width_mm", "thickness_mm", "gauge_mm"};
-constexpr std::array<std::string_view, 9> kOptional = {
-    "part",        "test",  "orientation_deg",  "strain_rate_per_s", "batch",
-    "print_order", "valid", "extension_column", "force_column"};
-constexpr std::array<std::string_view, 5> kMeasured = {"width_mm", "thickness_mm", "gauge_mm", "orientation_deg",
-                                                       "strain_rate_per_s"};
+/// `loading` is what a person is told to do, and not read: what was done the export tells.
+constexpr std::array<std::string_view, 12> kOptional = {"part",
+                                                        "test",
+                                                        "orientation_deg",
+                                                        "strain_rate_per_s",
+                                                        "planned_strain_rate_per_s",
+                                                        "loading",
+                                                        "batch",
+                                                        "print_order",
+                                                        "valid",
+                                                        "extension_column",
+                                                        "force_column",
+                                                        "note"};
+constexpr std::array<std::string_view, 6> kMeasured = {
+    "width_mm", "thickness_mm", "gauge_mm", "orientation_deg", "strain_rate_per_s", "planned_strain_rate_per_s"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
 /// What the set works out from the export: a sheet's own column of that name has no place beside it.
@@ -82,8 +92,8 @@ class SheetReader {
     for (const std::string& name : heading_) {
       if (!name.empty() && !seen.insert(name).second)
         throw InputError::format("{}:{}: column `{}` stands twice, expected once", file_, line, name);
-      const bool known = contains(kRequired, name) || contains(kOptional, name) || contains(kKept, name) ||
-                         name == "note" || name.empty();
+      const bool known =
+          contains(kRequired, name) || contains(kOptional, name) || contains(kKept, name) || name.empty();
       if (contains(kWorkedOut, name)) {
         sheet_.warnings.push_back(
             fmt::format("{}:{}: column `{}` is dropped: the measurement set has its own", file_, line, name));
@@ -215,6 +225,17 @@ class SheetReader {
     }
   }
 
+  void read_rate(SheetRow& row) {
+    const auto rate_per_s = [&](std::string_view column) {
+      return number(column, kStrainRatePerS.least, kStrainRatePerS.most, "a strain rate in 1/s, 1e-9 to 1e5");
+    };
+    row.planned_rate_per_s = rate_per_s("planned_strain_rate_per_s");
+    const auto given = rate_per_s("strain_rate_per_s");
+    row.rate_is_given = given.has_value();
+    double& rate = row.record.conditions.strain_rate_per_s;
+    rate = given.value_or(row.planned_rate_per_s.value_or(rate));
+  }
+
   void read_optional(SheetRow& row) {
     SpecimenRecord& record = row.record;
     const std::string test = text("test").empty() ? "toughness" : text("test");
@@ -227,11 +248,7 @@ class SheetReader {
     record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);
     if (record.conditions.orientation_deg != 0.0 && record.conditions.orientation_deg != 90.0)
       reject("orientation_deg", fmt::format("`{}`, expected 0 or 90", text("orientation_deg")));
-    if (const auto rate = number("strain_rate_per_s", kStrainRatePerS.least, kStrainRatePerS.most,
-                                 "a strain rate in 1/s, 1e-9 to 1e5")) {
-      record.conditions.strain_rate_per_s = *rate;
-      row.rate_is_given = true;
-    }
+    read_rate(row);
     record.batch = text("batch");
     record.print_order = integer_from_1("print_order");
     const std::string valid = plain_words(text("valid"));
@@ -241,8 +258,7 @@ class SheetReader {
     record.note = text("note");
     row.columns = {text("extension_column"), text("force_column")};
     for (const std::string& name : heading_) {
-      if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || contains(kWorkedOut, name) ||
-          name == "note")
+      if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || contains(kWorkedOut, name))
         continue;
       if (!text(name).empty()) record.other_columns[name] = text(name);
     }

@@ -2,14 +2,21 @@
 // The sheet that says which file of the testing machine belongs to which specimen, and how large it was.
 
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "measurement/measurement.hpp"
 #include "measurement/tester_export.hpp"
 
 namespace nacre::measurement {
+
+/// Heading of the sheet that a print job begins. The job fills the columns up to `tray`; the others, and the sizes as
+/// measured in place of the nominal ones, whoever tests.
+inline constexpr std::string_view kJobHeading =
+    "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,orientation_deg,planned_strain_rate_per_s,loading,batch,"
+    "print_order,order_id,tray,date,operator,machine,path,note";
 
 /// One row: everything about a specimen but what the machine recorded.
 struct SheetRow {
@@ -19,7 +26,8 @@ struct SheetRow {
   SpecimenRecord record;
   double width_mm = 0.0;
   double gauge_mm = 0.0;
-  bool rate_is_given = false;
+  bool rate_is_given = false;                ///< by whoever tested: it wins over the recorded time
+  std::optional<double> planned_rate_per_s;  ///< stands where the recorded time tells no rate
   ColumnChoice columns;
 };
 

@@ -46,10 +46,23 @@ std::optional<game::Scenario> new_scenario(const LaunchOptions& options) {
   return scenario;
 }
 
+/// A guest has no choice: everybody else is on the port that the run was launched with.
+std::unique_ptr<PortReservation> reserve_port_of_host(int port) {
+  try {
+    return std::make_unique<PortReservation>(port);
+  } catch (const InputError&) {
+    throw InputError::format(
+        "UDP port {}, which the run was launched with, is in use on this machine, and a guest (--only) cannot take "
+        "another: expected whoever has it to be stopped, all nodes of this machine in one launch (--only A --only B), "
+        "or the run launched with another --port N on the first machine and its folder copied again",
+        port);
+  }
+}
+
 /// A run that goes on takes its old port when it is still free.
 std::unique_ptr<PortReservation> reserve_port(const LaunchOptions& options, const game::Scenario& scenario,
                                               int port_of_last_start) {
-  if (!options.only.empty()) return std::make_unique<PortReservation>(port_of_last_start);
+  if (!options.only.empty()) return reserve_port_of_host(port_of_last_start);
   const int wanted = options.port.value_or(scenario.port);
   if (wanted != 0 || port_of_last_start == 0) return std::make_unique<PortReservation>(wanted);
   try {
@@ -120,7 +133,7 @@ class Launch {
   void announce_when_ready();
   bool game_is_over();
   bool guests_part_is_over() const;
-  bool has_failed() const;
+  std::string why_it_cannot_go_on() const;
   void stop(std::vector<SupervisedNode*> processes);
   void sum_up(bool is_complete);
   std::vector<SupervisedNode*> nodes() const;
@@ -281,12 +294,17 @@ bool Launch::game_is_over() {
   return !rounds.empty() && rounds.back().last;
 }
 
-/// What the recorder writes is for people: the game goes on without it.
-bool Launch::has_failed() const {
+/// A sentence; empty while the game can go on. What the recorder writes is for people: once the game has begun it goes
+/// on without it.
+std::string Launch::why_it_cannot_go_on() const {
   const auto failed = [](const auto& node) { return node->state() == State::failed; };
   const auto gone = [](const auto& node) { return node->state() == State::stopped || node->runs_elsewhere(); };
-  return std::any_of(nodes_.begin(), nodes_.end(), failed) || std::all_of(nodes_.begin(), nodes_.end(), gone) ||
-         (!is_announced_ && recorder_ && recorder_->state() == State::failed);
+  if (const auto node = std::find_if(nodes_.begin(), nodes_.end(), failed); node != nodes_.end())
+    return fmt::format("a node has failed for good ({})", (*node)->name());
+  if (!is_announced_ && recorder_ && recorder_->state() == State::failed)
+    return "the recorder has failed for good before the game began";
+  if (std::all_of(nodes_.begin(), nodes_.end(), gone)) return "the nodes started here were all stopped by somebody";
+  return "";
 }
 
 /// SIGINT, five seconds, SIGTERM, five seconds, SIGKILL; a further Ctrl-C goes to the next signal at once.
@@ -327,15 +345,13 @@ int Launch::play() {
   while (recorder_ && !recorder_is_ready_ && recorder_->state() != State::failed && !interrupts_.any()) turn(kTurn);
   bool is_complete = false;
   if (is_guest() || recorder_is_ready_) start_nodes();
-  while (!interrupts_.any() && !nodes_.empty() && !has_failed() && !is_complete) {
+  while (!interrupts_.any() && why_it_cannot_go_on().empty() && !is_complete) {
     turn(kTurn);
     announce_when_ready();
     is_complete = game_is_over();
   }
   const bool was_interrupted = interrupts_.any() && !is_complete;
-  display_.say(is_complete       ? "the game is over"
-               : was_interrupted ? "stopping"
-                                 : "a node has failed for good: stopping");
+  display_.say(is_complete ? "the game is over" : was_interrupted ? "stopping" : why_it_cannot_go_on() + ": stopping");
   stop(nodes());
   if (recorder_) stop({recorder_.get()});
   if (!is_guest()) sum_up(is_complete);

@@ -85,12 +85,14 @@ class Eta {
 
 class NodeShell {
  public:
-  NodeShell(NodeOptions options, NodeCore& core, const MakeExecutor& executor, TextLog& log)
-      : options_(std::move(options)), core_(core), log_(log), executor_(executor(wake)) {}
+  NodeShell(NodeOptions options, NodeCore& core, const MakeExecutor& make_executor, TextLog& log)
+      : options_(std::move(options)), core_(core), make_executor_(make_executor), log_(log) {}
 
   void start() {
     journal_ = Journal::open(options_.node_dir(), now_utime());
     if (!journal_->warning().empty()) problem(LogLevel::warning, journal_->warning());
+    // Not before: an executor may tidy files of the run, which are this process' own only now.
+    executor_ = make_executor_(wake);
     open_bus();
     resume();
     next_status_ = steady_us();
@@ -114,7 +116,7 @@ class NodeShell {
     }
   }
 
-  bool busy() const { return executor_->pending() > 0; }
+  bool busy() const { return executor_ && executor_->pending() > 0; }
 
  private:
   void open_bus() {
@@ -182,10 +184,11 @@ class NodeShell {
     if (channel == "ACK") return handle_ack(received);
     const wire::Channel& known = *wire::find_channel(channel);
     if (!wire::is_meant_for(known, received.message.payload, options_.node)) return;
-    if (wire::is_answer(channel) && !asked_.count(wire::request_id_of(channel, received.message.payload))) {
-      return;  // a node that lost its journal has yet to ask this again: the answer is repeated until then
-    }
     const std::string hash = wire::message_hash(channel, received.message.payload);
+    if (wire::is_answer(channel)) {
+      const std::string request_id = wire::request_id_of(channel, received.message.payload);
+      if (!asked_.contains(request_id)) return handle_unasked(request_id, hash);
+    }
     if (!inbox_.is_new(hash)) {
       ++inbox_.duplicates;
       repeat_answers(received);
@@ -195,6 +198,12 @@ class NodeShell {
       step(received.message);
     }
     inbox_.owe(hash, steady_us());
+  }
+
+  /// A node that lost its journal has yet to ask this again, and the answer is repeated until then; unless it has asked
+  /// something else at that place, or nothing more will be asked: then nobody waits for it.
+  void handle_unasked(const std::string& request_id, const std::string& hash) {
+    if (places_asked_.contains(wire::place_of(request_id)) || core_.status().finished) inbox_.owe(hash, steady_us());
   }
 
   void handle_status(const Received& received) {
@@ -275,7 +284,11 @@ class NodeShell {
   void offer(const Message& message) {
     const wire::Channel* channel = wire::find_channel(message.channel);
     if (!channel) return;
-    if (message.channel == "SIMULATE") asked_.insert(wire::request_id_of(message.channel, message.payload));
+    if (message.channel == "SIMULATE") {
+      const std::string request_id = wire::request_id_of(message.channel, message.payload);
+      places_asked_.insert(wire::place_of(request_id));
+      asked_.insert(request_id);
+    }
     outbox_.offer(wire::message_hash(message.channel, message.payload), message,
                   wire::receivers_of(*channel, message.payload, options_.participants, options_.node));
   }
@@ -332,13 +345,15 @@ class NodeShell {
 
   NodeOptions options_;
   NodeCore& core_;
+  const MakeExecutor& make_executor_;
   TextLog& log_;
   std::unique_ptr<Journal> journal_;
   std::unique_ptr<Bus> bus_;
   Outbox outbox_;
   Inbox inbox_;
   std::unique_ptr<Executor> executor_;
-  std::set<std::string> asked_;  ///< ids of our own requests
+  std::set<std::string> asked_;         ///< ids of our own requests
+  std::set<std::string> places_asked_;  ///< and their places (wire::place_of)
   Eta eta_;
   std::string last_problem_;
   bool heard_itself_ = false;

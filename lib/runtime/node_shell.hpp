@@ -44,7 +44,8 @@ void turn_write_signals_into_errors();
 /// Runs the node until SIGINT or SIGTERM. Journal and text log stand in RUN_DIR/nodes/NODE. Returns the exit status: 0
 /// stopped in order, 1 something failed while running (disk full, an output that breaks the rules), 2 bad input
 /// (journal damaged or in use, a core that no longer reproduces its journal, no multicast). The sentence goes to
-/// standard error and the text log. Long work is done by `executor`; without one, by `work` on threads of this process.
+/// standard error and the text log. Long work is done by `executor`, which is made once the journal is locked, so that
+/// a second process of the node is refused before it has one; without it, by `work` on threads of this process.
 int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::string, WorkFunction> work,
              const MakeExecutor& executor = {});
 
@@ -53,7 +54,7 @@ struct NodeProgram {
   std::unique_ptr<NodeCore> core;
   std::map<std::string, WorkFunction> work;
   int default_threads = 0;     ///< for long work when --threads is not given; 0 all allowed cores
-  MakeExecutor executor = {};  ///< instead of threads
+  MakeExecutor executor = {};  ///< instead of threads, or where threads need what no second process may open
 };
 using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scenario&)>;
 

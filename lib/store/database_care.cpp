@@ -112,7 +112,11 @@ void copy_database(const fs::path& from, const fs::path& to) {
       SQLite::Database copy(aside.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
       SQLite::Backup backup(copy, source);
       // All pages in one step: a copy in several begins anew whenever somebody writes between.
-      backup.executeStep(-1);
+      const int end = backup.executeStep(-1);
+      if (end != SQLITE_DONE) {  // a lock is no exception there, and no pages at all would pass for a whole database
+        fs::remove(aside, ignored);
+        throw InputError::format("{}: could not be copied whole: {}; try again", from.string(), sqlite3_errstr(end));
+      }
     }
     // The copy says WAL like its source; alone it is whole without a -wal file.
     if (const auto whole = check_database(aside); !whole) refuse(from, whole.error().message);

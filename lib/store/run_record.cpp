@@ -258,9 +258,10 @@ void read_specimens(SQLite::Database& db, RunRecord& run) {
     m.record.print_order = q.getColumn(8).getInt();
     m.record.modulus_pa = optional_double(q.getColumn(9));
     m.record.toughness_pa = optional_double(q.getColumn(10));
-    m.record.valid = q.getColumn(11).getInt() != 0;
     m.record.note = q.getColumn(12).getString();
     m.record.curve = unpacked(q.getColumn(13));
+    // As for the validation agent: a person's word makes no specimen valid that says nothing.
+    m.record.valid = q.getColumn(11).getInt() != 0 && !measurement::why_unusable(m.record);
     run.specimens.push_back(std::move(m));
   });
 }

@@ -45,6 +45,8 @@ class Fit {
   /// The start, and the best trial so far (penalty included in the comparison); only after the first tell().
   virtual const Trial& first() const = 0;
   virtual const Trial& best() const = 0;
+  /// What fits of one kind and the same data are compared by, the smaller the better.
+  virtual double cost() const { return best().objective; }
   /// Everything evaluated, in order.
   virtual const std::vector<Trial>& trials() const = 0;
   /// Of every coordinate of best().point; the whole axis where the data tell nothing, or were not asked.

@@ -29,8 +29,7 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
     if (node == nullptr) return;
     const std::optional<double> number = node->value<double>();
     if (!number || !(std::abs(*number) <= 2.0)) {
-      throw InputError::format("{}:{}: {} expected to be a number between -2 and 2", file.string(),
-                               node->source().begin.line, key);
+      throw InputError::format("{}: {}: expected a number between -2 and 2", place(file.string(), *node), key);
     }
     value = std::abs(*number);
   };
@@ -48,8 +47,8 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
     for (std::size_t j = 0; j < names.size(); ++j) read_from(*of_eta, names[j], floor.log_eta_sd[j]);
     for (const auto& [key, value] : *of_eta) {
       if (std::find(names.begin(), names.end(), key.str()) == names.end())
-        throw InputError::format("{}:{}: {} is none of eta's parameters", file.string(), key.source().begin.line,
-                                 key.str());
+        throw InputError::format("{}: unknown key {}: expected one of eta's parameters",
+                                 place(file.string(), key.source()), key.str());
     }
   }
   const auto read_trend = [&](std::size_t feature, double& value) {
@@ -57,8 +56,8 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
     if (!entry) return;
     const std::optional<double> variance = entry.value<double>();
     if (!variance || !(*variance >= 0.0 && *variance <= 1.0))
-      throw InputError::format("{}:{}: covariance_rigid expected to hold variances between 0 and 1 on its diagonal",
-                               file.string(), entry.node()->source().begin.line);
+      throw InputError::format("{}: covariance_rigid: expected variances between 0 and 1 on its diagonal",
+                               place(file.string(), *entry.node()));
     value = std::sqrt(*variance);
   };
   read_trend(1, floor.log_toughness_trend_sd);  // features: log E, log T, log peak, log failure strain

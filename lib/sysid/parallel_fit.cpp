@@ -51,7 +51,7 @@ class ParallelFit final : public Fit {
 
  private:
   const Fit& leader() const {
-    const auto better = [](const auto& a, const auto& b) { return a->best().objective < b->best().objective; };
+    const auto better = [](const auto& a, const auto& b) { return a->cost() < b->cost(); };
     return **std::min_element(fits_.begin(), fits_.end(), better);
   }
 

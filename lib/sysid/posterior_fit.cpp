@@ -58,6 +58,9 @@ class PosteriorFit final : public RecordedFit {
     radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : std::max(kSmallestRadius, 0.6 * radius_);
   }
 
+  /// Improbability of the best trial: one simulation's objective is mostly luck (docs/decisions/0009).
+  double cost() const override { return smallest_cost_; }
+
   std::vector<CoordinateInterval> intervals() const override {
     std::vector<CoordinateInterval> result(kEtaCount, {0.0, 1.0, kUnknownDeviation});
     if (trials_.size() < 2) return result;

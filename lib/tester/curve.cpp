@@ -78,6 +78,23 @@ double stress_at(const Curve& curve, double strain) {
   return curve.stress_pa[next - 1] + share * (curve.stress_pa[next] - curve.stress_pa[next - 1]);
 }
 
+Curve cut_at(const Curve& curve, double strain) {
+  Curve result;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve.strain[i] > strain) {
+      if (i > 0) {
+        const double t = (strain - curve.strain[i - 1]) / (curve.strain[i] - curve.strain[i - 1]);
+        result.strain.push_back(strain);
+        result.stress_pa.push_back(curve.stress_pa[i - 1] + t * (curve.stress_pa[i] - curve.stress_pa[i - 1]));
+      }
+      break;
+    }
+    result.strain.push_back(curve.strain[i]);
+    result.stress_pa.push_back(curve.stress_pa[i]);
+  }
+  return result;
+}
+
 Curve resampled(const Curve& curve, int points) {
   assert(points >= 2 && !curve.empty());
   Curve result;

@@ -26,6 +26,9 @@ double largest_difference(const Curve& a, const Curve& b, double until_strain);
 /// Stress at `strain` by linear interpolation on a curve with non-decreasing strain; 0 outside it.
 double stress_at(const Curve& curve, double strain);
 
+/// The curve as far as `strain`, its last point interpolated.
+Curve cut_at(const Curve& curve, double strain);
+
 /// The curve at `points` >= 2 strains equally spaced from its first to its last strain, such that area_under is kept
 /// (the stress samples are rescaled by the ratio of the areas).
 Curve resampled(const Curve& curve, int points);

@@ -132,4 +132,6 @@ std::string_view requester_of(std::string_view request_id) {
   return slash == std::string_view::npos ? std::string_view() : request_id.substr(0, slash);
 }
 
+std::string place_of(std::string_view request_id) { return std::string(request_id.substr(0, request_id.find('#'))); }
+
 }  // namespace nacre::wire

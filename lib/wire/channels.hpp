@@ -58,4 +58,7 @@ std::string request_id_of(std::string_view channel, std::string_view payload);
 /// The name before the first '/' of a request id; empty when there is none.
 std::string_view requester_of(std::string_view request_id);
 
+/// A request id without the hash that with_content_id() puts behind it: what the request was asked for.
+std::string place_of(std::string_view request_id);
+
 }  // namespace nacre::wire

@@ -1,7 +1,11 @@
 #include "wire/convert.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
 #include "wire/channels.hpp"
 #include "wire/checks.hpp"
 
@@ -184,6 +188,12 @@ Result<SimulateResult> from_wire(const simulate_result_t& message) {
     result.results.push_back(std::move(*design));
   }
   return result;
+}
+
+SimulateRequest with_content_id(SimulateRequest request) {
+  const std::string place = std::exchange(request.request_id, {});
+  request.request_id = fmt::format("{}#{:016x}", place, content_hash64(write(request)));
+  return request;
 }
 
 std::vector<SimulateResult> simulate_answer(const std::string& request_id,

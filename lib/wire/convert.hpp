@@ -42,7 +42,8 @@ struct AdoptedModel {
   bool operator==(const AdoptedModel&) const = default;
 };
 
-/// SIMULATE: designs to simulate with one parameter set. `request_id` starts with the requester's node name and a '/'.
+/// SIMULATE: designs to simulate with one parameter set. `request_id` starts with the requester's node name and a '/',
+/// and ends in the hash of what is asked (with_content_id()).
 struct SimulateRequest {
   using Wire = simulate_request_t;
   std::string request_id;
@@ -90,7 +91,7 @@ struct Fracture {
   pattern::Design design;
   crack::Record crack;  ///< of its order, a message keeps the first kMaximumBreaks
   int broken = 0;       ///< elements that failed
-  std::string film;     ///< file in RUN/films; empty when no film was asked for
+  std::string film;     ///< file in RUN/films; empty when none was asked for, or none shows this fracture
   bool operator==(const Fracture&) const = default;
 };
 
@@ -263,6 +264,11 @@ Result<Domain> read(std::string_view payload) {
   if (!message) return tl::unexpected(message.error());
   return from_wire(*message);
 }
+
+/// The request under an id of its own: `analyser/r1/films` becomes `analyser/r1/films#0123456789abcdef`, the hash of
+/// all that is asked. A requester that begins anew may come to ask something else at the same place; what it asked
+/// there before is answered under an id that it does not know, and never taken for the answer.
+SimulateRequest with_content_id(SimulateRequest request);
 
 /// The answer to a request as messages below kMaximumPayload. `results` stand in the order of the request's designs.
 std::vector<SimulateResult> simulate_answer(const std::string& request_id, const std::vector<SimulatedDesign>& results);

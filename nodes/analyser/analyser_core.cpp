@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include <fmt/ranges.h>
 
@@ -174,12 +175,13 @@ void AnalyserCore::ask_about_measured_designs() {
       request.curve_points = kCurvePoints;
       request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
                              designs.begin() + static_cast<std::ptrdiff_t>(end));
-      ask(request);
+      ask(std::move(request));
     }
   }
 }
 
-void AnalyserCore::ask(const wire::SimulateRequest& request) {
+void AnalyserCore::ask(wire::SimulateRequest request) {
+  request = wire::with_content_id(std::move(request));
   open_answers_[request.request_id].with_fractures = request.crack || request.film;
   finished_ = false;
   outputs_.messages.push_back({"SIMULATE", wire::write(request)});
@@ -209,7 +211,7 @@ void AnalyserCore::ask_for_films_of(const std::string& whose, const material::Pa
     request.parameters = game::material_side(model);
     request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
                            designs.begin() + static_cast<std::ptrdiff_t>(end));
-    ask(request);
+    ask(std::move(request));
   }
 }
 

@@ -44,7 +44,7 @@ class AnalyserCore : public runtime::NodeCore {
   void ask_for_films();
   void ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
                         const std::vector<pattern::Design>& designs);
-  void ask(const wire::SimulateRequest& request);
+  void ask(wire::SimulateRequest request);
   void close_when_complete(const std::string& request_id);
   void report_when_ready();
 

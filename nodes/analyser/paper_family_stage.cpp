@@ -53,6 +53,9 @@ std::vector<Stated> all_families(const PaperSource& source) {
   return all;
 }
 
+/// Designs that a model's errors are of, in E or in T.
+int designs_of(const sysid::PredictionErrors& errors) { return std::max(errors.modulus_count, errors.toughness_count); }
+
 /// Table 3.6 (seeds) or 3.7 (chosen designs).
 PaperTable errors_table(const PaperSource& source, const std::string& name, bool seeds) {
   PaperTable table{.name = name,
@@ -73,11 +76,14 @@ PaperTable errors_table(const PaperSource& source, const std::string& name, bool
     const game::FamilyErrors errors = game::family_errors(family.designs);
     const sysid::PredictionErrors& global = seeds ? errors.seeds_global : errors.chosen_global;
     const sysid::PredictionErrors& own = seeds ? errors.seeds_family : errors.chosen_family;
-    if (!family.is_thesis && global.modulus_count == 0 && global.toughness_count == 0) continue;
-    table.add({text_cell(family.name), text_cell(std::to_string(global.toughness_count)),
-               share_cell(global.modulus_mean), share_cell(global.modulus_max), share_cell(own.modulus_mean),
-               share_cell(own.modulus_max), share_cell(global.toughness_mean), share_cell(global.toughness_max),
-               share_cell(own.toughness_mean), share_cell(own.toughness_max)},
+    const int count = std::max(designs_of(global), designs_of(own));
+    if (!family.is_thesis && count == 0) continue;
+    const auto of = [](int n, double error) { return share_cell(game::error_over(n, error)); };
+    table.add({text_cell(family.name), text_cell(std::to_string(count)), of(global.modulus_count, global.modulus_mean),
+               of(global.modulus_count, global.modulus_max), of(own.modulus_count, own.modulus_mean),
+               of(own.modulus_count, own.modulus_max), of(global.toughness_count, global.toughness_mean),
+               of(global.toughness_count, global.toughness_max), of(own.toughness_count, own.toughness_mean),
+               of(own.toughness_count, own.toughness_max)},
               family.is_thesis);
   }
   return table;
@@ -122,19 +128,25 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
   return exhibit;
 }
 
-/// Mean errors of the global and of the family's own models on the seeds, family by family.
-std::string seed_error_figure(const PaperSource& source, bool toughness) {
-  const auto mean = toughness ? &sysid::PredictionErrors::toughness_mean : &sysid::PredictionErrors::modulus_mean;
+/// Mean errors of the global and of the family's own models on the seeds, family by family; nothing where no family has
+/// any.
+std::optional<std::string> seed_error_figure(const PaperSource& source, bool toughness) {
   std::vector<Point> global, own;
   double place = 0.0;
+  const auto add = [&](std::vector<Point>& points, const sysid::PredictionErrors& e) {
+    const auto mean = toughness ? game::error_over(e.toughness_count, e.toughness_mean)
+                                : game::error_over(e.modulus_count, e.modulus_mean);
+    if (mean) points.push_back({place, 100.0 * *mean});
+  };
   for (const Stated& family : families_of_run(source)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     place += 1.0;
-    global.push_back({place, 100.0 * errors.seeds_global.*mean});
-    own.push_back({place, 100.0 * errors.seeds_family.*mean});
+    add(global, errors.seeds_global);
+    add(own, errors.seeds_family);
   }
   std::vector<Point> both = global;
   both.insert(both.end(), own.begin(), own.end());
+  if (both.empty()) return std::nullopt;
   Plot plot({.title = toughness ? "Toughness" : "Young's modulus",
              .x_label = "family",
              .y_label = "mean relative error (%)",
@@ -146,6 +158,44 @@ std::string seed_error_figure(const PaperSource& source, bool toughness) {
   plot.dots(global, Ink::earlier, "global model");
   plot.dots(own, Ink::simulated, "family's own");
   return plot.svg();
+}
+
+/// Whether the families' own models over-fit, by family and property, as the page says it.
+struct Verdicts {
+  std::vector<std::string> over_fitted, open;  ///< "family-1 (T)", "family-2 (E not measured)"
+  int sound = 0;
+  bool waiting = false;  ///< a family whose designs are being measured
+};
+
+/// Why two models cannot be compared in a property.
+std::string_view what_is_missing(const Stated& family, std::optional<double> game::DesignValues::*property) {
+  const auto is_measured = [&](bool seeds) {
+    return std::ranges::any_of(family.designs, [&](const game::FamilyDesign& design) {
+      return design.is_seed == seeds && (design.measured.*property).has_value();
+    });
+  };
+  return is_measured(true) && is_measured(false) ? "not simulated" : "not measured";
+}
+
+Verdicts verdicts_of(const std::vector<Stated>& families) {
+  Verdicts verdicts;
+  for (const Stated& family : families) {
+    const game::FamilyErrors errors = game::family_errors(family.designs);
+    const auto judge = [&](char letter, bool over_fits, bool is_judged,
+                           std::optional<double> game::DesignValues::*property) {
+      if (over_fits)
+        verdicts.over_fitted.push_back(fmt::format("{} ({})", escaped(family.name), letter));
+      else if (is_judged)
+        ++verdicts.sound;
+      else if (family.is_validated)
+        verdicts.open.push_back(
+            fmt::format("{} ({} {})", escaped(family.name), letter, what_is_missing(family, property)));
+    };
+    judge('T', errors.over_fits_toughness(), errors.judges_toughness(), &game::DesignValues::toughness_pa);
+    judge('E', errors.over_fits_modulus(), errors.judges_modulus(), &game::DesignValues::modulus_pa);
+    verdicts.waiting = verdicts.waiting || !family.is_validated;
+  }
+  return verdicts;
 }
 
 std::optional<Point> point_of(const game::DesignValues& values) {
@@ -214,9 +264,9 @@ Exhibit seed_error_exhibit(const PaperSource& source) {
     exhibit.notes.push_back(
         "Seeds are what a family's model is calibrated on with weight 1 (the other near-Pareto designs with 0.1): a "
         "small error here is no merit yet, Table 3.7 is the test.");
-  if (!source.run.families.empty()) {
-    exhibit.figures.push_back({"figure-3-14-modulus", seed_error_figure(source, false)});
-    exhibit.figures.push_back({"figure-3-14-toughness", seed_error_figure(source, true)});
+  for (const bool toughness : {false, true}) {
+    if (auto svg = seed_error_figure(source, toughness))
+      exhibit.figures.push_back({toughness ? "figure-3-14-toughness" : "figure-3-14-modulus", std::move(*svg)});
   }
   exhibit.tables.push_back(errors_table(source, "table-3-6", true));
   return exhibit;
@@ -252,24 +302,23 @@ Exhibit validation_exhibit(const PaperSource& source) {
                   .figures = {},
                   .tables = {}};
   if (source.run.families.empty()) exhibit.notes.push_back(kNoStage + " The thesis' figures:");
-  std::vector<std::string> over_fitted;
-  bool waiting = false;
-  for (const Stated& family : families_of_run(source)) {
-    const game::FamilyErrors errors = game::family_errors(family.designs);
-    waiting = waiting || !family.is_validated;
-    if (errors.over_fits_toughness()) over_fitted.push_back(escaped(family.name) + " (T)");
-    if (errors.over_fits_modulus()) over_fitted.push_back(escaped(family.name) + " (E)");
-  }
+  const auto [over_fitted, open, sound, waiting] = verdicts_of(families_of_run(source));
   if (waiting) exhibit.notes.push_back("Some families are not validated yet: their designs are being measured.");
+  if (!open.empty())
+    exhibit.notes.push_back(
+        fmt::format("<strong>No verdict: {}</strong> - no seed or no validation design has a measurement (these were "
+                    "refused, or had no valid specimen), or a model could not simulate them.",
+                    fmt::join(open, ", ")));
   if (!over_fitted.empty())
     exhibit.notes.push_back(
         fmt::format("<strong>Over-fitted: {}</strong> - nearer to the seeds than the global model and farther from the "
                     "validation designs, as in three of the thesis' four families. Trust the global model there.",
                     fmt::join(over_fitted, ", ")));
-  else if (!source.run.families.empty() && !waiting)
+  else if (sound > 0 && !waiting)
     exhibit.notes.push_back(
-        "No family's model over-fits: none is nearer to its seeds than the global one and farther from its validation "
-        "designs. (In the thesis all but one did, in T.)");
+        fmt::format("{} family's model over-fits: none is nearer to its seeds than the global one and farther from its "
+                    "validation designs. (In the thesis all but one did, in T.)",
+                    open.empty() ? "No" : "Of what could be compared, no"));
   exhibit.tables.push_back(errors_table(source, "table-3-7", false));
   return exhibit;
 }

@@ -37,8 +37,13 @@ struct Options {
 };
 
 nlohmann::ordered_json to_json(const sysid::PredictionErrors& errors) {
-  nlohmann::ordered_json document = {
-      {"E_mean", nullptr}, {"E_max", nullptr}, {"T_mean", nullptr}, {"T_max", nullptr}, {"T_spearman", nullptr}};
+  nlohmann::ordered_json document = {{"E_mean", nullptr},
+                                     {"E_max", nullptr},
+                                     {"T_mean", nullptr},
+                                     {"T_max", nullptr},
+                                     {"T_spearman", nullptr},
+                                     {"E_count", errors.modulus_count},
+                                     {"T_count", errors.toughness_count}};
   if (errors.modulus_count > 0) {
     document["E_mean"] = errors.modulus_mean;
     document["E_max"] = errors.modulus_max;
@@ -233,8 +238,7 @@ void add_calibrate(CLI::App& app, Action& action) {
                      "What numerics alone leave; default: data/numerics_floor.toml");
   command.add_option("--store", options->store,
                      "File that keeps simulations: an interrupted calibration goes on from it");
-  command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
-      ->capture_default_str();
+  add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--begin-at", options->begin_at,
                      "Cheaper fidelity to calibrate at first; the calibration then begins where that one ended");
   add_seed(command, options->seed, "Of every random choice")->capture_default_str();

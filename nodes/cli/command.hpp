@@ -38,6 +38,14 @@ CLI::Option* add_seed(CLI::App& command, Seed& seed, const std::string& words) {
   return command.add_option("--seed", seed, words)->check(range);
 }
 
+/// `--fidelity` with what the three are; `otherwise`, when it has no default of its own, tells what is taken then.
+inline CLI::Option* add_fidelity(CLI::App& command, std::string& fidelity, const std::string& otherwise = "") {
+  return command.add_option(
+      "--fidelity", fidelity,
+      "Specimens: full (thesis), preview (the same pulled twice as fast) or tiny (one unit, its numbers mean nothing)" +
+          otherwise);
+}
+
 void add_simulate(CLI::App& app, Action& action);
 void add_calibrate(CLI::App& app, Action& action);
 void add_explore(CLI::App& app, Action& action);

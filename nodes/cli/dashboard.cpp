@@ -51,8 +51,7 @@ int show_dashboard(const Options& options) {
   if (server.token.empty() && !is_loopback(options.host)) server.token = dashboard::random_token();
   const runtime::Interrupts interrupts;
   const auto ready = [&](int port) {
-    const std::string token = server.token.empty() ? "" : "?token=" + server.token;
-    fmt::print("http://{}:{}/{}\n", options.host, port, token);
+    fmt::print("{}\n", dashboard::page_link(options.host, port, server.token));
     std::fflush(stdout);
     remark(fmt::format("{} is shown there; Ctrl-C ends the page, not the game", run.manifest.run_id));
   };

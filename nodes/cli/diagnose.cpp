@@ -212,7 +212,7 @@ void add_diagnose(CLI::App& app, Action& action) {
                                   "Show what the simulation gets wrong about measurements, and why", options, diagnose);
   command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
-  command.add_option("--fidelity", options->fidelity, "tiny, preview or full")->capture_default_str();
+  add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor,
                      "What the tester's elements leave of an error (data/numerics_floor.toml)");
   command.add_flag("--fracture", options->fracture,

@@ -132,8 +132,7 @@ void add_explore(CLI::App& app, Action& action) {
                      "Database of simulations, read and continued; with it an interrupted search goes on where it was");
   command.add_option("--former", options->former,
                      "gamut.csv of other parameters or another fidelity, for `learned` to begin with");
-  command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
-      ->capture_default_str();
+  add_fidelity(command, options->fidelity)->capture_default_str();
   add_seed(command, options->seed, "Of every random choice")->capture_default_str();
   command.add_option("--population", options->population, "Population")
       ->check(CLI::Range(2, 100'000))

@@ -17,12 +17,13 @@
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"
+#include "tester/tester.hpp"
 
 namespace nacre::cli {
 namespace {
 
-using fabricate::SpecimenKind;
 using fabricate::Wanted;
+using tester::TestKind;
 
 struct Options {
   std::vector<std::string> designs;
@@ -52,9 +53,9 @@ constexpr const char* kCoupons[] = {"laminate:x:1:1", "laminate:x:2:2", "laminat
                                     "laminate:y:1:1", "laminate:y:2:2", "laminate:y:5:5",
                                     "checkerboard:1", "checkerboard:2", "checkerboard:5"};
 
-std::vector<SpecimenKind> kinds_of(const std::string& test) {
-  if (test == "both") return {SpecimenKind::tensile_bar, SpecimenKind::toughness};
-  return {*fabricate::specimen_kind_from_string(test)};
+std::vector<TestKind> tests_of(const std::string& test) {
+  if (test == "both") return {TestKind::modulus, TestKind::toughness};
+  return {*tester::test_kind_from_string(test)};
 }
 
 void warn_about_constraints(const pattern::Design& design) {
@@ -76,9 +77,9 @@ std::vector<Wanted> wanted_by_name(const Options& options) {
       continue;
     }
     warn_about_constraints(design);
-    for (const SpecimenKind kind : kinds_of(options.test)) {
+    for (const TestKind test : tests_of(options.test)) {
       wanted.push_back({.design = design,
-                        .kind = kind,
+                        .test = test,
                         .orientation_deg = options.orientation_deg,
                         .thickness_mm = options.thickness_mm,
                         .replicates = options.replicates});
@@ -96,13 +97,12 @@ std::vector<Wanted> wanted_by_game(const LaboratoryView& view) {
   for (const OrderState& order : view.orders) {
     const int missing = order.order.replicates - std::max(order.arrived, order.printed);
     if (order.complete || missing <= 0) continue;
-    const bool is_notched = order.order.test == tester::TestKind::toughness;
     wanted.push_back({.design = order.order.design,
-                      .kind = is_notched ? SpecimenKind::toughness : SpecimenKind::tensile_bar,
+                      .test = order.order.test,
                       .orientation_deg = order.order.conditions.orientation_deg,
                       .thickness_mm = order.order.conditions.thickness_mm,
                       .strain_rate_per_s = order.order.conditions.strain_rate_per_s,
-                      .loading = tester::to_string(order.order.loading),
+                      .loading = order.order.loading,
                       .replicates = missing,
                       .order_id = order.order.id,
                       .reason = std::string(game::to_string(order.order.reason))});

@@ -127,7 +127,7 @@ void add_families(CLI::App& app, Action& action) {
                      "Folder, default RUN/families or families; families.toml in it may be edited, then call again");
   command.add_flag("--propose", options->propose,
                    "Write families.toml alone: to be edited, also before the family stage of a game");
-  command.add_option("--fidelity", options->fidelity, "Size of the specimens; default: the run's, or full");
+  add_fidelity(command, options->fidelity, "; default: the run's, or full");
   command.add_option("--samples", options->samples, "Patterns of a family (thesis: 2000 to 3000 around each seed)")
       ->check(CLI::Range(4, 100'000))
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "families/dense_sampling.hpp"
 #include "families/subfamily.hpp"
 #include "family_mechanisms.hpp"
+#include "game/family_errors.hpp"
 #include "game/standings.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
@@ -94,8 +96,15 @@ std::string map_csv(const families::Subfamily& subfamily, const Performances& pe
   return text;
 }
 
+nlohmann::ordered_json error_json(int count, double mean) {
+  const std::optional<double> error = game::error_over(count, mean);
+  return error ? nlohmann::ordered_json(*error) : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json errors_json(const sysid::PredictionErrors& errors) {
-  return {{"count", errors.toughness_count}, {"E_mean", errors.modulus_mean}, {"T_mean", errors.toughness_mean}};
+  return {{"count", std::max(errors.modulus_count, errors.toughness_count)},
+          {"E_mean", error_json(errors.modulus_count, errors.modulus_mean)},
+          {"T_mean", error_json(errors.toughness_count, errors.toughness_mean)}};
 }
 
 /// Errors on the family's own designs.

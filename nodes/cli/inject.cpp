@@ -35,7 +35,7 @@ struct Delivery {
   int repeated = 0;    ///< it had them already
   int unanswered = 0;  ///< a node has not got them
   std::set<std::string> unanswered_by;
-  std::vector<std::string> conflicting;  ///< it has other specimens of these names, which stay
+  std::vector<std::string> conflicting;  ///< a node has other specimens of these names, which stay
   std::vector<measurement::RejectedRow> rejected;
 };
 
@@ -76,13 +76,6 @@ measurement::RejectedRow refused(const measurement::SpecimenRecord& specimen, in
   return {line, "", reason};
 }
 
-void say_conflicting(const std::string& specimen) {
-  warn(
-      fmt::format("specimen {}: the run has another measurement of this name, which stays; expected a new name, or "
-                  "`nacre review` to judge the old one",
-                  specimen));
-}
-
 /// Content hashes of the messages that are under way.
 struct Offered {
   std::vector<std::string> hashes;
@@ -90,18 +83,17 @@ struct Offered {
   std::set<std::string> repeated;                ///< those that the validation agent has already
 };
 
-/// Offers what the validation agent does not contradict and every node would take; the rest goes into `delivery`.
+/// Offers what no node contradicts and every node would take; the rest goes into `delivery`.
 Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet& set, const std::string& folder,
                         runtime::Endpoint& endpoint, Delivery& delivery) {
-  const std::map<std::string, std::string> known = hashes_by_specimen(run);
+  const HeldMeasurements held = held_measurements(run);
   Offered offered;
   for (std::size_t i = 0; i < set.specimens.size(); ++i) {
     const measurement::SpecimenRecord& specimen = set.specimens[i];
     const runtime::Message message = measurement_message(specimen, run.scenario.fidelity);
-    const auto same_name = known.find(specimen.specimen);
-    const bool is_known = same_name != known.end();
-    if (is_known && same_name->second != wire::message_hash(message.channel, message.payload)) {
-      say_conflicting(specimen.specimen);
+    if (const auto reason =
+            against_measurement(held, specimen.specimen, wire::message_hash(message.channel, message.payload))) {
+      warn(*reason);
       delivery.conflicting.push_back(specimen.specimen);
       continue;
     }
@@ -113,7 +105,7 @@ Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet&
     }
     offered.hashes.push_back(*hash);
     offered.specimens.emplace(*hash, specimen.specimen);
-    if (is_known) offered.repeated.insert(*hash);
+    if (held.validation_agent.contains(specimen.specimen)) offered.repeated.insert(*hash);
   }
   return offered;
 }
@@ -127,12 +119,12 @@ Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, cons
   if (hashes.empty() && delivery.conflicting.empty())
     throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
   wait_for_receivers(*endpoint, hashes, options.timeout_s);
-  // Another program may have brought the same names meanwhile: what the validation agent wrote down first stays.
-  const std::map<std::string, std::string> held = hashes_by_specimen(run);
+  // Another program may have brought the same names meanwhile: what a node wrote down first stays.
+  const HeldMeasurements held = held_measurements(run);
   for (const std::string& hash : hashes) {
     const std::string& specimen = specimens.at(hash);
-    if (const auto found = held.find(specimen); found != held.end() && found->second != hash) {
-      say_conflicting(specimen);
+    if (const auto reason = against_measurement(held, specimen, hash)) {
+      warn(*reason);
       delivery.conflicting.push_back(specimen);
       continue;
     }

@@ -59,9 +59,8 @@ std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& ju
   if (specimen == specimens.end()) {
     warn(fmt::format("{}: the validation agent has no specimen of this name yet", judgement.specimen));
   }
-  if (judgement.valid && specimen != specimens.end()) {
-    if (const auto fault = measurement::why_unusable(*specimen))
-      throw InputError::format("{}: cannot be valid: {} {}", judgement.specimen, fault->column, fault->reason);
+  if (judgement.valid) {
+    if (const auto reason = book.against_validity(judgement.specimen)) throw InputError(*reason);
   }
   const int revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
   if (const auto held = book.review_against(judgement.specimen, {revision, judgement.valid, judgement.why})) {

@@ -80,6 +80,10 @@ Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
   return hand_in(message) == Answer::accepted ? Answer::repeated : Answer::unanswered;
 }
 
+std::optional<std::string> RunDesk::against(const dashboard::Judgement& judgement) {
+  return judgement.valid ? view_laboratory(run_).facts.book.against_validity(judgement.specimen) : std::nullopt;
+}
+
 Answer RunDesk::judge(const dashboard::Judgement& judgement) {
   review_t message{};
   message.specimen = judgement.specimen;

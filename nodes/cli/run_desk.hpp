@@ -18,6 +18,7 @@ class RunDesk : public dashboard::Desk {
   dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
   dashboard::Answer judge(const dashboard::Judgement& judgement) override;
   dashboard::Answer decide(const dashboard::Decision& decision) override;
+  std::optional<std::string> against(const dashboard::Judgement& judgement) override;
   std::optional<std::string> against(const dashboard::Decision& decision) override;
   void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) override;
 

@@ -243,8 +243,7 @@ void add_simulate(CLI::App& app, Action& action) {
   command.add_option("--test", options->test, "Which test")
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))
       ->capture_default_str();
-  command.add_option("--fidelity", options->fidelity, "Size of the specimens: tiny, preview, full")
-      ->capture_default_str();
+  add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--curves", options->curves, "Folder for the stress-strain curves, KEY.csv");
   command.add_option("--frames", options->frames, "Folder for fracture films, KEY.film (docs/FORMATS.md)");
   command.add_option("--film", options->film, "Film of one specimen as a GIF, or folder for pictures KEY-NNNN.png");

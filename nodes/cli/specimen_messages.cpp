@@ -1,6 +1,8 @@
 #include "specimen_messages.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "nacre/review_t.hpp"
 #include "wire/codec.hpp"
@@ -35,6 +37,30 @@ std::string history_of(const measurement::SpecimenRecord& specimen) {
   return history.empty() ? "" : history + "]";
 }
 
+/// Payloads of the MEASUREMENTs in the analyser's journal, oldest first; none where this machine does not hold it.
+std::vector<std::string> received_by_analyser(const RunAccess& run) {
+  std::vector<std::string> payloads;
+  const auto journal = run.folder / "nodes" / "analyser" / "journal.lcm";
+  if (!std::filesystem::exists(journal)) return payloads;
+  runtime::LogReader reader(journal);
+  while (const auto record = reader.next()) {
+    if (record->channel != kChannel) continue;
+    if (auto blanked = wire::blank_header(kChannel, record->data)) payloads.push_back(std::move(blanked->payload));
+  }
+  return payloads;
+}
+
+/// Enters a measurement that its node took in; those of another fidelity it refused.
+void take(std::map<std::string, std::string>& hashes, const std::string& payload, tester::Fidelity fidelity) {
+  auto measurement = wire::read<wire::Measurement>(payload);
+  if (!measurement || measurement->fidelity != fidelity) return;
+  // Who ordered it and when is not what was measured.
+  wire::Measurement plain;
+  plain.fidelity = measurement->fidelity;
+  plain.record = std::move(measurement->record);
+  hashes.emplace(plain.record.specimen, wire::message_hash(kChannel, wire::write(plain)));
+}
+
 }  // namespace
 
 runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
@@ -52,18 +78,37 @@ runtime::Message measurement_message(const measurement::SpecimenRecord& specimen
   return {kChannel, wire::write(measurement)};
 }
 
-std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
-  std::map<std::string, std::string> hashes;
-  for (const std::string& payload : received_by_validation_agent(run, kChannel)) {
-    auto measurement = wire::read<wire::Measurement>(payload);
-    if (!measurement || measurement->fidelity != run.scenario.fidelity) continue;
-    // Who ordered it and when is not what was measured.
-    wire::Measurement plain;
-    plain.fidelity = measurement->fidelity;
-    plain.record = std::move(measurement->record);
-    hashes.emplace(plain.record.specimen, wire::message_hash(kChannel, wire::write(plain)));
+HeldMeasurements held_measurements(const RunAccess& run) {
+  HeldMeasurements held;
+  for (const std::string& payload : received_by_validation_agent(run, kChannel))
+    take(held.validation_agent, payload, run.scenario.fidelity);
+  for (const std::string& payload : received_by_analyser(run)) take(held.analyser, payload, run.scenario.fidelity);
+  return held;
+}
+
+std::optional<std::string> against_measurement(const HeldMeasurements& held, const std::string& specimen,
+                                               const std::string& hash) {
+  const auto other = [&](const std::map<std::string, std::string>& hashes) {
+    const auto found = hashes.find(specimen);
+    return found != hashes.end() && found->second != hash;
+  };
+  if (other(held.validation_agent)) {
+    return fmt::format(
+        "specimen {}: the run has another measurement of this name, which stays; expected a new name, or "
+        "`nacre review` to judge the old one",
+        specimen);
   }
-  return hashes;
+  if (!other(held.analyser)) return std::nullopt;
+  return fmt::format(
+      "specimen {}: another measurement of this name has reached the analyser alone, where it stays; expected a new "
+      "name, or both nodes would go by different values",
+      specimen);
+}
+
+std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
+  HeldMeasurements held = held_measurements(run);
+  held.validation_agent.merge(held.analyser);
+  return held.validation_agent;
 }
 
 int next_revision(const RunAccess& run, const std::string& specimen) {

@@ -2,6 +2,7 @@
 // Specimens and judgements on them as messages, and what a run has of them already.
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "measurement/measurement.hpp"
@@ -13,7 +14,20 @@ namespace nacre::cli {
 /// MEASUREMENT of a specimen that nacre did not order by name; long curves thinned, history in the note.
 runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity);
 
-/// Content hash of the measurement that the validation agent has of each specimen; the first one counts.
+/// Content hashes of the measurements that the nodes which keep them have, by specimen; the first one of a name counts.
+/// Empty of a node whose journal is not on this machine.
+struct HeldMeasurements {
+  std::map<std::string, std::string> validation_agent;
+  std::map<std::string, std::string> analyser;
+};
+HeldMeasurements held_measurements(const RunAccess& run);
+
+/// Why a node that has another measurement of the specimen's name keeps it, with what to do, as a sentence; nothing
+/// where this one, by its hash, can be the specimen's at both.
+std::optional<std::string> against_measurement(const HeldMeasurements& held, const std::string& specimen,
+                                               const std::string& hash);
+
+/// All that is held, by specimen: what the validation agent has, else what reached the analyser alone.
 std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run);
 
 /// One more than the highest revision of a specimen's reviews so far, so that this judgement wins.

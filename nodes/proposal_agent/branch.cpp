@@ -15,7 +15,7 @@ std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Patte
     request.request_id = first == 0 ? id : fmt::format("{}/from{}", id, first);
     const std::size_t count = std::min(wire::kMaximumDesigns, patterns.size() - first);
     for (const pattern::Pattern& pattern : patterns.subspan(first, count)) request.designs.emplace_back(pattern);
-    requests.push_back(std::move(request));
+    requests.push_back(wire::with_content_id(std::move(request)));
   }
   return requests;
 }

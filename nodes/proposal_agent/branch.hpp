@@ -13,8 +13,8 @@
 
 namespace nacre::proposal_agent {
 
-/// The model's question about every pattern, ID; where they are more than a message holds, ID/from64 and so on beside
-/// it.
+/// The model's question about every pattern, ID#HASH; where they are more than a message holds, ID/from64#HASH and so
+/// on beside it (wire::with_content_id).
 std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Pattern> patterns,
                                                   const wire::SimulateRequest& model, const std::string& id);
 

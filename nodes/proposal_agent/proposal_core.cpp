@@ -57,7 +57,7 @@ void ProposalCore::accept_model(const std::string& payload, runtime::Outputs& ou
   }
   if (!known_rounds_.insert(model->round).second) return;
   waiting_.emplace(model->round, *std::move(model));
-  if (!round_) start_next_round(outputs);
+  start_due_round(outputs);
 }
 
 explore::SearchSettings ProposalCore::search_settings(int branch) const {
@@ -72,8 +72,11 @@ explore::SearchSettings ProposalCore::search_settings(int branch) const {
   return search;
 }
 
-void ProposalCore::start_next_round(runtime::Outputs& outputs) {
-  const auto next = waiting_.begin();
+/// Rounds are played one by one in their order, whatever the order in which their models come: a round begins with what
+/// the last one found.
+void ProposalCore::start_due_round(runtime::Outputs& outputs) {
+  const auto next = waiting_.find(last_round_ + 1);
+  if (round_ || next == waiting_.end()) return;
   round_.emplace();
   round_->model = std::move(next->second);
   waiting_.erase(next);
@@ -191,7 +194,7 @@ void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outpu
   last_found_ = std::move(round_->found);
   last_round_ = round_->model.round;
   round_.reset();
-  if (!waiting_.empty()) start_next_round(outputs);
+  start_due_round(outputs);
 }
 
 runtime::Status ProposalCore::status() const {

@@ -40,7 +40,7 @@ class ProposalCore : public runtime::NodeCore {
   void accept_work(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs);
-  void start_next_round(runtime::Outputs& outputs);
+  void start_due_round(runtime::Outputs& outputs);
   explore::SearchSettings search_settings(int branch) const;
   void ask_next(Branch& branch, runtime::Outputs& outputs);
   void send(const std::vector<wire::SimulateRequest>& requests, runtime::Outputs& outputs);
@@ -58,7 +58,7 @@ class ProposalCore : public runtime::NodeCore {
   // another model a search that learns begins with what the last one said.
   std::optional<material::ParameterSet> last_parameters_;
   std::vector<explore::Evaluated> last_found_;
-  int last_round_ = -1;
+  int last_round_ = -1;  // that was played to its end; every game begins with round 0
   bool finished_ = false;
 };
 

@@ -13,11 +13,6 @@ namespace {
 /// Specimens that wait mounted, so that a place does not stay empty.
 constexpr std::size_t kMostReady = 64;
 
-/// Whether the device has something to do for a question: the film of a broken specimen is made by threads.
-bool is_for_device(const AskedSimulation& asked) {
-  return asked.test == tester::TestKind::toughness && !asked.extras.film;
-}
-
 }  // namespace
 
 GpuExecutor::GpuExecutor(std::shared_ptr<store::SimulationCache> cache, GpuSettings settings,
@@ -95,7 +90,8 @@ void GpuExecutor::prepare() {
 
 void GpuExecutor::sort(const runtime::Compute& compute) {
   const AskedSimulation asked = asked_in(compute.spec);
-  if (!is_for_device(asked) || is_known(*cache_, settings_.films, asked)) return give_to_threads(compute);
+  // The film of a specimen whose numbers are known is made by threads.
+  if (asked.test != tester::TestKind::toughness || has_numbers(*cache_, asked)) return give_to_threads(compute);
   Result<gpu::PreparedTest> test = gpu::PreparedTest::of(tester::fracture_test(asked.simulation));
   // What cannot be pulled is refused in the words of the tester.
   if (!test) return give_to_threads(compute);
@@ -151,8 +147,10 @@ void GpuExecutor::keep(const gpu::NumberedResult& over) {
   runtime::Compute compute = std::move(on_device_.extract(over.number).mapped());
   try {
     const AskedSimulation asked = asked_in(compute.spec);
-    cache_->insert(asked.key, store::kept(over.result));
-    if (over.result && asked.extras.fracture()) cache_->insert_breaks(asked.key, over.result->breaks);
+    // The crack too, asked for or not: threads that were asked for it later would tell of another fracture.
+    keep_answer(*cache_, asked.key, store::kept(over.result), over.result ? &over.result->breaks : nullptr);
+    // What is left to threads is the film; or the crack, where the numbers are theirs.
+    if (!is_known(*cache_, settings_.films, asked)) return give_to_threads(std::move(compute));
     // The answer is made of what is kept, as for threads; nothing is left to simulate.
     std::string answer = simulate_work(*cache_, settings_.films, compute.spec);
     outbox_.finish(std::move(compute), std::move(answer));

@@ -1,6 +1,6 @@
 #pragma once
-// The farm's executor with an accelerator: fracture tests go to the device by the batch, all else to threads. When the
-// device fails, threads do everything.
+// The farm's executor with an accelerator: fracture tests go to the device by the batch, all else to threads, also the
+// films of what the device broke. When the device fails, threads do everything.
 
 #include <condition_variable>
 #include <deque>

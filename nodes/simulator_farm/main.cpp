@@ -49,8 +49,8 @@ runtime::NodeProgram make_farm(const FarmOptions& options, const runtime::NodeOp
                                const game::Scenario& scenario) {
   const fs::path run = fs::absolute(node.run_dir).lexically_normal();
   const std::string executor = options.executor.empty() ? scenario.farm.executor : options.executor;
-  // Shared by all runs beside this one: the answers do not depend on the run. A device rounds otherwise, so that it has
-  // a cache of its own.
+  // Shared by all runs beside this one: the answers do not depend on the run. A device rounds otherwise, so that farms
+  // with one have a cache of their own, for what their threads compute, too.
   const fs::path usual = run / ".." / (executor == "cuda" ? "simulations-cuda.db" : "simulations.db");
   const fs::path file = options.cache_file.empty() ? usual : options.cache_file;
   const auto cache = std::make_shared<store::SimulationCache>(file.lexically_normal());
@@ -59,8 +59,9 @@ runtime::NodeProgram make_farm(const FarmOptions& options, const runtime::NodeOp
                                .default_threads = scenario.farm_threads,
                                .executor = {}};
   if (executor == "cuda") {
-    const GpuSettings settings{
-        .films = run / "films", .threads = scenario.farm_threads, .make_device = gpu::cuda_device};
+    const GpuSettings settings{.films = run / "films",
+                               .threads = node.threads > 0 ? node.threads : scenario.farm_threads,
+                               .make_device = gpu::cuda_device};
     program.executor = [cache, settings](std::function<void()> wake) {
       return std::make_unique<GpuExecutor>(cache, settings, std::move(wake));
     };

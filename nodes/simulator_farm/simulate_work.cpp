@@ -1,5 +1,8 @@
 #include "simulator_farm/simulate_work.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -19,7 +22,39 @@
 namespace nacre::simulator_farm {
 namespace {
 
-/// Whether the cache holds all that is asked for beside the film.
+/// Two computations that round otherwise tell of one fracture when toughness, peak stress and failure strain differ by
+/// no more than this share. Chosen here; up to the first failure they differ by less than 0.1 % (docs/studies/gpu.md).
+constexpr double kLargestDifference = 0.01;
+/// A film is that of a crack when this share of the elements that failed is the same: the mirror image, which rounding
+/// may choose as well, has the same numbers.
+constexpr double kLeastInCommon = 0.9;
+
+constexpr const char* kNoCrack =
+    "its crack cannot be told: its numbers were computed elsewhere (by a device), and computed here the specimen "
+    "breaks otherwise";
+
+bool are_close(double a, double b) { return std::abs(a - b) <= kLargestDifference * std::abs(b); }
+
+/// Whether two answers to a question tell of one fracture, but for rounding.
+bool are_of_one_fracture(const store::CachedSimulation& a, const store::CachedSimulation& b) {
+  return a.failure.empty() && b.failure.empty() && are_close(a.toughness_pa, b.toughness_pa) &&
+         are_close(a.peak_stress_pa, b.peak_stress_pa) && are_close(a.failure_strain, b.failure_strain);
+}
+
+/// Whether most of the elements that failed are the same, in whatever order.
+bool have_most_in_common(const std::vector<tester::Break>& a, const std::vector<tester::Break>& b) {
+  const auto elements_of = [](const std::vector<tester::Break>& breaks) {
+    std::vector<int> elements;
+    for (const tester::Break& broken : breaks) elements.push_back(broken.element);
+    std::sort(elements.begin(), elements.end());
+    return elements;
+  };
+  const std::vector<int> of_a = elements_of(a), of_b = elements_of(b);
+  std::vector<int> common;
+  std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
+  return static_cast<double>(common.size()) >= kLeastInCommon * static_cast<double>(std::max(a.size(), b.size()));
+}
+
 bool has_numbers(const store::SimulationCache& cache, const std::optional<store::CachedSimulation>& known,
                  const AskedSimulation& asked) {
   if (!known) return false;
@@ -30,33 +65,48 @@ bool has_numbers(const store::SimulationCache& cache, const std::optional<store:
 void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
   const auto known = cache.find(asked.key);
   if (has_numbers(cache, known, asked)) return;
-  const auto keep = [&](const store::CachedSimulation& answer) {
-    if (cache.insert(asked.key, answer) || known) return;
+  const auto keep = [&](const store::CachedSimulation& answer, const std::vector<tester::Break>* breaks) {
+    if (keep_answer(cache, asked.key, answer, breaks) || known) return;
     // Another farm with the same cache was faster; harmless, and worth knowing.
     fmt::print(stderr, "simulation {} was done twice at the same time\n", asked.key);
   };
-  if (asked.test == tester::TestKind::modulus) return keep(store::kept(tester::test_modulus(asked.simulation)));
+  if (asked.test == tester::TestKind::modulus)
+    return keep(store::kept(tester::test_modulus(asked.simulation)), nullptr);
   const auto result = tester::test_toughness(asked.simulation);
-  keep(store::kept(result));
-  if (result && asked.extras.fracture()) cache.insert_breaks(asked.key, result->breaks);
+  keep(store::kept(result), result && asked.extras.fracture() ? &result->breaks : nullptr);
 }
 
 std::string film_name(const std::string& key) { return key + ".film"; }
 
-/// Makes the film of a specimen whose answer is known, unless it is there. Gives the file's name.
+/// Whether a film, for which the specimen is pulled once more here, shows the fracture that was answered.
+bool shows(const film::Film& film, const store::CachedSimulation& answer, const std::vector<tester::Break>& breaks) {
+  store::CachedSimulation pulled;
+  pulled.toughness_pa = film.toughness_pa;
+  pulled.peak_stress_pa = film.peak_stress_pa;
+  pulled.failure_strain = film.failure_strain;
+  return are_of_one_fracture(pulled, answer) && have_most_in_common(film.crack.order, breaks);
+}
+
+/// Makes the film of a specimen whose answer is known, unless it is there. Gives the file's name; empty, and a line for
+/// the log, where there can be none.
 std::string filmed(const std::filesystem::path& folder, const std::string& key, const tester::Simulation& simulation,
                    const store::CachedSimulation& answer, const std::vector<tester::Break>& breaks) {
   const std::string name = film_name(key);
   if (std::filesystem::exists(folder / name)) return name;
-  std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
-  if (problem) throw InputError::format("{}: cannot be made: {}", folder.string(), problem.message());
   tester::ToughnessResult known;
   known.failure_strain = answer.failure_strain;
   known.curve = answer.curve;
   known.breaks = breaks;
   const Result<film::Film> film = film::record_film(simulation, known);
-  if (!film) throw std::logic_error("a specimen broke and cannot be filmed: " + film.error().message);
+  if (!film || !shows(*film, answer, breaks)) {
+    fmt::print(stderr, "no film of {}, {}: {}\n", simulation.design.name(), key,
+               film ? "the answer was computed elsewhere (by a device), and pulled here the specimen breaks otherwise"
+                    : film.error().message);
+    return {};
+  }
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem) throw InputError::format("{}: cannot be made: {}", folder.string(), problem.message());
   // Under a name of this process' own first: two tasks of a cluster may be making the same film.
   const std::filesystem::path aside = folder / (name + "." + own_name());
   film::write_film(aside, *film);
@@ -88,10 +138,21 @@ AskedSimulation asked_in(const std::string& spec) {
   return asked;
 }
 
+bool has_numbers(const store::SimulationCache& cache, const AskedSimulation& asked) {
+  return has_numbers(cache, cache.find(asked.key), asked);
+}
+
 bool is_known(const store::SimulationCache& cache, const std::filesystem::path& films, const AskedSimulation& asked) {
   const auto known = cache.find(asked.key);
   if (!has_numbers(cache, known, asked)) return false;
   return !known->failure.empty() || !asked.extras.film || std::filesystem::exists(films / film_name(asked.key));
+}
+
+bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& answer,
+                 const std::vector<tester::Break>* breaks) {
+  const bool is_new = cache.insert(key, answer);
+  if (breaks && (is_new || are_of_one_fracture(answer, cache.find(key).value()))) cache.insert_breaks(key, *breaks);
+  return is_new;
 }
 
 std::string simulate_work(store::SimulationCache& cache, const std::filesystem::path& films, const std::string& spec) {
@@ -102,9 +163,13 @@ std::string simulate_work(store::SimulationCache& cache, const std::filesystem::
   store::CachedSimulation known = cache.find(asked.key).value();
   Answer answer;
   if (known.failure.empty() && asked.extras.fracture()) {
-    const std::vector<tester::Break> breaks = cache.find_breaks(asked.key).value();
-    answer.fracture = fracture_of(asked.simulation, breaks);
-    if (asked.extras.film) answer.fracture->film = filmed(films, asked.key, asked.simulation, known, breaks);
+    if (const auto breaks = cache.find_breaks(asked.key)) {
+      answer.fracture = fracture_of(asked.simulation, *breaks);
+      if (asked.extras.film) answer.fracture->film = filmed(films, asked.key, asked.simulation, known, *breaks);
+    } else {
+      known = {};
+      known.failure = kNoCrack;
+    }
   }
   answer.design = {.design = asked.simulation.design,
                    .failure = std::move(known.failure),

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/node_core.hpp"
 #include "simulator_farm/question.hpp"
@@ -21,11 +22,21 @@ struct AskedSimulation {
 };
 AskedSimulation asked_in(const std::string& spec);
 
+/// Whether the cache holds all that is asked for beside the film.
+bool has_numbers(const store::SimulationCache& cache, const AskedSimulation& asked);
+
 /// Whether simulate_work() answers out of cache and film folder, without a simulation.
 bool is_known(const store::SimulationCache& cache, const std::filesystem::path& films, const AskedSimulation& asked);
 
+/// Keeps what a test gave, whoever ran it. The first answer to a key stays. Breaks (nullptr: they are not kept) stand
+/// beside the numbers of their own fracture alone: whoever comes later, and rounds otherwise, keeps them only where the
+/// numbers agree to 1 %. Returns whether the answer was new.
+bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& answer,
+                 const std::vector<tester::Break>* breaks);
+
 /// Answers a spec: simulates what the cache does not know yet, keeps it there, and writes the Answer (question.hpp)
-/// from what is kept.
+/// from what is kept. Numbers, crack and film tell of one fracture: a film that shows another is not kept, and its name
+/// is empty; numbers whose crack cannot be told are answered as a failure that says so.
 std::string simulate_work(store::SimulationCache& cache, const std::filesystem::path& films, const std::string& spec);
 
 /// Kind "simulate": the spec is the payload of a SIMULATE with one design and one test, the result an Answer

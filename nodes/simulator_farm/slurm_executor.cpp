@@ -179,8 +179,7 @@ void SlurmExecutor::take_result(const std::string& name) {
     return give_again(name);
   }
   for (const BatchRecord& record : *records) {
-    cache_->insert(record.key, record.answer);
-    if (record.breaks) cache_->insert_breaks(record.key, *record.breaks);
+    keep_answer(*cache_, record.key, record.answer, record.breaks ? &*record.breaks : nullptr);
   }
   InFlight entry = std::move(in_flight_.extract(name).mapped());
   for (std::size_t i = 0; i < entry.questions.size(); ++i) {
@@ -190,8 +189,9 @@ void SlurmExecutor::take_result(const std::string& name) {
   }
   spool_.remove(name);
   std::erase(to_submit_, name);
-  for (Question& question : entry.questions) {
-    if (question.compute) sort_question(std::move(question));
+  // Whatever has not come with it (a film that cannot be kept): asked again, a task would say the same for ever.
+  for (const Question& question : entry.questions) {
+    if (question.compute) answer(*question.compute);
   }
   if (in_flight_.empty()) spool_.tidy();
 }
@@ -254,7 +254,8 @@ void SlurmExecutor::take_listing(const Listing& tasks) {
   }
 }
 
-/// A lost batch goes out again as it is; when that does not help, each of its questions by itself.
+/// A lost batch goes out again as it is, with its file where that is gone; when that does not help, each of its
+/// questions by itself.
 void SlurmExecutor::give_again(const std::string& name) {
   InFlight& entry = in_flight_.at(name);
   int attempts = 0;
@@ -267,6 +268,7 @@ void SlurmExecutor::give_again(const std::string& name) {
         attempts, spool_.last_words(entry.tasks), spool_.folder().string());
   }
   if (entry.questions.size() == 1 || attempts < kAttemptsTogether) {
+    spool_.put(name, batch_bytes(entry.questions));
     entry.watch = BatchWatch(now_s());
     to_submit_.push_back(name);
     return;
@@ -293,11 +295,15 @@ void SlurmExecutor::cut_batches() {
   }
 }
 
-/// On disk before Slurm hears of it.
-void SlurmExecutor::put_batch(std::vector<Question> questions) {
+std::string SlurmExecutor::batch_bytes(const std::vector<Question>& questions) const {
   Batch batch{fs::absolute(settings_.films), {}};
   for (const Question& question : questions) batch.specs.push_back(question.spec);
-  const std::string bytes = write_batch(batch);
+  return write_batch(batch);
+}
+
+/// On disk before Slurm hears of it.
+void SlurmExecutor::put_batch(std::vector<Question> questions) {
+  const std::string bytes = batch_bytes(questions);
   const std::string name = batch_name(bytes);
   spool_.put(name, bytes);
   for (const Question& question : questions) batch_of_spec_[question.spec] = name;

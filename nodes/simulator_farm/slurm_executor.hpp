@@ -32,7 +32,8 @@ struct SlurmSettings {
   double gather_s = 0.2;  ///< questions that come within this time may share a batch
   double poll_s = 5.0;    ///< between two looks at Slurm's list
   Patience patience = {};
-  int most_attempts = 5;  ///< of one question alone, then the farm stops and says why
+  /// Batches that a question is lost with, those that it shared included, until the farm stops and says why.
+  int most_attempts = 5;
 };
 
 /// What has happened so far; for people.
@@ -85,6 +86,7 @@ class SlurmExecutor : public runtime::Executor {
   void take_listing(const Listing& listing);
   void give_again(const std::string& batch);
   void cut_batches();
+  std::string batch_bytes(const std::vector<Question>& questions) const;
   void put_batch(std::vector<Question> questions);
   void submit();
   void take_submission(const runtime::ProgramAnswer& answer);

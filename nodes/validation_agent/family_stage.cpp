@@ -23,6 +23,15 @@ pattern::Pattern pattern_of(const measurement::Replicates& measured) {
   return game::eightfold_pattern(measured.design).value();
 }
 
+/// What was measured of a pattern itself, not of a twin pulled faster or thinner; null where nothing was.
+const measurement::Replicates* measured_of(const std::vector<measurement::Replicates>& measured,
+                                           const pattern::Pattern& pattern) {
+  const auto found = std::ranges::find_if(measured, [&](const measurement::Replicates& each) {
+    return each.design == pattern::Design(pattern) && game::is_standard(each.conditions);
+  });
+  return found == measured.end() ? nullptr : &*found;
+}
+
 std::vector<families::Member> members_of(const std::vector<measurement::Replicates>& measured) {
   std::vector<families::Member> members;
   for (const measurement::Replicates& each : measured)
@@ -237,8 +246,8 @@ std::vector<pattern::Design> FamilyStage::chosen() const {
 }
 
 game::DesignValues FamilyStage::measured_values(const pattern::Pattern& pattern) const {
-  const auto found = std::ranges::find(beginning_.measured, pattern, pattern_of);
-  if (found == beginning_.measured.end()) return {};
+  const measurement::Replicates* found = measured_of(beginning_.measured, pattern);
+  if (found == nullptr) return {};
   return {found->modulus_pa, found->toughness_pa};
 }
 
@@ -246,10 +255,8 @@ void FamilyStage::conclude(const std::vector<measurement::Replicates>& measured,
   for (wire::Family& family : families_) {
     for (game::FamilyDesign& design : family.designs) {
       if (design.is_seed) continue;
-      const auto found = std::ranges::find_if(measured, [&](const measurement::Replicates& each) {
-        return each.design == pattern::Design(design.pattern);
-      });
-      if (found == measured.end()) continue;  // refused, or no specimen was valid
+      const measurement::Replicates* found = measured_of(measured, design.pattern);
+      if (found == nullptr) continue;  // refused, or no specimen was valid
       if (found->modulus_count > 0) design.measured.modulus_pa = found->modulus_pa;
       if (found->toughness_count > 0) design.measured.toughness_pa = found->toughness_pa;
     }

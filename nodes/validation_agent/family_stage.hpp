@@ -20,7 +20,7 @@ namespace nacre::validation_agent {
 struct StageBeginning {
   int round = 0;                                  ///< that the chosen designs are ordered in
   material::ParameterSet model;                   ///< of the last round
-  std::vector<measurement::Replicates> measured;  ///< patterns measured in both tests
+  std::vector<measurement::Replicates> measured;  ///< game::patterns_with_both()
   std::vector<optimize::Performance> benchmark;
   std::vector<pattern::Pattern> settled;  ///< not worth choosing again
   sysid::NumericsFloor floor;

@@ -56,6 +56,7 @@ std::vector<wire::SimulateRequest> FarmQuestions::ask(const FarmBatch& batch) {
           place.items.push_back(items[index]);
           request.designs.push_back(measured[each.items[items[index]]].design);
         }
+        request = wire::with_content_id(std::move(request));
         open_.emplace(request.request_id, std::move(place));
         requests.push_back(std::move(request));
       }

@@ -25,7 +25,7 @@ struct FarmBatch {
 class FarmQuestions {
  public:
   /// SIMULATE requests for the batch: items of one evaluation that share test conditions go together, at most 64 a
-  /// request. Request ids are `validation_agent/LABEL/EVALUATION/PART`.
+  /// request. Request ids are `validation_agent/LABEL/EVALUATION/PART#HASH` (wire::with_content_id).
   std::vector<wire::SimulateRequest> ask(const FarmBatch& batch);
 
   /// Takes a SIMULATED. Returns whether the batch is complete with it.

@@ -4,7 +4,10 @@
 #include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/random.hpp"
+#include "game/standings.hpp"
 #include "pattern/random_pattern.hpp"
 
 namespace nacre::validation_agent {
@@ -13,6 +16,18 @@ namespace {
 std::vector<pattern::Pattern> draw_random_patterns(const game::Scenario& scenario) {
   RandomStream random(scenario.seed, "stratified random patterns");
   return pattern::stratified_patterns(scenario.validation.random_patterns, random);
+}
+
+/// Whether the design itself is among the orders, not only a twin turned or pulled faster.
+bool hold(const std::vector<game::Order>& orders, const pattern::Design& design) {
+  return std::ranges::any_of(
+      orders, [&](const game::Order& order) { return order.design == design && game::is_standard(order.conditions); });
+}
+
+/// What was tested, or is to be.
+std::string question(const pattern::Design& design, tester::TestKind test, const tester::TestConditions& conditions) {
+  return fmt::format("{}, {} test at {} degrees, {} /s, {} mm", design.name(), tester::to_string(test),
+                     conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm);
 }
 
 }  // namespace
@@ -43,7 +58,7 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
     if (experiments.empty()) experiments = game::rotated_twins(random_patterns_, scenario_.validation.replicates);
   }
   add(orders_for(approved_of(designs)));
-  add(take_own(designs));
+  add(take_own(designs, orders));
   std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
   if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
   return place(std::move(orders));
@@ -53,15 +68,17 @@ std::vector<game::Order> OrderDesk::open_family_round(int round, std::vector<pat
   round_ = decided_under_ = round;
   is_family_round_ = true;
   std::vector<game::Order> orders = orders_for(approved_of(designs));
-  std::ranges::move(take_own(designs), std::back_inserter(orders));
+  std::ranges::move(take_own(designs, orders), std::back_inserter(orders));
   return place(std::move(orders));
 }
 
-/// Orders of what persons added since the last round was measured. A design that is proposed, too, needs no second one.
-std::vector<game::Order> OrderDesk::take_own(const std::vector<pattern::Design>& proposed) {
+/// Orders of what persons added since the last round was measured. A design that is proposed, or ordered by what opens
+/// the round, needs no second one.
+std::vector<game::Order> OrderDesk::take_own(const std::vector<pattern::Design>& proposed,
+                                             const std::vector<game::Order>& opened) {
   std::vector<game::Order> orders;
   for (const pattern::Design& each : std::exchange(own_, {})) {
-    if (std::find(proposed.begin(), proposed.end(), each) != proposed.end()) continue;
+    if (std::ranges::count(proposed, each) > 0 || hold(opened, each)) continue;
     std::ranges::move(game::person_orders(scenario_, round_, each), std::back_inserter(orders));
   }
   return orders;
@@ -104,11 +121,8 @@ Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pat
 }
 
 Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& design, bool now) {
-  const bool ordered = std::any_of(orders_.begin(), orders_.end(), [&](const game::Order& order) {
-    return order.design == design && game::answers(order.conditions, {});
-  });
   const bool queued = std::find(own_.begin(), own_.end(), design) != own_.end();
-  if (ordered || queued) return fail("{} is ordered already", design.name());
+  if (hold(orders_, design) || queued) return fail("{} is ordered already", design.name());
   if (std::find(waiting_.begin(), waiting_.end(), design) != waiting_.end())
     return fail("{} is proposed and waits for a plain yes", design.name());
   if (now) return place(game::person_orders(scenario_, round_, design));
@@ -125,6 +139,17 @@ std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) cons
     count.first += progress[order].complete;
   }
   return count;
+}
+
+std::optional<std::string> OrderDesk::against_label(const measurement::SpecimenRecord& specimen,
+                                                    const std::string& order_id) const {
+  const auto order = std::ranges::find(orders_, order_id, &game::Order::id);
+  if (order == orders_.end() || game::answers(specimen, *order)) return std::nullopt;
+  return fmt::format(
+      "specimen {} does not answer order {}, which it names ({}): it is {}, and counts as one that nobody "
+      "ordered; are labels swapped?",
+      specimen.specimen, order_id, question(order->design, order->test, order->conditions),
+      question(specimen.design, specimen.test, specimen.conditions));
 }
 
 std::set<pattern::Pattern> OrderDesk::settled_patterns() const {

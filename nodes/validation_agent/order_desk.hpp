@@ -57,12 +57,18 @@ class OrderDesk {
   /// Orders of the open round that are complete, and how many there are.
   std::pair<int, int> completed(const game::MeasurementBook& book) const;
 
+  /// Why a specimen does not count for the order whose id it carries, as a sentence; nothing where it does, and where
+  /// the desk has no such order.
+  std::optional<std::string> against_label(const measurement::SpecimenRecord& specimen,
+                                           const std::string& order_id) const;
+
   /// Patterns ordered or to be ordered whatever happens, and those that a person refused: not worth proposing again.
   std::set<pattern::Pattern> settled_patterns() const;
 
  private:
   std::vector<game::Order> place(std::vector<game::Order> orders);
-  std::vector<game::Order> take_own(const std::vector<pattern::Design>& proposed);
+  std::vector<game::Order> take_own(const std::vector<pattern::Design>& proposed,
+                                    const std::vector<game::Order>& opened);
   std::vector<pattern::Design> approved_of(const std::vector<pattern::Design>& designs);
   std::vector<game::Order> orders_for(std::span<const pattern::Design> designs) const;
   bool refused(const pattern::Design& design) const;

@@ -139,6 +139,8 @@ void ValidationCore::accept_measurement(const std::string& payload) {
   } else {
     say(LogLevel::warning, fmt::format("{}: not valid ({}), not used", what, record.note));
   }
+  if (auto mislabelled = desk_.against_label(record, measured->order_id))
+    say(LogLevel::warning, *std::move(mislabelled));
   if (phase_ == Phase::measuring) measure_on();
 }
 

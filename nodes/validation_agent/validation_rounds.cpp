@@ -127,7 +127,7 @@ void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predi
     std::map<std::string, sysid::Prediction> adopted;
     for (std::size_t i = 0; i < held_out_set_.size(); ++i) adopted.emplace(held_out_set_[i].design.name(), shown[i]);
     adopted.merge(trial_->adopted);
-    trial_->errors.add(round_, calibration_set_, adopted, trial_->foretold);
+    trial_->errors.add(round_, game::under_standard_conditions(calibration_set_), adopted, trial_->foretold);
   }
   extending_ = false;
   begin_calibration(model_);

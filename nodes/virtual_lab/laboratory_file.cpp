@@ -22,7 +22,7 @@ constexpr std::size_t kMostEffects = 2;
 InputError fault_at(std::string_view source, const toml::node& node, std::string_view key,
                     const std::string& expected) {
   const std::string value = node.is_value() ? " = " + shown(node) : "";
-  return InputError::format("{}: line {}, {}{}: expected {}", source, node.source().begin.line, key, value, expected);
+  return InputError::format("{}: {}{}: expected {}", place(source, node), key, value, expected);
 }
 
 /// A table of which every key must be asked for, so that unknown ones are found.
@@ -187,8 +187,8 @@ std::string constants_toml(std::string_view table, std::span<const std::string_v
 
 }  // namespace
 
-Truth parse_laboratory(std::string_view text, std::string_view source, std::uint64_t seed) try {
-  const toml::table document = toml::parse(text, source);
+Truth parse_laboratory(std::string_view text, std::string_view source, std::uint64_t seed) {
+  const toml::table document = read_toml(text, source);
   Section top(document, source, "");
   Truth truth;
   truth.seed = static_cast<std::uint64_t>(top.integer("seed", 0, INT64_MAX, static_cast<std::int64_t>(seed)));
@@ -211,9 +211,6 @@ Truth parse_laboratory(std::string_view text, std::string_view source, std::uint
                      material::to_vector(draw_toughness_parameters(truth.seed))));
   top.refuse_others();
   return truth;
-} catch (const toml::parse_error& error) {
-  throw InputError::format("{}: line {}, column {}: {}", source, error.source().begin.line, error.source().begin.column,
-                           error.description());
 }
 
 Truth read_laboratory(const std::filesystem::path& path, std::uint64_t seed) {

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "../instrumented.hpp"
 #include "base/files.hpp"
+#include "base/statistics.hpp"
 #include "families/dense_sampling.hpp"
 #include "families/grouping.hpp"
+#include "game/standings.hpp"
 #include "in_process_game.hpp"
 #include "pattern/constraints.hpp"
 #include "stand_ins.hpp"
@@ -88,6 +92,50 @@ TEST(FamilyStage, ChosenDesignsAreFeasibleVariantsMeasuredAndPredictedByBothMode
     EXPECT_FALSE(seeds.empty());
     EXPECT_EQ(chosen, 2) << family.name;
     EXPECT_EQ(family.samples, 40);
+  }
+}
+
+/// A laboratory that also pulls a twin of every specimen ten times as slowly, and reports it first.
+class CuriousLaboratory : public runtime::NodeCore {
+ public:
+  runtime::Outputs step(const runtime::Input& input) override {
+    runtime::Outputs outputs = twins_->step(input);
+    for (runtime::Message& message : usual_->step(input).messages) outputs.messages.push_back(std::move(message));
+    return outputs;
+  }
+  runtime::Status status() const override { return {}; }
+
+ private:
+  static void pull_slowly(wire::Measurement& measured) {
+    measured.order_id.clear();
+    measured.record.specimen += "-slow";
+    measured.record.conditions.strain_rate_per_s *= 0.1;
+    for (auto* value : {&measured.record.modulus_pa, &measured.record.toughness_pa})
+      if (*value) **value *= 0.5;
+  }
+  std::unique_ptr<runtime::NodeCore> usual_ = make_laboratory();
+  std::unique_ptr<runtime::NodeCore> twins_ = make_laboratory({.hidden = {}, .spoil = pull_slowly});
+};
+
+TEST(FamilyStage, WhatWasMeasuredOfADesignIsNotWhatItsTwinAtAnotherRateShowed) {
+  const game::Scenario scenario = with_families();
+  InProcessGame game;
+  add_players(game, scenario);
+  game.add("virtual_lab", std::make_unique<CuriousLaboratory>());
+  game.announce(scenario);
+  game.play();
+  std::vector<measurement::SpecimenRecord> specimens;
+  for (const auto& measured : game.said<wire::Measurement>("MEASUREMENT")) specimens.push_back(measured.record);
+  const auto values = game::measured_values(specimens);
+  ASSERT_FALSE(validated(game).empty());
+  for (const wire::Family& family : validated(game)) {
+    for (const game::FamilyDesign& design : family.designs) {
+      const std::string name = design.pattern.key() + (design.is_seed ? ", a seed" : ", chosen");
+      ASSERT_TRUE(design.measured.modulus_pa && design.measured.toughness_pa) << name;
+      const game::MeasuredValues& own = values.at(design.pattern);
+      EXPECT_NEAR(*design.measured.modulus_pa / mean(own.modulus_pa), 1.0, 1e-9) << name;
+      EXPECT_NEAR(*design.measured.toughness_pa / mean(own.toughness_pa), 1.0, 1e-9) << name;
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "film/film_file.hpp"
 #include "simulator_farm/gpu_executor.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "wire/schema.hpp"
@@ -32,6 +33,41 @@ runtime::Compute question(const std::string& design, bool modulus) {
   request.designs = {pattern::design_from_name(design).value()};
   return {request.request_id, "simulate", wire::write(request)};
 }
+
+/// A fracture test whose crack, or film too, is asked for.
+runtime::Compute crack_question(const std::string& design, bool film) {
+  runtime::Compute compute = question(design, false);
+  auto request = wire::read<wire::SimulateRequest>(compute.spec).value();
+  request.crack = true;
+  request.film = film;
+  compute.spec = wire::write(request);
+  return compute;
+}
+
+std::vector<runtime::Compute> both_tests() {
+  std::vector<runtime::Compute> questions;
+  for (const char* design : kDesigns)
+    for (const bool modulus : {true, false}) questions.push_back(question(design, modulus));
+  return questions;
+}
+
+tester::Simulation simulation_of(const std::string& design) {
+  return {pattern::design_from_name(design).value(), material::default_parameters(), {}, tester::Fidelity::tiny};
+}
+
+/// What the device makes of a design: it hinges on no other in the batch. Breaks as they are kept.
+tester::ToughnessResult pulled_by_device(const std::string& design) {
+  gpu::BatchTester batch(gpu::emulated_device(1), 1);
+  batch.add({0, gpu::PreparedTest::of(tester::fracture_test(simulation_of(design))).value()});
+  std::vector<gpu::NumberedResult> over;
+  while (over.empty()) over = batch.turn();
+  tester::ToughnessResult result = over.front().result.value();
+  for (tester::Break& broken : result.breaks) broken.strain = static_cast<float>(broken.strain);
+  return result;
+}
+
+Result<std::unique_ptr<gpu::Device>> emulated(int places) { return gpu::emulated_device(places); }
+Result<std::unique_ptr<gpu::Device>> none(int) { return fail("there is none"); }
 
 /// A device that is lost after some chunks.
 class FailingDevice : public gpu::Device {
@@ -62,17 +98,17 @@ class GpuExecutorTest : public testing::Test {
     cache_ = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   }
 
-  /// Asks for modulus and toughness of every design; answers by the questions' ids.
-  std::map<std::string, Answer> answers(MakeDevice make_device) {
+  /// Answers by the questions' ids.
+  std::map<std::string, Answer> answers(MakeDevice make_device,
+                                        const std::vector<runtime::Compute>& questions = both_tests()) {
     GpuExecutor executor(cache_, {.films = folder_ / "films", .threads = 1, .make_device = std::move(make_device)},
                          [this] {
                            const std::lock_guard lock(mutex_);
                            woken_ = true;
                            changed_.notify_all();
                          });
-    int expected = 0;
-    for (const char* design : kDesigns)
-      for (const bool modulus : {true, false}) executor.start(question(design, modulus)), ++expected;
+    for (const runtime::Compute& compute : questions) executor.start(compute);
+    const int expected = static_cast<int>(questions.size());
     EXPECT_EQ(executor.pending(), expected);
     std::map<std::string, Answer> answers;
     while (static_cast<int>(answers.size()) < expected) {
@@ -101,8 +137,7 @@ class GpuExecutorTest : public testing::Test {
 
 void expect_like_the_processors(const std::map<std::string, Answer>& answers) {
   for (const char* design : kDesigns) {
-    const tester::Simulation simulation{
-        pattern::design_from_name(design).value(), material::default_parameters(), {}, tester::Fidelity::tiny};
+    const tester::Simulation simulation = simulation_of(design);
     EXPECT_DOUBLE_EQ(answers.at(std::string(design) + "/E").design.modulus_pa,
                      tester::test_modulus(simulation)->modulus_pa);
     const Answer& fracture = answers.at(std::string(design) + "/T");
@@ -114,14 +149,12 @@ void expect_like_the_processors(const std::map<std::string, Answer>& answers) {
 }
 
 TEST_F(GpuExecutorTest, FractureTestsGoToTheDeviceAndAllElseToThreads) {
-  expect_like_the_processors(
-      answers([](int places) -> Result<std::unique_ptr<gpu::Device>> { return gpu::emulated_device(places); }));
+  expect_like_the_processors(answers(emulated));
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("fracture tests run on"))));
 }
 
 TEST_F(GpuExecutorTest, WithoutADeviceThreadsDoEverything) {
-  expect_like_the_processors(
-      answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return fail("there is none"); }));
+  expect_like_the_processors(answers(none));
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("there is none"))));
 }
 
@@ -132,12 +165,54 @@ TEST_F(GpuExecutorTest, ADeviceThatIsLostLosesNoQuestion) {
 }
 
 TEST_F(GpuExecutorTest, WhatTheCacheKnowsIsNotPulledAgain) {
-  const auto first =
-      answers([](int places) -> Result<std::unique_ptr<gpu::Device>> { return gpu::emulated_device(places); });
+  const auto first = answers(emulated);
   const auto second =
       answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(0); });
   for (const auto& [id, answer] : first) EXPECT_EQ(second.at(id).design.toughness_pa, answer.design.toughness_pa) << id;
   EXPECT_TRUE(log_.empty()) << "the device was asked for something";
+}
+
+TEST_F(GpuExecutorTest, NumbersCrackAndFilmTellOfTheDevicesFracture) {
+  const auto filmed = answers(emulated, {crack_question(kDesigns[0], true), crack_question(kDesigns[1], true)});
+  for (const char* design : kDesigns) {
+    const tester::ToughnessResult pulled = pulled_by_device(design);
+    const Answer& answer = filmed.at(std::string(design) + "/T");
+    EXPECT_EQ(answer.design.toughness_pa, pulled.toughness_pa) << "also for those who want a film";
+    ASSERT_TRUE(answer.fracture);
+    EXPECT_EQ(answer.fracture->crack.order, pulled.breaks);
+    const auto file =
+        folder_ / "films" / (tester::simulation_key(simulation_of(design), tester::TestKind::toughness) + ".film");
+    // Rounding may have led the processor's specimen another way: then there is no film.
+    ASSERT_EQ(std::filesystem::exists(file), !answer.fracture->film.empty());
+    if (answer.fracture->film.empty()) continue;
+    EXPECT_EQ(answer.fracture->film, file.filename());
+    EXPECT_NEAR(film::read_film(file).toughness_pa, pulled.toughness_pa, 0.01 * pulled.toughness_pa);
+  }
+}
+
+TEST_F(GpuExecutorTest, ACrackAskedForWithoutTheDeviceIsStillThatOfItsNumbers) {
+  answers(emulated);
+  const auto later = answers(none, {crack_question(kDesigns[0], false), crack_question(kDesigns[1], false)});
+  for (const char* design : kDesigns) {
+    const tester::ToughnessResult pulled = pulled_by_device(design);
+    const Answer& answer = later.at(std::string(design) + "/T");
+    EXPECT_EQ(answer.design.toughness_pa, pulled.toughness_pa);
+    ASSERT_TRUE(answer.fracture);
+    EXPECT_EQ(answer.fracture->crack.order, pulled.breaks);
+  }
+}
+
+TEST_F(GpuExecutorTest, ACrackOfNumbersThatThreadsGaveIsOfTheirFractureWithADeviceToo) {
+  answers(none);
+  const auto later = answers(emulated, {crack_question(kDesigns[0], false)});
+  const Answer& answer = later.at(std::string(kDesigns[0]) + "/T");
+  const auto tested = tester::test_toughness(simulation_of(kDesigns[0])).value();
+  EXPECT_EQ(answer.design.toughness_pa, tested.toughness_pa);
+  ASSERT_TRUE(answer.fracture) << answer.design.failure;
+  const auto pulled = pulled_by_device(kDesigns[0]);
+  if (std::abs(pulled.toughness_pa / tested.toughness_pa - 1.0) > 0.01) {
+    EXPECT_EQ(answer.fracture->broken, static_cast<int>(tested.breaks.size())) << "not the device's";
+  }
 }
 
 }  // namespace

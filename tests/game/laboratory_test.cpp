@@ -12,6 +12,7 @@
 #include "in_process_game.hpp"
 #include "pattern/coupons.hpp"
 #include "stand_ins.hpp"
+#include "validation_agent/order_desk.hpp"
 
 namespace nacre::game_test {
 namespace {
@@ -189,6 +190,46 @@ TEST_F(PersonGame, DesignsThatNobodyOrderedJoinTheCalibrationSet) {
   EXPECT_THAT(model.measured, Contains(*pattern::Pattern::from_layout(*unknown.layout())));
 }
 
+TEST_F(PersonGame, SpecimensWithSwappedLabelsCloseNoOrderOfADesignThatNobodyTested) {
+  begin();
+  const auto proposal = game_.said<wire::Proposal>("PROPOSAL").front();
+  const pattern::Design untested = proposal.designs.at(0).design, tested = proposal.designs.at(1).design;
+  std::vector<wire::Measurement> awaited;
+  for (wire::Measurement measured : all_measurements()) {
+    if (measured.record.design == untested && measured.record.test == tester::TestKind::modulus) {
+      awaited.push_back(measured);
+      measured.record.design = tested;
+      measured.record.specimen += "-mislabelled";
+    }
+    report(measured);
+  }
+  ASSERT_THAT(awaited, SizeIs(3));
+  EXPECT_EQ(rounds(), 1u);
+  EXPECT_THAT(game_.complaints_of("validation_agent"), SizeIs(3));
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Each(HasSubstr("does not answer order")));
+  for (const wire::Measurement& measured : awaited) report(measured);
+  EXPECT_EQ(rounds(), 2u);
+}
+
+TEST_F(PersonGame, TwinsAtAnotherRateAreNotHeldAgainstWhatWasForetold) {
+  begin();
+  const auto all = all_measurements();
+  const auto proposal = game_.said<wire::Proposal>("PROPOSAL").front();
+  for (wire::Measurement twin : all) {
+    const auto is_it = [&](const auto& each) { return each.design == twin.record.design; };
+    if (std::ranges::none_of(proposal.designs, is_it)) continue;
+    twin.record.specimen += "-fast";
+    twin.record.conditions.strain_rate_per_s *= 10.0;
+    twin.order_id.clear();
+    twin.round = -1;
+    report(twin);
+  }
+  for (const auto& measured : all) report(measured);
+  ASSERT_EQ(rounds(), 2u);
+  EXPECT_EQ(last_round().held_out.modulus_count, 3);
+  EXPECT_EQ(last_round().held_out.toughness_count, 3);
+}
+
 TEST_F(PersonGame, AMeasurementOfAnotherFidelityIsRefused) {
   begin();
   auto measured = all_measurements().front();
@@ -331,6 +372,22 @@ TEST_F(PersonGame, MeasurementsOfDesignsThatNobodyProposedAreCalibratedOn) {
     return names.size();
   }();
   EXPECT_EQ(last_round().calibration_count, static_cast<int>(layouts) + 1);
+}
+
+TEST(OwnDesigns, WhatOpensTheGameIsNotOrderedOnceMore) {
+  const game::Scenario scenario = small_scenario();
+  validation_agent::OrderDesk desk(scenario);
+  const pattern::Design own = pattern::checkerboard(5);
+  const std::vector<pattern::Design> opening = {pattern::Mixture{1.0}, pattern::Mixture{0.75}};
+  for (const pattern::Design& design : {opening[0], opening[1], own}) ASSERT_TRUE(desk.add_own(design, false));
+  const std::vector<game::Order> orders = desk.open_round(1, {}, {});
+  for (const pattern::Design& design : opening) {
+    EXPECT_EQ(std::ranges::count(orders, design, &game::Order::design), 2) << design.name() << ": each test once";
+  }
+  for (const game::Order& order : orders)
+    EXPECT_EQ(order.reason == game::OrderReason::person, order.design == own) << order.id;
+  EXPECT_EQ(std::ranges::count(orders, own, &game::Order::design), 2);
+  EXPECT_THAT(desk.own(), IsEmpty());
 }
 
 TEST(Approval, TheOrderOfDecisionsDoesNotMatter) {

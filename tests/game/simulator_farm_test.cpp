@@ -3,19 +3,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/files.hpp"
 #include "crack/crack_record.hpp"
 #include "film/film_file.hpp"
 #include "material/parameters.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/question.hpp"
 #include "simulator_farm/simulate_work.hpp"
+#include "simulator_farm/slurm_executor.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::simulator_farm {
@@ -146,6 +153,24 @@ TEST(SimulatorFarm, ARepeatedRequestIsAnsweredAgainAndAChangedOneRefused) {
   EXPECT_THAT(changed.messages, IsEmpty());
   ASSERT_THAT(changed.log, SizeIs(1));
   EXPECT_EQ(changed.log[0].level, runtime::LogLevel::warning);
+}
+
+// Of a requester that lost its journal and takes another course the second time.
+TEST(SimulatorFarm, AnotherQuestionAtTheSamePlaceIsAnsweredUnderItsOwnId) {
+  FarmCore farm;
+  const auto before = wire::with_content_id(request("a/1", {kRigid}));
+  const auto now = wire::with_content_id(request("a/1", {kSoft}));
+  for (const Compute& compute : ask(farm, before).computes) farm.step(done(compute));
+  const Outputs asked = ask(farm, now);
+  EXPECT_THAT(asked.log, IsEmpty());
+  ASSERT_THAT(asked.computes, SizeIs(2));
+  Outputs last;
+  for (const Compute& compute : asked.computes) last = farm.step(done(compute));
+  const auto parts = answers(last);
+  ASSERT_THAT(parts, SizeIs(1));
+  EXPECT_EQ(parts[0].request_id, now.request_id);
+  EXPECT_EQ(parts[0].results.at(0).design, kSoft);
+  EXPECT_EQ(answers(ask(farm, before)).at(0).results.at(0).design, kRigid);
 }
 
 TEST(SimulatorFarm, ACurveIsFetchedWithoutAskingForTheSameSimulationTwice) {
@@ -329,6 +354,145 @@ TEST_F(SimulateWork, AFailedSimulationHasNoFracture) {
       read_answer(work_functions(cache, folder_ / "films").at("simulate")(wire::write(question))).value();
   EXPECT_EQ(answer.design.failure, "J <= 0");
   EXPECT_FALSE(answer.fracture);
+}
+
+/// A cache whose numbers are not this program's: a device rounds otherwise, and cracks hinge on rounding.
+class NumbersFromElsewhere : public SimulateWork {
+ protected:
+  void SetUp() override {
+    SimulateWork::SetUp();
+    cache_ = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
+    tested_ = tester::test_toughness(simulation_).value();
+  }
+  /// The numbers of this program, toughness times `factor`.
+  store::CachedSimulation numbers(double factor) const {
+    store::CachedSimulation numbers = store::kept(Result<tester::ToughnessResult>(tested_));
+    numbers.toughness_pa *= factor;
+    return numbers;
+  }
+  Answer answer(const Extras& extras) const {
+    const auto question = question_of(request("a/1", {kDesign}), kDesign, tester::TestKind::toughness, extras);
+    return read_answer(simulate_work(*cache_, folder_ / "films", wire::write(question))).value();
+  }
+
+  const pattern::Design kDesign = pattern::Pattern(0x577fffe9fffdefULL);
+  const tester::Simulation simulation_ = simulation_of(request("a/1", {kDesign}), kDesign);
+  const std::string key_ = tester::simulation_key(simulation_, tester::TestKind::toughness);
+  std::shared_ptr<store::SimulationCache> cache_;
+  tester::ToughnessResult tested_;
+};
+
+TEST_F(NumbersFromElsewhere, ACrackThatIsNotTheirsIsAFailureWithItsReason) {
+  cache_->insert(key_, numbers(1.5));
+  const Answer cracked = answer({.crack = true});
+  EXPECT_THAT(cracked.design.failure, testing::HasSubstr("crack cannot be told"));
+  EXPECT_FALSE(cracked.fracture);
+  EXPECT_FALSE(cache_->find_breaks(key_)) << "they would be taken for those of the numbers";
+  const Answer plain = answer({});
+  EXPECT_EQ(plain.design.failure, "") << "the numbers are as good as they were";
+  EXPECT_EQ(plain.design.toughness_pa, 1.5 * tested_.toughness_pa);
+}
+
+TEST_F(NumbersFromElsewhere, ACrackIsTheirsWhenOnlyRoundingTellsThemApart) {
+  cache_->insert(key_, numbers(1.001));
+  const Answer cracked = answer({.crack = true});
+  EXPECT_EQ(cracked.design.toughness_pa, 1.001 * tested_.toughness_pa);
+  ASSERT_TRUE(cracked.fracture) << cracked.design.failure;
+  EXPECT_EQ(cracked.fracture->broken, static_cast<int>(tested_.breaks.size()));
+}
+
+TEST_F(NumbersFromElsewhere, AFilmOfOtherNumbersIsNotKept) {
+  keep_answer(*cache_, key_, numbers(1.5), &tested_.breaks);
+  const Answer filmed = answer({.crack = true, .film = true});
+  EXPECT_EQ(filmed.design.toughness_pa, 1.5 * tested_.toughness_pa);
+  ASSERT_TRUE(filmed.fracture);
+  EXPECT_EQ(filmed.fracture->film, "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "films" / (key_ + ".film")));
+}
+
+TEST_F(NumbersFromElsewhere, AFilmOfAnotherCrackIsNotKeptThoughNumbersAgree) {
+  std::vector<tester::Break> some = tested_.breaks;
+  some.resize(some.size() / 2);
+  keep_answer(*cache_, key_, numbers(1.0), &some);
+  const Answer filmed = answer({.film = true});
+  ASSERT_TRUE(filmed.fracture);
+  EXPECT_EQ(filmed.fracture->broken, static_cast<int>(some.size()));
+  EXPECT_EQ(filmed.fracture->film, "");
+}
+
+TEST_F(NumbersFromElsewhere, AFilmIsTheirsWhenOnlyRoundingTellsThemApart) {
+  keep_answer(*cache_, key_, numbers(0.999), &tested_.breaks);
+  const Answer filmed = answer({.film = true});
+  ASSERT_TRUE(filmed.fracture);
+  EXPECT_EQ(filmed.fracture->film, key_ + ".film");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "films" / filmed.fracture->film));
+}
+
+TEST_F(SimulateWork, BreaksStandBesideTheNumbersOfTheirFractureAlone) {
+  store::SimulationCache cache(folder_ / "simulations.db");
+  store::CachedSimulation first, other;
+  first.toughness_pa = other.toughness_pa = 2e5;
+  first.peak_stress_pa = other.peak_stress_pa = 1e7;
+  first.failure_strain = 0.02;
+  other.failure_strain = 0.03;
+  const std::vector<tester::Break> breaks = {{7, 0.015625}}, of_another = {{8, 0.015625}};
+  EXPECT_TRUE(keep_answer(cache, "key", first, nullptr));
+  EXPECT_FALSE(keep_answer(cache, "key", other, &of_another));
+  EXPECT_FALSE(cache.find_breaks("key"));
+  EXPECT_FALSE(keep_answer(cache, "key", first, &breaks));
+  EXPECT_EQ(cache.find_breaks("key"), breaks);
+  EXPECT_EQ(cache.find("key")->failure_strain, first.failure_strain);
+}
+
+/// A cluster that takes every task and forgets it: Slurm's commands as programs that do nothing.
+class ForgetfulSlurm : public SimulateWork {
+ protected:
+  void SetUp() override {
+    SimulateWork::SetUp();
+    std::filesystem::create_directories(folder_ / "bin");
+    for (const char* command : {"sbatch", "squeue"}) {
+      std::ofstream(folder_ / "bin" / command) << "#!/bin/sh\nexit 0\n";
+      std::filesystem::permissions(folder_ / "bin" / command, std::filesystem::perms::owner_all);
+    }
+    path_ = std::getenv("PATH");
+    ::setenv("PATH", ((folder_ / "bin").string() + ":" + path_).c_str(), 1);
+  }
+  void TearDown() override {
+    executor_.reset();
+    ::setenv("PATH", path_.c_str(), 1);
+    SimulateWork::TearDown();
+  }
+  void open_executor() {
+    executor_ = std::make_unique<SlurmExecutor>(std::make_shared<store::SimulationCache>(folder_ / "simulations.db"),
+                                                SlurmSettings{.spool = folder_ / "slurm",
+                                                              .films = folder_ / "films",
+                                                              .program = "no_program",
+                                                              .gather_s = 0.0,
+                                                              .poll_s = 0.05,
+                                                              .patience = {.listing_s = 0.05, .sign_s = 100.0},
+                                                              .most_attempts = 1000},
+                                                [] {});
+  }
+  static bool becomes_true(const std::function<bool()>& condition) {
+    for (int turn = 0; turn < 3000 && !condition(); ++turn) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return condition();
+  }
+
+  std::string path_;
+  std::unique_ptr<SlurmExecutor> executor_;
+};
+
+TEST_F(ForgetfulSlurm, ABatchThatIsGivenOutAgainHasItsFileAgain) {
+  open_executor();
+  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
+  executor_->start({"q", "simulate", wire::write(question)});
+  const Spool spool(folder_ / "slurm");
+  ASSERT_TRUE(becomes_true([&] { return !spool.batches().empty(); }));
+  const std::filesystem::path file = spool.question(spool.batches().front());
+  const std::string bytes = read_file(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(becomes_true([&] { return std::filesystem::exists(file); })) << "its tasks would find nothing to do";
+  EXPECT_EQ(read_file(file), bytes);
 }
 
 }  // namespace

@@ -194,7 +194,7 @@ TEST_F(CommandLine, FilesThatAScenarioNamesAreReadBeforeARunIsMade) {
                                     {"numerics_floor_file = \"broken.toml\"\n", "broken.toml:2"},
                                     {"benchmark_file = \"line.csv\"\n", "line.csv"},
                                     {"base_materials_file = \"line.csv\"\n", "line.csv"},
-                                    {"[laboratory]\nfile = \"broken.toml\"\n", "broken.toml: line 2"}}) {
+                                    {"[laboratory]\nfile = \"broken.toml\"\n", "broken.toml:2"}}) {
     expect_refused(run_nacre({"launch", file("s.toml", lines), "--logs", path("logs")}), {path(name)});
     EXPECT_FALSE(fs::exists(path("logs"))) << lines;
   }

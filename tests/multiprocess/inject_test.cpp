@@ -106,6 +106,34 @@ TEST_F(InjectedGame, InjectSaysWhichNodeHasNotGotTheSpecimensAndASecondTimeBring
   EXPECT_EQ(person_->inject("half_heard_again", part)["repeated"], 1);
 }
 
+TEST_F(InjectedGame, ASpecimenThatReachedTheAnalyserAloneIsNotReplacedUnderItsName) {
+  launch("analyser_alone");
+  person_->wait_for("orders of round 1", [&] { return person_->orders().size() == 2 * 6; });
+  SpecimenRecord specimen = person_->measured_in_laboratory().front();
+  const int agent = person_->game().process_of("validation_agent");
+  ::kill(agent, SIGSTOP);
+  const fs::path set = fresh_folder("analyser_alone_set");
+  measurement::write_measurement_set(set, {specimen});
+  const Outcome outcome = run_nacre({"inject", set.string(), "--run", person_->run().string(), "--timeout-s", "2"});
+  ::kill(agent, SIGKILL);  // with what waited for it to be read
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("validation_agent did not answer"), Not(HasSubstr("analyser did not"))));
+  ASSERT_THAT(measurements_taken(person_->run()), IsEmpty());
+
+  const SpecimenRecord as_it_was = specimen;
+  specimen.batch += "-9";
+  const fs::path corrected = fresh_folder("analyser_alone_corrected");
+  measurement::write_measurement_set(corrected, {specimen});
+  const Outcome second = run_nacre({"inject", corrected.string(), "--run", person_->run().string(), "--json"});
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.err, AllOf(HasSubstr("has reached the analyser alone"), HasSubstr("expected a new name")));
+  EXPECT_THAT(nlohmann::json::parse(second.out)["conflicting"], testing::ElementsAre(specimen.specimen));
+  EXPECT_THAT(measurements_taken(person_->run()), IsEmpty());
+  specimen.specimen += "-corrected";
+  EXPECT_EQ(person_->inject("analyser_alone_renamed", {specimen})["accepted"], 1);
+  EXPECT_EQ(person_->inject("analyser_alone_again", {as_it_was})["accepted"], 1) << "new to the validation agent";
+}
+
 /// Specimens of a design in one test, by position.
 std::vector<std::size_t> places_of(const std::vector<SpecimenRecord>& specimens, const pattern::Design& design,
                                    TestKind test) {

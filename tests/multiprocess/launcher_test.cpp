@@ -12,6 +12,7 @@
 
 #include "base/files.hpp"
 #include "program_test.hpp"
+#include "runtime/run_folder.hpp"
 
 namespace nacre {
 namespace {
@@ -140,6 +141,28 @@ TEST_F(Launcher, RecorderThatDiesTooOftenDoesNotEndTheGame) {
   EXPECT_THAT(said, Not(HasSubstr("a node has failed")));
 }
 
+TEST_F(Launcher, ARecorderThatCannotBeginIsCalledSo) {
+  ASSERT_EQ(run_nacre(arguments()).status, 0);
+  fs::remove(run() / "run.lcm");
+  fs::create_directory(run() / "run.lcm");
+  const Outcome resumed = run_nacre(arguments({"--resume", run().string()}));
+  EXPECT_EQ(resumed.status, 1);
+  EXPECT_THAT(resumed.out, AllOf(HasSubstr("recorder cannot work"), HasSubstr("the recorder has failed for good"),
+                                 Not(HasSubstr("a node has failed"))));
+}
+
+TEST_F(Launcher, NodesThatAPersonStopsHaveNotFailed) {
+  misbehave("validation_agent:endless");
+  std::string said;
+  const auto process = start();
+  ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
+  for (const int node : processes_with("--run-dir " + run().string())) ::kill(node, SIGINT);
+  const runtime::ProcessEnd end = wait_for_end(*process, said, 30.0);
+  EXPECT_EQ(end.exit_status, 1) << end.in_words() << said;
+  EXPECT_THAT(said, AllOf(HasSubstr("analyser stopped (exit status 0)"), HasSubstr("were all stopped by somebody"),
+                          Not(HasSubstr("has failed"))));
+}
+
 TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsHeard) {
   ::setenv("NACRE_FAULTS", "seed=1,duplicate=1", 1);
   const Outcome outcome = run_nacre(arguments());
@@ -226,6 +249,19 @@ TEST_F(Launcher, PortInUseIsRefusedBeforeAnythingIsMade) {
   wait_for_end(*process, said, 20.0);
 }
 
+TEST_F(Launcher, AGuestWhosePortIsInUseIsNotToldToTakeAnother) {
+  ASSERT_EQ(run_nacre(arguments()).status, 0);
+  std::string text = read_file(run() / "scenario.toml");
+  const std::string local = "hosts = \"local\"";
+  ASSERT_NE(text.find(local), std::string::npos) << text;
+  write_file_atomically(run() / "scenario.toml", text.replace(text.find(local), local.size(), "hosts = \"lan\""));
+  const runtime::PortReservation taken(runtime::read_manifest(run()).port);
+  const Outcome guest = run_nacre(arguments({"--resume", run().string(), "--only", "simulator_farm"}));
+  EXPECT_EQ(guest.status, 2);
+  EXPECT_THAT(guest.err, AllOf(HasSubstr("is in use on this machine, and a guest (--only) cannot take another"),
+                               Not(HasSubstr("--port 0"))));
+}
+
 TEST_F(Launcher, ProgramsThatAreMissingAreSaidBeforeAnythingIsMade) {
   fs::remove(folder_ / "bin" / "nacre_analyser");
   const Outcome outcome = run_nacre(arguments());
@@ -277,6 +313,55 @@ TEST_F(Launcher, FinishedRunIsResumedAndEndsAtOnce) {
   const Outcome resumed = run_nacre(arguments({"--resume", run().string()}));
   EXPECT_EQ(resumed.status, 0) << resumed.out << resumed.err;
   EXPECT_THAT(resumed.out, HasSubstr("the game is over"));
+}
+
+/// launch/game, called from another folder than its project's, with a program that says where and how it was called.
+class OneCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    const fs::path folder = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
+    project_ = folder / "project";
+    caller_ = folder / "caller";
+    for (const fs::path& each : {project_ / "launch", project_ / "build/bin", caller_}) fs::create_directories(each);
+    fs::copy(fs::path(NACRE_SOURCE_DIR) / "launch/game", project_ / "launch/game");
+    std::ofstream(project_ / "launch/setup.sh")
+        << "give_up() { echo \"$*\"; exit 2; }\nsay() { :; }\ninstall_packages() { :; }\nbuild() { :; }\nbuild_page() "
+           "{ :; }\n";
+    std::ofstream(project_ / "launch/demo.toml");
+    const fs::path nacre = project_ / "build/bin/nacre";
+    std::ofstream(nacre) << "#!/bin/sh\npwd\nfor word in \"$@\"; do echo \"$word\"; done\n";
+    fs::permissions(nacre, fs::perms::owner_all);
+  }
+  /// What the program said, its words in a line each.
+  std::string called(const std::vector<std::string>& words) const {
+    std::vector<std::string> command = {"/bin/sh", "-c", "cd \"$0\" && exec \"$@\"", caller_.string(),
+                                        (project_ / "launch/game").string()};
+    command.insert(command.end(), words.begin(), words.end());
+    runtime::ChildProcess process(command);
+    std::string said;
+    wait_for_end(process, said, 20.0);
+    return said;
+  }
+  std::string begun(const std::string& words) const { return caller_.string() + "\nlaunch\n" + words; }
+  std::string in_project(const std::string& file) const { return (project_ / file).string() + "\n"; }
+
+  fs::path project_, caller_;
+};
+
+TEST_F(OneCommand, PlaysTheDemonstrationAndKeepsRunsInTheProject) {
+  const std::string logs = "--logs\n" + in_project("logs");
+  EXPECT_EQ(called({}), begun(in_project("launch/demo.toml") + logs));
+  EXPECT_EQ(called({"--seed", "2"}), begun(in_project("launch/demo.toml") + logs + "--seed\n2\n"));
+  std::ofstream(caller_ / "mine.toml");
+  EXPECT_EQ(called({"mine.toml", "--seed", "2"}), begun("mine.toml\n" + logs + "--seed\n2\n"));
+  EXPECT_THAT(called({"nobodys.toml"}), HasSubstr("nobodys.toml: no such scenario"));
+}
+
+TEST_F(OneCommand, GoesOnWithARunAndTakesPathsAsTheCallerMeansThem) {
+  EXPECT_EQ(called({"--resume", "kept/RUN"}), begun("--resume\nkept/RUN\n"));
+  EXPECT_EQ(called({"--resume=kept/RUN"}), begun("--resume=kept/RUN\n"));
+  EXPECT_EQ(called({"--logs", "kept"}), begun(in_project("launch/demo.toml") + "--logs\nkept\n"));
+  EXPECT_EQ(called({"--logs=kept"}), begun(in_project("launch/demo.toml") + "--logs=kept\n"));
 }
 
 }  // namespace

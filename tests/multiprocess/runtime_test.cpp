@@ -23,8 +23,10 @@
 #include "processes.hpp"
 #include "runtime/endpoint.hpp"
 #include "runtime/journal.hpp"
+#include "runtime/node_shell.hpp"
 #include "runtime/recorder.hpp"
 #include "runtime/replay.hpp"
+#include "runtime/work_pool.hpp"
 #include "wire/channels.hpp"
 #include "wire/convert.hpp"
 
@@ -395,6 +397,31 @@ TEST(Shell, ASecondProcessOfTheSameNodeIsRefused) {
   Process second(game.command("simulator_farm"), folder.path() / "err");
   EXPECT_EQ(second.wait(5), 2);
   EXPECT_THAT(read_file(folder.path() / "err"), HasSubstr("another process"));
+}
+
+TEST(Shell, ASecondProcessIsRefusedBeforeItHasAnExecutor) {
+  const TemporaryFolder folder;
+  runtime::NodeOptions options;
+  options.node = "simulator_farm";
+  options.run_dir = folder.path();
+  options.url = runtime::bus_url(test::test_port());
+  options.follow_parent = false;
+  options.participants = echo::kParticipants;
+  const auto first = runtime::Journal::open(options.node_dir(), 1);
+  const auto mark = folder.path() / "an executor was made";
+  const pid_t second = ::fork();
+  if (second == 0) {
+    const runtime::MakeExecutor make = [&](std::function<void()> wake) {
+      std::ofstream(mark) << "perhaps with files that the first process works on";
+      return std::make_unique<runtime::WorkPool>(echo::echo_functions(), 1, std::move(wake));
+    };
+    ::_exit(runtime::run_node(options, echo::make_core(options.node), {}, make));
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(second, &status, 0), second);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_FALSE(std::filesystem::exists(mark));
 }
 
 TEST(Shell, WithoutAMulticastRouteTheRemedyIsNamed) {

@@ -1,8 +1,11 @@
 // The farm on a Slurm cluster: a loopback one, started for the test. Whatever happens to tasks, controller, node and
-// farm, every question is answered as threads of this machine answer it, to the last bit.
+// farm, every question is answered as threads of this machine answer it, to the last bit. And programs of nodes that
+// need no cluster: what a second one, started by mistake, leaves alone.
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -13,6 +16,7 @@
 #include "material/parameters.hpp"
 #include "played_game.hpp"
 #include "program_test.hpp"
+#include "runtime/journal.hpp"
 #include "short_game.hpp"
 #include "simulator_farm/question.hpp"
 #include "simulator_farm/simulate_work.hpp"
@@ -298,6 +302,80 @@ TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
     EXPECT_FALSE(said[executor].empty());
   }
   EXPECT_THAT(differences(said["threads"], said["slurm"]), IsEmpty());
+}
+
+/// A node's program in the run of a test, where `sbatch` is installed and takes nothing.
+class NodeProgramTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    run_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::ofstream(run_ / "scenario.toml") << short_game("node", 1);
+    fs::create_directories(run_ / "bin");
+    std::ofstream(run_ / "bin" / "sbatch") << "#!/bin/sh\nexit 0\n";
+    fs::permissions(run_ / "bin" / "sbatch", fs::perms::owner_all);
+  }
+  test::Process start(const std::string& node, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> command = {"env",
+                                        fmt::format("PATH={}:{}", (run_ / "bin").string(), std::getenv("PATH")),
+                                        program("nacre_" + node),
+                                        "--run-dir",
+                                        run_.string(),
+                                        "--port",
+                                        std::to_string(test::test_port())};
+    command.insert(command.end(), options.begin(), options.end());
+    return test::Process(command, run_ / "errors");
+  }
+  /// As a node's process that runs holds it.
+  std::unique_ptr<runtime::Journal> lock(const std::string& node) const {
+    return runtime::Journal::open(run_ / "nodes" / node, 1);
+  }
+  std::string errors() const { return fs::exists(run_ / "errors") ? read_file(run_ / "errors") : ""; }
+
+  fs::path run_;
+};
+
+TEST_F(NodeProgramTest, ASecondFarmIsRefusedBeforeItTouchesWhatTheFirstGaveOut) {
+  const auto first = lock("simulator_farm");
+  const simulator_farm::Spool spool(run_ / "slurm");
+  const std::string name(32, '0');
+  spool.put(name, "a batch that the second program could not read");
+  std::ofstream(spool.result(std::string(32, '1'))) << "a result that the second program did not ask for";
+  test::Process second = start("simulator_farm", {"--executor", "slurm"});
+  EXPECT_EQ(second.wait(20.0), 2);
+  EXPECT_THAT(errors(), HasSubstr("another process"));
+  EXPECT_TRUE(fs::exists(spool.question(name)));
+  EXPECT_TRUE(fs::exists(spool.result(std::string(32, '1'))));
+}
+
+TEST_F(NodeProgramTest, ASecondAnalyserIsRefusedBeforeItMakesTheDatabaseAnew) {
+  const auto first = lock("analyser");
+  test::Process second = start("analyser");
+  EXPECT_EQ(second.wait(20.0), 2);
+  EXPECT_THAT(errors(), HasSubstr("another process"));
+  EXPECT_FALSE(fs::exists(run_ / "run.db")) << "made anew: the first one's journal has begun";
+}
+
+TEST_F(NodeProgramTest, AnAnalyserThatStartsForTheFirstTimeMakesNothingAnew) {
+  test::Process analyser = start("analyser");
+  EXPECT_TRUE(becomes_true([&] { return errors().find("listens") != std::string::npos; }, 20.0)) << errors();
+  EXPECT_TRUE(fs::exists(run_ / "run.db"));
+  EXPECT_THAT(errors(), Not(HasSubstr("made anew")));
+}
+
+TEST_F(NodeProgramTest, AFarmBesideADeviceHasTheThreadsThatItIsGiven) {
+  const auto threads_of = [&](int threads) {
+    test::Process farm = start("simulator_farm", {"--executor", "cuda", "--threads", std::to_string(threads), "--cache",
+                                                  (run_ / fmt::format("{}.db", threads)).string()});
+    EXPECT_TRUE(becomes_true([&] { return errors().find("listens") != std::string::npos; }, 20.0)) << errors();
+    // Those of the pool are there from the start; the one that looks for a device may have ended by then.
+    ::usleep(1'000'000);
+    const fs::directory_iterator tasks(fs::path("/proc") / std::to_string(farm.pid()) / "task");
+    const auto count = std::distance(begin(tasks), end(tasks));
+    farm.kill();
+    fs::remove(run_ / "errors");
+    return count;
+  };
+  EXPECT_EQ(threads_of(9) - threads_of(1), 8);
 }
 
 }  // namespace

@@ -234,6 +234,7 @@ test("the family stage waits for a yes to its variants, and the game goes on to 
   await approveAll();
   await page.locator(".standing", { hasText: "finished after round 1" }).waitFor({ timeout: 120_000 });
   assert.equal(await game.ended, 0, game.said);
+  await page.getByRole("link", { name: "report" }).waitFor(); // there was none when the page was opened
   await page.locator("text=Proposed after the last round").waitFor();
   assert.equal(await page.getByRole("button", { name: "Approve" }).count(), 0);
   await view(page, "game");
@@ -342,6 +343,177 @@ test("a family's model that is worse than the global one is called so", async ()
   await finished.close();
 });
 
+test("of a family none of whose variants was measured nothing is claimed", async () => {
+  const finished = await openDashboard(game.folder);
+  const both = (errors) => ({ global: errors, family: errors });
+  const known = { modulus_count: 1, modulus_mean: 0.1, toughness_count: 1, toughness_mean: 0.1 };
+  const unmeasured = (d) => (d.is_seed ? d : { ...d, measured: { modulus_pa: null, toughness_pa: null } });
+  let chosen = null;
+  const on = await visitWith(`${finished.url}#families`, {
+    "/api/families": (said) => ({
+      ...said,
+      stage: said.stage.map((f) => ({
+        ...f,
+        designs: f.designs.map(unmeasured),
+        errors: { seeds: both(known), chosen: both(chosen) },
+        is_validated: true,
+        over_fits: [],
+      })),
+    }),
+  });
+  const cell = (text) => on.locator(".table", { hasText: /on variants/ }).locator("td", { hasText: text });
+  await cell(/^not measured$/).first().waitFor();
+  assert.equal(await cell("does not over-fit").count(), 0);
+  chosen = { ...known, toughness_count: 0 };
+  await on.reload();
+  await cell("does not over-fit E; T not measured").first().waitFor();
+  await on.context().close();
+  await finished.close();
+});
+
+test("a grouping that nobody has kept yet outlives another proposal", async () => {
+  const finished = await openDashboard(game.folder);
+  let name = "first";
+  const on = await visitWith(`${finished.url}#families`, {
+    "/api/live": (said) => ({ ...said, data: name }),
+    "/api/families": (said) => ({
+      ...said,
+      grouping: { ...said.grouping, from: "proposal", families: said.grouping.families.map((f, i) => (i ? f : { ...f, name })) },
+    }),
+  });
+  const shown = on.getByLabel("name of family 1");
+  const showsUp = (text) => until(async () => (await shown.inputValue()) === text, 20, `family 1 is called ${text}`);
+  await shown.waitFor();
+  await showsUp("first");
+  name = "second";
+  await showsUp("second");
+  await shown.fill("mine");
+  name = "third";
+  await on.locator(".notice", { hasText: "The proposal has changed since you began" }).waitFor();
+  assert.equal(await shown.inputValue(), "mine");
+  assert.ok(await on.getByRole("button", { name: "Keep this grouping" }).isEnabled());
+  await on.getByRole("button", { name: "take the new one" }).click();
+  await showsUp("third");
+  assert.equal(await on.locator(".notice", { hasText: "changed since" }).count(), 0);
+  assert.deepEqual(on.troubles, []);
+  await on.context().close();
+  await finished.close();
+});
+
+test("what the server cannot answer is said in its words until it can", async () => {
+  const finished = await openDashboard(game.folder);
+  const views = { laboratory: "/api/laboratory", diagnosis: "/api/diagnosis?*", families: "/api/families", explorer: "/api/maps" };
+  const isSaid = async ([name, path]) => {
+    const on = await visit(finished.url);
+    await on.route(`**${path}`, (route) => route.fulfill({ status: 500, json: { error: "run.db: the disk is full" } }));
+    await view(on, name);
+    await on.locator(".notice.bad", { hasText: "run.db: the disk is full" }).first().waitFor();
+    assert.equal(await on.locator("text=/^reading/").count(), 0, name);
+    await on.unroute(`**${path}`);
+    await on.locator(".notice.bad").first().waitFor({ state: "detached" });
+    await on.locator(".panel h2, .panel h3").first().waitFor();
+    await on.context().close();
+  };
+  await Promise.all(Object.entries(views).map(isSaid));
+  await finished.close();
+});
+
+test("a verdict stands under its own round alone", async () => {
+  const finished = await openDashboard(game.folder);
+  const on = await visitWith(`${finished.url}#diagnosis`, {
+    "/api/rounds": (said) => ({ ...said, rounds: said.rounds.map((r) => ({ ...r, verdict: "named" })) }),
+  });
+  let answer;
+  const mayAnswer = new Promise((resolve) => (answer = resolve));
+  const refusal = { status: 500, json: { error: "run.db is being read" } };
+  await on.route("**/api/diagnosis?round=0", (route) => mayAnswer.then(() => route.fulfill(refusal)));
+  const verdict = on.locator(".verdict");
+  await verdict.locator("h2").waitFor();
+  await on.getByRole("button", { name: "round 0" }).click();
+  await verdict.locator("text=reading").waitFor();
+  assert.equal(await verdict.locator("h2").count(), 0);
+  answer();
+  await verdict.locator(".notice.bad", { hasText: "run.db is being read" }).waitFor();
+  assert.equal(await verdict.locator("h2").count(), 0);
+  await on.getByRole("button", { name: "round 1" }).click();
+  await verdict.locator("h2").waitFor();
+  assert.equal(await verdict.locator(".notice").count(), 0);
+  await on.context().close();
+  await finished.close();
+});
+
+test("the report is linked once it is there", async () => {
+  const finished = await openDashboard(game.folder);
+  let [report, data, asked] = [false, "before", 0];
+  const on = await visitWith(finished.url, {
+    "/api/live": (said) => ({ ...said, data }),
+    "/api/run": (run) => (++asked, { ...run, report }),
+  });
+  const link = on.getByRole("link", { name: "report" });
+  await on.locator("text=Measured patterns").waitFor();
+  assert.equal(await link.count(), 0);
+  report = true;
+  const before = asked;
+  await on.waitForTimeout(2500);
+  assert.equal(asked, before); // nothing is new in the run
+  data = "after";
+  await link.waitFor();
+  await on.context().close();
+  await finished.close();
+});
+
+test("an open design follows the run's data, and its film goes on", async () => {
+  const finished = await openDashboard(game.folder);
+  let [modulus_pa, data] = [1.797e9, "before"];
+  const pulled = { specimen: "a", round: 1, test: "modulus", orientation_deg: 0, batch: "", toughness_pa: null };
+  const on = await visitWith(finished.url, {
+    "/api/live": (said) => ({ ...said, data }),
+    "/api/design?*": (said) => ({
+      ...said,
+      specimens: [{ ...pulled, modulus_pa, valid: true, note: "", standard: true, curve: null }],
+    }),
+  });
+  await on.locator("table", { hasText: "specimens" }).locator("button.link").first().click();
+  await on.locator(".film canvas").waitFor({ timeout: 40_000 });
+  await on.locator(".facts tr", { hasText: /^measured\s*1\.80/ }).waitFor();
+  await on.evaluate(() => {
+    const body = document.querySelector(".panel.design");
+    body.querySelector(".film canvas").dataset.seen = "yes";
+    new MutationObserver(() => {
+      if (/measured\s*–/.test(body.querySelector(".facts").innerText)) body.dataset.emptied = "yes";
+    }).observe(body, { childList: true, characterData: true, subtree: true });
+  });
+  [modulus_pa, data] = [2.5e9, "after"];
+  await on.locator(".facts tr", { hasText: /^measured\s*2\.50/ }).waitFor();
+  assert.equal(await on.locator(".film canvas").getAttribute("data-seen"), "yes");
+  assert.equal(await on.locator(".panel.design").getAttribute("data-emptied"), null);
+  assert.deepEqual(on.troubles, []);
+  await on.context().close();
+  await finished.close();
+});
+
+test("a round that has just begun hides neither the newest proposals nor the newest model", async () => {
+  const finished = await openDashboard(game.folder);
+  const begun = { summary: null, gamut_count: 0, measured_front: [], benchmark: [], proposals: [], parameters: {}, verdict: null };
+  const on = await visitWith(finished.url, {
+    "/api/rounds": (said) => ({ ...said, rounds: [...said.rounds, { round: 2, ...begun }] }),
+  });
+  const modelAsked = async (act) => {
+    const [asked] = await Promise.all([on.waitForRequest("**/api/simulation?*"), act()]);
+    return new URL(asked.url()).searchParams.get("model");
+  };
+  await on.locator("h3", { hasText: "Newest proposals" }).waitFor();
+  assert.equal(await modelAsked(() => on.locator(".unit-button").first().click()), "1");
+  await on.locator(".design .eyebrow", { hasText: "proposed in round 1" }).waitFor();
+  await on.locator(".catcher").focus();
+  await pointWithKeys(on);
+  assert.match(await on.locator(".card-tip").innerText(), /measured in round/);
+  assert.equal(await modelAsked(() => on.keyboard.press("Enter")), "1");
+  assert.deepEqual(on.troubles, []);
+  await on.context().close();
+  await finished.close();
+});
+
 test("a mean has the digits of its error, and only specimens of the usual conditions in it", async () => {
   const finished = await openDashboard(game.folder);
   const pulled = { specimen: "a", round: 1, orientation_deg: 0, batch: "", valid: true, note: "", curve: null };
@@ -387,6 +559,13 @@ test("the explorer breaks what lies between patterns", async () => {
   await explorer.keyboard.press("ArrowRight");
   await until(async () => (await handleAt()) > edge, 20, "a key leads back from the edge of the map");
   await explorer.locator(".toggle", { hasText: /^E$/ }).click();
+  await explorer.locator(".panel-head select").selectOption("gamut/0");
+  await explorer.locator("text=Nothing chosen yet").waitFor();
+  await map.waitFor({ timeout: 60_000 });
+  assert.equal(await map.getAttribute("data-blend"), "");
+  await map.focus();
+  await explorer.keyboard.press("ArrowRight");
+  await until(async () => /^[0-9a-f]{14}$/.test(await map.getAttribute("data-blend")), 20, "the other map is gone about");
   assert.deepEqual(explorer.troubles, []);
   await explorer.context().close();
   await finished.close();

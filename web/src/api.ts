@@ -360,6 +360,13 @@ export class Refusal extends Error {
   }
 }
 
+/** Why there is no answer, as a sentence for the page. */
+export function problemOf(error: unknown): string {
+  if (error instanceof Refusal) return error.message;
+  // What fetch throws; anything else comes from reading what did arrive.
+  return error instanceof TypeError ? "the server does not answer" : "the server's answer cannot be read";
+}
+
 const TOO_LARGE = "This is too large to hand in: at most 4 MiB at a time, curve included.";
 
 /** What a refusal says: a sentence of the server, or its text where that is not JSON. */
@@ -378,16 +385,18 @@ async function answer(response: Response): Promise<Response> {
   throw new Refusal(response.status, reason || response.statusText || `the server answered ${response.status}`);
 }
 
-function address(path: string, query: Record<string, string | number>): string {
+export type Query = Record<string, string | number>;
+
+export function address(path: string, query: Query): string {
   const parameters = new URLSearchParams(Object.entries(query).map(([name, value]) => [name, String(value)]));
   return parameters.size > 0 ? `${path}?${parameters}` : path;
 }
 
-export async function get<T>(path: string, query: Record<string, string | number> = {}): Promise<T> {
+export async function get<T>(path: string, query: Query = {}): Promise<T> {
   return (await answer(await fetch(address(path, query)))).json();
 }
 
-export async function getBytes(path: string, query: Record<string, string | number> = {}): Promise<ArrayBuffer> {
+export async function getBytes(path: string, query: Query = {}): Promise<ArrayBuffer> {
   return (await answer(await fetch(address(path, query)))).arrayBuffer();
 }
 

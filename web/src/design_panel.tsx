@@ -2,18 +2,21 @@
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
-import { get, getBytes, post, Refusal, type Design, type Proposed, type Simulation } from "./api";
+import { address, get, getBytes, post, problemOf, type Design, type Query, type Round, type Simulation } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
 import { duration, figure, gpa, GPA, MPA, mpa, percent } from "./numbers";
-import { Name, saveUnit, Unit, UnitButton } from "./parts";
+import { Name, Problem, saveUnit, Unit, UnitButton } from "./parts";
+import { useReading } from "./reading";
 
-/** What was pointed at. `model`: the round, or the family, whose model is to break it. */
+/** What was pointed at. `model`: the round, or the family, whose model is to break it; `map`: of `nacre families`, which
+ * may have another model of that family than the game. */
 export interface Chosen {
   design: string;
   model: number | string;
+  map?: string;
   modulus: number;
   toughness: number;
   of: string;
@@ -24,18 +27,19 @@ const WAIT_MS = 500;
 type FilmState = { film?: Film; simulation?: Simulation; problem?: string };
 
 /** The film of a design: from the run, or simulated now. */
-export function useFilm(design: string | null, model: number | string): FilmState {
+export function useFilm({ design, model, map }: Pick<Chosen, "design" | "model" | "map">): FilmState {
   const [state, setState] = useState<FilmState>({});
   useEffect(() => {
     setState({});
-    if (!design) return;
     let dropped = false;
     let timer = 0;
-    const look = async (ask: boolean) => {
-      const query = { design, model: String(model) };
+    const look = async () => {
+      const wish = { design, model: String(model) };
+      const origin: Query = map ? { map } : {};
+      const query = { ...wish, ...origin };
       try {
         let simulation = await get<Simulation>("/api/simulation", query);
-        if (simulation.state === "absent" && ask) simulation = await post<Simulation>("/api/simulate", query);
+        if (simulation.state === "absent") simulation = await post<Simulation>(address("/api/simulate", origin), wish);
         if (dropped) return;
         if (simulation.state === "ready") {
           const film = await readFilm(await getBytes("/api/film", query));
@@ -44,18 +48,18 @@ export function useFilm(design: string | null, model: number | string): FilmStat
           setState({ simulation, problem: simulation.problem });
         } else {
           setState({ simulation });
-          timer = window.setTimeout(() => look(false), WAIT_MS);
+          timer = window.setTimeout(look, WAIT_MS);
         }
       } catch (error) {
-        if (!dropped) setState({ problem: error instanceof Refusal ? error.message : "the server does not answer" });
+        if (!dropped) setState({ problem: problemOf(error) });
       }
     };
-    void look(true);
+    void look();
     return () => {
       dropped = true;
       clearTimeout(timer);
     };
-  }, [design, model]);
+  }, [design, model, map]);
   return state;
 }
 
@@ -222,20 +226,11 @@ export function FilmWait({ state }: { state: FilmState }) {
   );
 }
 
-export function DesignBody({ chosen }: { chosen: Chosen }) {
-  const [design, setDesign] = useState<Design | null>(null);
+/** A chosen design; what the run knows of it is read again whenever its `data` change. */
+export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | null }) {
+  const { value: design, problem } = useReading<Design>("/api/design", { design: chosen.design }, data);
   const [frame, setFrame] = useState(0);
-  const state = useFilm(chosen.design, chosen.model);
-  useEffect(() => {
-    let dropped = false;
-    setDesign(null);
-    get<Design>("/api/design", { design: chosen.design })
-      .then((d) => !dropped && setDesign(d))
-      .catch(() => undefined);
-    return () => {
-      dropped = true;
-    };
-  }, [chosen.design]);
+  const state = useFilm(chosen);
   return (
     <>
       <div class="design-head">
@@ -251,6 +246,7 @@ export function DesignBody({ chosen }: { chosen: Chosen }) {
           <Facts chosen={chosen} design={design} state={state} />
         </div>
       </div>
+      <Problem text={problem} />
       {design?.proposals.map((p) => (
         <p key={p.round} class="reason">
           Proposed in round {p.round}: {p.reason} (E {figure(p.modulus_pa * GPA)} GPa, T {figure(p.toughness_pa * MPA)}{" "}
@@ -272,33 +268,33 @@ export function DesignBody({ chosen }: { chosen: Chosen }) {
 }
 
 /** The design that was chosen; `children` stand there until one is. */
-export function DesignPanel({ chosen, children }: { chosen: Chosen | null; children: ComponentChildren }) {
+export function DesignPanel({
+  chosen,
+  data,
+  children,
+}: {
+  chosen: Chosen | null;
+  data: string | null;
+  children: ComponentChildren;
+}) {
   return (
     <section class="panel design" aria-label="design">
       <div class="panel-head">
         <h2>Design</h2>
       </div>
-      {chosen ? <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} /> : children}
+      {chosen ? <DesignBody key={`${chosen.design}@${chosen.map ?? chosen.model}`} chosen={chosen} data={data} /> : children}
     </section>
   );
 }
 
-/** What may be chosen before anything is: the newest proposals. */
-export function NewestProposals({
-  newestModel,
-  choose,
-  proposals,
-}: {
-  newestModel: number;
-  choose: (c: Chosen) => void;
-  proposals: Proposed[];
-}) {
+/** What may be chosen before anything is: what a round proposed. */
+export function NewestProposals({ round, choose }: { round: Round | null; choose: (c: Chosen) => void }) {
   return (
     <>
       <p class="quiet">Point at the gamut to see a pattern; click, or press Enter, to see it break.</p>
-      {proposals.length > 0 && <h3>Newest proposals</h3>}
+      {round && <h3>Newest proposals</h3>}
       <ul class="units">
-        {proposals.map((p) => (
+        {round?.proposals.map((p) => (
           <li key={p.design}>
             <UnitButton
               design={p.design}
@@ -306,10 +302,10 @@ export function NewestProposals({
               choose={() =>
                 choose({
                   design: p.design,
-                  model: newestModel,
+                  model: round.round,
                   modulus: p.modulus_pa,
                   toughness: p.toughness_pa,
-                  of: `proposed in round ${newestModel}`,
+                  of: `proposed in round ${round.round}`,
                 })
               }
             />

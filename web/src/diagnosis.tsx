@@ -1,9 +1,11 @@
 // What the simulation gets wrong, and why: the analyser's word, round by round.
 
-import { useEffect, useState } from "preact/hooks";
-import { get, type Candidate, type Diagnosis as Word, type Effect, type Experiment, type Rounds } from "./api";
+import type { ComponentChildren } from "preact";
+import { useState } from "preact/hooks";
+import type { Candidate, Diagnosis as Word, Effect, Experiment, Rounds } from "./api";
 import { figure, percent, words } from "./numbers";
-import { Name, Table, Unit } from "./parts";
+import { Name, Problem, Table, Unit } from "./parts";
+import { useReading } from "./reading";
 import { saveCsv } from "./save";
 
 const VERDICTS: Record<string, string> = {
@@ -86,144 +88,163 @@ function saveWord(word: Word): void {
   saveCsv(`diagnosis-${word.round}`, ["what", "value", "low90", "high90", "unit"], rows);
 }
 
+/** What the analyser found, with the size of every effect and what it gained. */
+function Verdict({ word }: { word: Word }) {
+  return (
+    <>
+      <h2>{VERDICTS[word.verdict] ?? words(word.verdict)}</h2>
+      <p>{word.summary}</p>
+      {word.against && <p class="doubt">{word.against}</p>}
+      {word.effects.map((e) => (
+        <div key={e.name} class="effect">
+          <div>
+            <strong>{words(e.name)}</strong>
+            {e.family && <span class="quiet"> · {e.family}</span>}
+            <p class="quiet">{e.explanation}</p>
+          </div>
+          <div>
+            <Interval effect={e} />
+            <p>
+              {figure(e.parameter)} ({figure(e.interval90[0])} to {figure(e.interval90[1])}) {e.unit}
+            </p>
+          </div>
+        </div>
+      ))}
+      {word.gain && <Gain gain={word.gain} />}
+      {(word.effects.length > 0 || word.gain) && (
+        <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveWord(word)}>
+          CSV
+        </button>
+      )}
+    </>
+  );
+}
+
+function NextTests({ word }: { word: Word }) {
+  return (
+    <section class="panel">
+      <Table
+        name={`next-tests-${word.round}`}
+        caption="Tests that would settle what is open"
+        rows={word.next_experiments}
+        rowKey={(e: Experiment) => JSON.stringify(e)}
+        empty="None is asked for."
+        columns={[
+          {
+            heading: "design",
+            words: true,
+            show: (e) => (
+              <span class="with-unit">
+                <Unit design={e.design} size={34} label={false} />
+                <Name design={e.design} />
+              </span>
+            ),
+            value: (e) => e.design,
+          },
+          {
+            heading: "test",
+            words: true,
+            show: (e) => `${e.test}${e.orientation_deg ? ", turned" : ""}`,
+            value: (e) => e.test,
+          },
+          { heading: "orientation_deg", value: (e) => e.orientation_deg },
+          { heading: "strain_rate_per_s", value: (e) => e.strain_rate_per_s },
+          { heading: "thickness_mm", value: (e) => e.thickness_mm },
+          { heading: "loading", value: (e) => e.loading },
+          { heading: "replicates", show: (e) => e.replicates, value: (e) => e.replicates },
+          { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
+        ]}
+      />
+    </section>
+  );
+}
+
+function Candidates({ word }: { word: Word }) {
+  return (
+    <section class="panel">
+      <Table
+        name={`candidates-${word.round}`}
+        caption="Every effect that was weighed"
+        rows={[...word.candidates].sort((a, b) => b.statistic - a.statistic)}
+        rowKey={(c: Candidate) => c.name}
+        empty="No effect was weighed."
+        columns={[
+          {
+            heading: "effect",
+            words: true,
+            show: (c) => (
+              <span title={c.explanation}>
+                {words(c.name)}
+                <span class="quiet"> {c.family}</span>
+              </span>
+            ),
+            value: (c) => c.name,
+          },
+          {
+            heading: "status",
+            words: true,
+            show: (c) => (
+              <span class={`chip ${c.status === "in_set" ? "pending" : ""}`}>{STATUS[c.status] ?? c.status}</span>
+            ),
+            value: (c) => c.status,
+          },
+          {
+            heading: "drop of χ²",
+            csv: "statistic",
+            show: (c) => weighed(c, figure(c.statistic)),
+            value: (c) => c.statistic,
+          },
+          {
+            heading: "p, family-wise",
+            csv: "p_family_wise",
+            show: (c) => weighed(c, figure(c.p_family_wise, 2)),
+            value: (c) => c.p_family_wise,
+          },
+          {
+            heading: "absorbed by the base",
+            csv: "absorption",
+            show: (c) => weighed(c, percent(c.absorption, 0)),
+            value: (c) => c.absorption,
+          },
+        ]}
+      />
+    </section>
+  );
+}
+
+/** The word on one round; while another round is read, nothing of the one before. */
+function WordOn({ round, rounds, tabs }: { round: number; rounds: Rounds; tabs: ComponentChildren }) {
+  const { value: word, problem } = useReading<Word>("/api/diagnosis", { round }, rounds);
+  return (
+    <>
+      <section class={`panel verdict ${word?.verdict ?? ""}`}>
+        <div class="panel-head">
+          <p class="eyebrow">diagnosis</p>
+          {tabs}
+        </div>
+        <Problem text={problem} />
+        {word ? <Verdict word={word} /> : !problem && <p class="awaited">reading …</p>}
+      </section>
+      {word && <NextTests word={word} />}
+      {word && <Candidates word={word} />}
+    </>
+  );
+}
+
 export function Diagnosis({ rounds }: { rounds: Rounds }) {
   const diagnosed = rounds.rounds.filter((r) => r.verdict).map((r) => r.round);
   const [picked, setPicked] = useState<number | null>(null);
-  const round = picked ?? diagnosed.at(-1) ?? null;
-  const [word, setWord] = useState<Word | null>(null);
-  useEffect(() => {
-    let dropped = false;
-    if (round !== null)
-      get<Word>("/api/diagnosis", { round })
-        .then((w) => !dropped && setWord(w))
-        .catch(() => undefined);
-    return () => {
-      dropped = true;
-    };
-  }, [round, rounds]);
-  if (round === null)
+  const round = picked ?? diagnosed.at(-1);
+  if (round === undefined)
     return <p class="awaited wait">No diagnosis yet: the first one follows the first measurements of proposals.</p>;
-  if (!word) return <p class="awaited wait">reading …</p>;
-  return (
-    <>
-      <section class={`panel verdict ${word.verdict}`}>
-        <div class="panel-head">
-          <p class="eyebrow">diagnosis</p>
-          <div class="tabs small" role="group" aria-label="round">
-            {diagnosed.map((r) => (
-              <button type="button" key={r} aria-pressed={r === round} onClick={() => setPicked(r)}>
-                round {r}
-              </button>
-            ))}
-          </div>
-        </div>
-        <h2>{VERDICTS[word.verdict] ?? words(word.verdict)}</h2>
-        <p>{word.summary}</p>
-        {word.against && <p class="doubt">{word.against}</p>}
-        {word.effects.map((e) => (
-          <div key={e.name} class="effect">
-            <div>
-              <strong>{words(e.name)}</strong>
-              {e.family && <span class="quiet"> · {e.family}</span>}
-              <p class="quiet">{e.explanation}</p>
-            </div>
-            <div>
-              <Interval effect={e} />
-              <p>
-                {figure(e.parameter)} ({figure(e.interval90[0])} to {figure(e.interval90[1])}) {e.unit}
-              </p>
-            </div>
-          </div>
-        ))}
-        {word.gain && <Gain gain={word.gain} />}
-        {(word.effects.length > 0 || word.gain) && (
-          <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveWord(word)}>
-            CSV
-          </button>
-        )}
-      </section>
-      <section class="panel">
-        <Table
-          name={`next-tests-${round}`}
-          caption="Tests that would settle what is open"
-          rows={word.next_experiments}
-          rowKey={(e: Experiment) => JSON.stringify(e)}
-          empty="None is asked for."
-          columns={[
-            {
-              heading: "design",
-              words: true,
-              show: (e) => (
-                <span class="with-unit">
-                  <Unit design={e.design} size={34} label={false} />
-                  <Name design={e.design} />
-                </span>
-              ),
-              value: (e) => e.design,
-            },
-            {
-              heading: "test",
-              words: true,
-              show: (e) => `${e.test}${e.orientation_deg ? ", turned" : ""}`,
-              value: (e) => e.test,
-            },
-            { heading: "orientation_deg", value: (e) => e.orientation_deg },
-            { heading: "strain_rate_per_s", value: (e) => e.strain_rate_per_s },
-            { heading: "thickness_mm", value: (e) => e.thickness_mm },
-            { heading: "loading", value: (e) => e.loading },
-            { heading: "replicates", show: (e) => e.replicates, value: (e) => e.replicates },
-            { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
-          ]}
-        />
-      </section>
-      <section class="panel">
-        <Table
-          name={`candidates-${round}`}
-          caption="Every effect that was weighed"
-          rows={[...word.candidates].sort((a, b) => b.statistic - a.statistic)}
-          rowKey={(c: Candidate) => c.name}
-          empty="No effect was weighed."
-          columns={[
-            {
-              heading: "effect",
-              words: true,
-              show: (c) => (
-                <span title={c.explanation}>
-                  {words(c.name)}
-                  <span class="quiet"> {c.family}</span>
-                </span>
-              ),
-              value: (c) => c.name,
-            },
-            {
-              heading: "status",
-              words: true,
-              show: (c) => (
-                <span class={`chip ${c.status === "in_set" ? "pending" : ""}`}>{STATUS[c.status] ?? c.status}</span>
-              ),
-              value: (c) => c.status,
-            },
-            {
-              heading: "drop of χ²",
-              csv: "statistic",
-              show: (c) => weighed(c, figure(c.statistic)),
-              value: (c) => c.statistic,
-            },
-            {
-              heading: "p, family-wise",
-              csv: "p_family_wise",
-              show: (c) => weighed(c, figure(c.p_family_wise, 2)),
-              value: (c) => c.p_family_wise,
-            },
-            {
-              heading: "absorbed by the base",
-              csv: "absorption",
-              show: (c) => weighed(c, percent(c.absorption, 0)),
-              value: (c) => c.absorption,
-            },
-          ]}
-        />
-      </section>
-    </>
+  const tabs = (
+    <div class="tabs small" role="group" aria-label="round">
+      {diagnosed.map((r) => (
+        <button type="button" key={r} aria-pressed={r === round} onClick={() => setPicked(r)}>
+          round {r}
+        </button>
+      ))}
+    </div>
   );
+  return <WordOn round={round} rounds={rounds} tabs={tabs} />;
 }

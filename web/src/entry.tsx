@@ -97,7 +97,8 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
     const wrong = faultIn(form);
     setFault(wrong);
     if (wrong || !(await handIn("/api/measurement", rowOf(form), `${form.specimen} is in the game.`))) return;
-    setForm({ ...form, specimen: "", value: "", note: "", valid: true, curve_csv: "" });
+    // What was filled in meanwhile stays.
+    setForm((now) => ({ ...now, specimen: "", value: "", note: "", valid: true, curve_csv: "" }));
     setFileName("");
     setHandedIn(handedIn + 1);
   };

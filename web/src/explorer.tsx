@@ -1,32 +1,43 @@
 // Maps of patterns: likeness as nearness, colour as modulus or toughness. A click breaks a pattern, a drag goes between patterns.
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { get, Refusal, type Between, type Maps, type Mechanism, type PatternMap, type Rounds } from "./api";
+import { get, problemOf, type Between, type Maps, type Mechanism, type PatternMap, type Rounds } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { scaleColour, themeColour } from "./colour";
 import { DesignBody, type Chosen } from "./design_panel";
-import { newestModel } from "./game";
 import { figure, GPA, MPA, percent } from "./numbers";
-import { Table, Unit } from "./parts";
+import { Awaited, Problem, Table, Unit } from "./parts";
 import { ARROWS, CardTip, placeIn, useDrawn } from "./point_chart";
+import { AGAIN_MS, useReading } from "./reading";
 
 type Coloured = "toughness" | "modulus";
 type Point = [number, number];
 const REACH = 14;
 const STEP = 0.02; // of the map's width, per press of an arrow key
 const SETTLED_MS = 120;
+const LOOK_MS = 400;
 
-/** A place on the map between patterns, and the pattern that is there. */
-interface Blend {
+/** A place on a map. */
+interface Place {
   x: number;
   y: number;
+}
+
+/** Where a place lies between patterns: corners by their index in the map. */
+interface Mix extends Place {
   corners: number[];
   weights: number[];
+}
+
+/** The pattern at a place of a map; null: not known yet, or for the reason in `problem`. */
+interface Blend extends Mix {
+  map: PatternMap;
   between: Between | null;
+  problem: string;
 }
 
 /** The triangle that holds a point, with the point's weights; the nearest pattern alone outside all triangles. */
-function blendAt(map: PatternMap, x: number, y: number): Omit<Blend, "between"> {
+function blendAt(map: PatternMap, x: number, y: number): Mix {
   for (const corners of map.triangles) {
     const [a, b, c] = corners;
     const area = (map.x[b] - map.x[a]) * (map.y[c] - map.y[a]) - (map.x[c] - map.x[a]) * (map.y[b] - map.y[a]);
@@ -62,32 +73,31 @@ function withinMap(map: PatternMap, place: Point): Point {
     .reduce((best, each) => (distance(each) < distance(best) ? each : best));
 }
 
-/** A map, asked for until it is there. */
-function useMap(id: string | null): { map: PatternMap | null; progress: number | null; problem: string } {
-  const [state, setState] = useState<{ map: PatternMap | null; progress: number | null; problem: string }>({
-    map: null,
-    progress: null,
-    problem: "",
-  });
+interface MapState {
+  map: PatternMap | null;
+  progress: number | null;
+  problem: string;
+}
+
+/** A map, asked for until it is there. Of another map nothing is known at first. */
+function useMap(id: string): MapState {
+  const nothing: MapState & { id: string } = { id, map: null, progress: null, problem: "" };
+  const [state, setState] = useState(nothing);
   useEffect(() => {
-    setState({ map: null, progress: null, problem: "" });
-    if (!id) return;
     let dropped = false;
     let timer = 0;
     const look = async () => {
+      const next = { ...nothing };
       try {
-        const answer = await get<{ state: string; map?: PatternMap; progress?: number | null }>("/api/map", { id });
-        if (dropped) return;
-        setState({ map: answer.map ?? null, progress: answer.progress ?? null, problem: "" });
-        if (!answer.map) timer = window.setTimeout(look, 400);
+        const answer = await get<{ map?: PatternMap; progress?: number | null }>("/api/map", { id });
+        next.map = answer.map ?? null;
+        next.progress = answer.progress ?? null;
       } catch (error) {
-        if (!dropped)
-          setState({
-            map: null,
-            progress: null,
-            problem: error instanceof Refusal ? error.message : "the server does not answer",
-          });
+        next.problem = problemOf(error);
       }
+      if (dropped) return;
+      setState(next);
+      if (!next.map) timer = window.setTimeout(look, next.problem ? AGAIN_MS : LOOK_MS);
     };
     void look();
     return () => {
@@ -95,31 +105,32 @@ function useMap(id: string | null): { map: PatternMap | null; progress: number |
       clearTimeout(timer);
     };
   }, [id]);
-  return state;
+  return state.id === id ? state : nothing;
 }
 
-/** The pattern at a blend, asked for once the pointer rests. */
-function useBetween(map: PatternMap | null, place: { x: number; y: number } | null): Blend | null {
+/** The pattern at a place, asked for once the pointer rests. */
+function useBetween(map: PatternMap | null, place: Place | null): Blend | null {
   const [blend, setBlend] = useState<Blend | null>(null);
   useEffect(() => {
     if (!map || !place) return setBlend(null);
-    const found = blendAt(map, place.x, place.y);
-    setBlend((before) => ({ ...found, between: before?.between ?? null }));
+    const found = { ...blendAt(map, place.x, place.y), map };
+    setBlend((before) => ({ ...found, between: before?.map === map ? before.between : null, problem: "" }));
     let dropped = false;
     const timer = setTimeout(() => {
       get<Between>("/api/between", {
         patterns: found.corners.map((i) => map.pattern[i]).join(),
         weights: found.weights.map((w) => w.toFixed(4)).join(),
       })
-        .then((between) => !dropped && setBlend({ ...found, between }))
-        .catch(() => undefined);
+        .then((between) => !dropped && setBlend({ ...found, between, problem: "" }))
+        .catch((error) => !dropped && setBlend({ ...found, between: null, problem: problemOf(error) }));
     }, SETTLED_MS);
     return () => {
       dropped = true;
       clearTimeout(timer);
     };
   }, [map, place]);
-  return blend;
+  // The corners of a blend are of its own map: on another one they are other patterns, or none.
+  return place && blend?.map === map ? blend : null;
 }
 
 function MapChart({
@@ -133,8 +144,8 @@ function MapChart({
 }: {
   map: PatternMap;
   coloured: Coloured;
-  place: { x: number; y: number } | null;
-  setPlace: (p: { x: number; y: number }) => void;
+  place: Place | null;
+  setPlace: (p: Place) => void;
   blend: Blend | null;
   open: (design: string, index: number | null) => void;
   theme: string;
@@ -307,42 +318,178 @@ function Scale({ coloured, low, high }: { coloured: Coloured; low: number; high:
   );
 }
 
-export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
-  const [maps, setMaps] = useState<Maps | null>(null);
-  const [picked, setPicked] = useState<string | null>(null);
-  const [coloured, setColoured] = useState<Coloured>("toughness");
-  const [place, setPlace] = useState<{ x: number; y: number } | null>(null);
-  const [chosen, setChosen] = useState<Chosen | null>(null);
+/** Which map, and what its colour shows. */
+function Choices({
+  maps,
+  id,
+  pick,
+  coloured,
+  setColoured,
+}: {
+  maps: Maps;
+  id: string;
+  pick: (id: string) => void;
+  coloured: Coloured;
+  setColoured: (c: Coloured) => void;
+}) {
+  return (
+    <div class="toggles">
+      <label>
+        map{" "}
+        <select value={id} onChange={(e) => pick(e.currentTarget.value)}>
+          {maps.families
+            .flatMap((f) => f.map_ids)
+            .map((each) => (
+              <option key={each} value={each}>
+                {each.replace("/", ", around ")}
+              </option>
+            ))}
+          {maps.gamuts.map((each) => (
+            <option key={each} value={each}>
+              best patterns of gamut {each.split("/")[1]}
+            </option>
+          ))}
+        </select>
+      </label>
+      <fieldset>
+        <legend>colour</legend>
+        {(["toughness", "modulus"] as const).map((c) => (
+          <label key={c} class="toggle">
+            <input type="radio" name="colour" checked={coloured === c} onChange={() => setColoured(c)} />
+            <span>{c === "modulus" ? "E" : "T"}</span>
+          </label>
+        ))}
+      </fieldset>
+    </div>
+  );
+}
+
+function MapWait({ progress }: { progress: number | null }) {
+  return (
+    <div class="waiting tall" role="status">
+      <span class="spinner" aria-hidden="true" />
+      measuring the distances between patterns {progress !== null && percent(progress, 0)}
+    </div>
+  );
+}
+
+/** Patterns around a place, and what lies between them. */
+function BlendCard({ blend, open }: { blend: Blend; open: (design: string, index: number | null) => void }) {
+  const { map, corners, weights, between, problem } = blend;
+  return (
+    <>
+      <div class="blend">
+        <div class="sources">
+          {corners.map((i, k) => (
+            <figure key={i}>
+              <Unit design={map.pattern[i]} size={54} />
+              <figcaption>{percent(weights[k], 0)}</figcaption>
+            </figure>
+          ))}
+        </div>
+        <span aria-hidden="true" class="arrow">
+          →
+        </span>
+        {between?.pattern ? (
+          <Unit design={between.pattern} size={96} />
+        ) : (
+          <span class="quiet">{between?.violation ?? (problem ? "?" : "…")}</span>
+        )}
+        <div>
+          {between?.pattern && (
+            <button type="button" onClick={() => open(between.pattern!, null)}>
+              Break it
+            </button>
+          )}
+          {between?.pattern && between.violation && (
+            <p class="quiet">outside the design space: {between.violation}</p>
+          )}
+        </div>
+      </div>
+      <Problem text={problem} />
+    </>
+  );
+}
+
+/** What somebody has come to on one map. */
+interface Visit {
+  id: string;
+  place: Place | null;
+  chosen: Chosen | null;
+}
+
+/** The visit to the map `id`; on another one nothing is chosen yet. */
+function useVisit(id: string): [Visit, (more: Partial<Visit>) => void] {
+  const [kept, setKept] = useState<Visit>({ id, place: null, chosen: null });
+  const of = (visit: Visit) => (visit.id === id ? visit : { id, place: null, chosen: null });
+  return [of(kept), (more) => setKept((before) => ({ ...of(before), ...more }))];
+}
+
+/** Whose model breaks what is chosen. */
+type Whose = Pick<Chosen, "model" | "map">;
+
+/** What a click on a pattern of the map opens. */
+const chosenOn = (map: PatternMap, index: number, whose: Whose): Chosen => ({
+  design: map.pattern[index],
+  ...whose,
+  modulus: map.modulus_pa[index] ?? NaN,
+  toughness: map.toughness_pa[index] ?? NaN,
+  of: map.source[index] === "gamut" ? `gamut of round ${whose.model}` : map.source[index],
+});
+
+const chosenBetween = (design: string, whose: Whose): Chosen => ({
+  design,
+  ...whose,
+  modulus: NaN,
+  toughness: NaN,
+  of: "between patterns of the map",
+});
+
+export function Explorer({ rounds, data, theme }: { rounds: Rounds; data: string | null; theme: string }) {
   const known = rounds.rounds.map((r) => `${r.round}:${r.gamut_count}`).join();
-  useEffect(() => {
-    get<Maps>("/api/maps")
-      .then(setMaps)
-      .catch(() => undefined);
-  }, [known]);
-  const id = picked ?? maps?.families[0]?.map_ids[0] ?? maps?.gamuts.at(-1) ?? null;
+  const { value: maps, problem } = useReading<Maps>("/api/maps", {}, known);
+  const [picked, setPicked] = useState<string | null>(null);
+  if (!maps) return <Awaited problem={problem} />;
+  const ids = [...maps.families.flatMap((f) => f.map_ids), ...maps.gamuts];
+  const newest = maps.families[0]?.map_ids[0] ?? maps.gamuts.at(-1);
+  const id = picked && ids.includes(picked) ? picked : newest;
+  if (!id) return <p class="awaited wait">No gamut yet: the map of its best patterns appears here.</p>;
+  return (
+    <>
+      <Problem text={problem} />
+      <MapView maps={maps} id={id} pick={setPicked} data={data} theme={theme} />
+    </>
+  );
+}
+
+function MapView({
+  maps,
+  id,
+  pick,
+  data,
+  theme,
+}: {
+  maps: Maps;
+  id: string;
+  pick: (id: string) => void;
+  data: string | null;
+  theme: string;
+}) {
+  const [coloured, setColoured] = useState<Coloured>("toughness");
+  const [{ place, chosen }, setVisit] = useVisit(id);
   const { map, progress, problem } = useMap(id);
   const blend = useBetween(map, place);
-  const family = id && !id.startsWith("gamut/") ? id.split("/")[0] : null;
-  const model = family ?? (id ? Number(id.split("/")[1]) : newestModel(rounds));
-  useEffect(() => {
-    setPlace(null);
-    setChosen(null);
-  }, [id]);
-  if (!maps) return <p class="awaited wait">reading …</p>;
-  if (!id) return <p class="awaited wait">No gamut yet: the map of its best patterns appears here.</p>;
+  const [of, which] = id.split("/");
+  const family = of === "gamut" ? null : of;
+  const whose: Whose = family ? { model: family, map: id } : { model: Number(which) };
+  // Whoever has begun to look around stays on the map when the gamut of another round comes.
+  const visit = (more: Partial<Visit>) => {
+    pick(id);
+    setVisit(more);
+  };
   const open = (design: string, index: number | null) =>
-    setChosen({
-      design,
-      model,
-      modulus: index === null ? NaN : (map!.modulus_pa[index] ?? NaN),
-      toughness: index === null ? NaN : (map!.toughness_pa[index] ?? NaN),
-      of:
-        index === null
-          ? "between patterns of the map"
-          : map!.source[index] === "gamut"
-            ? `gamut of round ${model}`
-            : map!.source[index],
-    });
+    visit({ chosen: map && index !== null ? chosenOn(map, index, whose) : chosenBetween(design, whose) });
+  const isBetween = blend !== null && blend.corners.length > 1;
   const mechanisms = maps.families.find((f) => f.name === family)?.mechanisms ?? [];
   return (
     <>
@@ -350,56 +497,26 @@ export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
         <section class="panel gamut">
           <div class="panel-head">
             <h2>Explorer</h2>
-            <div class="toggles">
-              <label>
-                map{" "}
-                <select value={id} onChange={(e) => setPicked(e.currentTarget.value)}>
-                  {maps.families
-                    .flatMap((f) => f.map_ids)
-                    .map((each) => (
-                      <option key={each} value={each}>
-                        {each.replace("/", ", around ")}
-                      </option>
-                    ))}
-                  {maps.gamuts.map((each) => (
-                    <option key={each} value={each}>
-                      best patterns of gamut {each.split("/")[1]}
-                    </option>
-                  ))}
-                </select>
-              </label>
-              <fieldset>
-                <legend>colour</legend>
-                {(["toughness", "modulus"] as const).map((c) => (
-                  <label key={c} class="toggle">
-                    <input type="radio" name="colour" checked={coloured === c} onChange={() => setColoured(c)} />
-                    <span>{c === "modulus" ? "E" : "T"}</span>
-                  </label>
-                ))}
-              </fieldset>
-            </div>
+            <Choices maps={maps} id={id} pick={pick} coloured={coloured} setColoured={setColoured} />
           </div>
           <p class="quiet">
             Patterns that resemble each other lie near each other (earth mover's distance, Isomap). Click one to break
             it; drag across the map to go between patterns, and break what you find.
           </p>
-          {problem ? (
-            <p class="notice bad">{problem}</p>
-          ) : !map ? (
-            <div class="waiting tall" role="status">
-              <span class="spinner" aria-hidden="true" />
-              measuring the distances between patterns {progress !== null && percent(progress, 0)}
-            </div>
-          ) : (
+          <Problem text={problem} />
+          {map ? (
             <MapChart
+              key={id}
               map={map}
               coloured={coloured}
               place={place}
-              setPlace={setPlace}
+              setPlace={(to) => visit({ place: to })}
               blend={blend}
               open={open}
               theme={theme}
             />
+          ) : (
+            !problem && <MapWait progress={progress} />
           )}
           {map && (
             <p class="quiet">
@@ -411,40 +528,11 @@ export function Explorer({ rounds, theme }: { rounds: Rounds; theme: string }) {
         </section>
         <section class="panel design" aria-label="design">
           <div class="panel-head">
-            <h2>{blend && blend.corners.length > 1 ? "Between" : "Design"}</h2>
+            <h2>{isBetween ? "Between" : "Design"}</h2>
           </div>
-          {blend && blend.corners.length > 1 && (
-            <div class="blend">
-              <div class="sources">
-                {blend.corners.map((i, k) => (
-                  <figure key={i}>
-                    <Unit design={map!.pattern[i]} size={54} />
-                    <figcaption>{percent(blend.weights[k], 0)}</figcaption>
-                  </figure>
-                ))}
-              </div>
-              <span aria-hidden="true" class="arrow">
-                →
-              </span>
-              {blend.between?.pattern ? (
-                <Unit design={blend.between.pattern} size={96} />
-              ) : (
-                <span class="quiet">{blend.between?.violation ?? "…"}</span>
-              )}
-              <div>
-                {blend.between?.pattern && (
-                  <button type="button" onClick={() => open(blend.between!.pattern!, null)}>
-                    Break it
-                  </button>
-                )}
-                {blend.between?.pattern && blend.between.violation && (
-                  <p class="quiet">outside the design space: {blend.between.violation}</p>
-                )}
-              </div>
-            </div>
-          )}
+          {isBetween && <BlendCard blend={blend} open={open} />}
           {chosen ? (
-            <DesignBody key={`${chosen.design}@${chosen.model}`} chosen={chosen} />
+            <DesignBody key={`${chosen.design}@${chosen.map ?? chosen.model}`} chosen={chosen} data={data} />
           ) : (
             !blend && <p class="quiet">Nothing chosen yet.</p>
           )}

@@ -1,17 +1,18 @@
 // The families of a run: near-Pareto designs in groups, the variants of each by its own model, and whether that model was worth it.
 
-import { useEffect, useMemo, useState } from "preact/hooks";
-import { get, type Errors, type Families as Said, type Family, type FamilyDesign, type Maps, type Rounds } from "./api";
+import { useMemo, useState } from "preact/hooks";
+import type { Errors, Families as Said, Family, FamilyDesign, Maps, Rounds } from "./api";
 import type { Option } from "./chart";
 import { themeColour } from "./colour";
 import { DesignPanel, type Chosen } from "./design_panel";
 import { MechanismTable } from "./explorer";
 import { Grouping } from "./family_grouping";
-import { newestModel } from "./game";
-import { keyAt, loadGamut, type Gamut } from "./gamut";
+import { keyAt, type Gamut } from "./gamut";
 import { figure, gpa, GPA, MPA, mpa, percent } from "./numbers";
-import { Table, Unit, UnitButton } from "./parts";
+import { Awaited, Problem, Table, Unit, UnitButton } from "./parts";
 import { cloudSeries, PointChart, type Spot } from "./point_chart";
+import { useGamuts, useReading } from "./reading";
+import { newestModel } from "./rounds";
 
 const THESIS_GROWTH = 0.045; // Table A.7, the mean of eleven subfamilies
 const COLOURS = 6;
@@ -26,37 +27,6 @@ interface Shown {
   seeds: string[];
   stage: Family | null;
   gamut: Gamut | null;
-}
-
-/** What the server says of the families, again whenever the run's data change. */
-function useFamilies(data: string | null): { said: Said | null; maps: Maps | null; refresh: () => Promise<void> } {
-  const [said, setSaid] = useState<Said | null>(null);
-  const [maps, setMaps] = useState<Maps | null>(null);
-  const refresh = async () => {
-    setSaid(await get<Said>("/api/families"));
-    setMaps(await get<Maps>("/api/maps"));
-  };
-  useEffect(() => void refresh().catch(() => undefined), [data]);
-  return { said, maps, refresh };
-}
-
-/** The variants of every family of the stage. */
-function useVariants(stage: Family[]): Map<string, Gamut> {
-  const [variants, setVariants] = useState(new Map<string, Gamut>());
-  const known = stage.map((f) => `${f.name}:${f.gamut_count}`).join();
-  useEffect(() => {
-    let dropped = false;
-    const loads = stage
-      .filter((f) => f.gamut_count > 0)
-      .map(async (f) => [f.name, await loadGamut({ family: f.name })] as const);
-    Promise.all(loads)
-      .then((loaded) => !dropped && setVariants(new Map(loaded)))
-      .catch(() => undefined);
-    return () => {
-      dropped = true;
-    };
-  }, [known]);
-  return variants;
 }
 
 const isKnown = (v: { modulus_pa: number | null; toughness_pa: number | null }) =>
@@ -183,7 +153,26 @@ function faultsOf(f: Family): string {
     .join("; ");
 }
 
-const standingOf = (f: Family) => faultsOf(f) || (f.is_validated ? "does not over-fit" : "awaits its measurements");
+/** What keeps the models of a family from being compared in a property, as the report has it; empty: nothing. */
+function missingFor(f: Family, kind: Kind): string {
+  const { seeds, chosen } = f.errors;
+  const errors = [seeds.global, seeds.family, chosen.global, chosen.family];
+  if (errors.every((e) => meanError(e, kind) !== null)) return "";
+  const isMeasured = (isSeed: boolean) =>
+    f.designs.some((d) => d.is_seed === isSeed && d.measured[`${kind}_pa`] !== null);
+  return isMeasured(true) && isMeasured(false) ? "not simulated" : "not measured";
+}
+
+/** Whether a family's own model may be trusted. Where all its variants were rejected, nobody knows. */
+function standingOf(f: Family): { text: string; kind: "bad" | "quiet" | "" } {
+  const faults = faultsOf(f);
+  if (faults) return { text: faults, kind: "bad" };
+  if (!f.is_validated) return { text: "awaits its measurements", kind: "quiet" };
+  const [inE, inT] = [missingFor(f, "modulus"), missingFor(f, "toughness")];
+  if (inE === inT) return { text: inE || "does not over-fit", kind: inE ? "quiet" : "" };
+  const of = (kind: string, missing: string) => (missing ? `${kind} ${missing}` : `does not over-fit ${kind}`);
+  return { text: `${of("E", inE)}; ${of("T", inT)}`, kind: "quiet" };
+}
 
 function ErrorTable({ families, which }: { families: Family[]; which: "seeds" | "chosen" }) {
   const column = (heading: string, model: "global" | "family", kind: Kind) => ({
@@ -196,13 +185,11 @@ function ErrorTable({ families, which }: { families: Family[]; which: "seeds" | 
     heading: "own model",
     csv: "own_model",
     words: true,
-    show: (f: Family) =>
-      faultsOf(f) ? (
-        <strong class="bad">{faultsOf(f)}</strong>
-      ) : (
-        <span class={f.is_validated ? "" : "quiet"}>{standingOf(f)}</span>
-      ),
-    value: standingOf,
+    show: (f: Family) => {
+      const { text, kind } = standingOf(f);
+      return kind === "bad" ? <strong class="bad">{text}</strong> : <span class={kind}>{text}</span>;
+    },
+    value: (f: Family) => standingOf(f).text,
   };
   return (
     <Table
@@ -374,8 +361,11 @@ export function Families({
   theme: string;
   run: string;
 }) {
-  const { said, maps, refresh } = useFamilies(data);
-  const gamuts = useVariants(said?.stage ?? []);
+  const families = useReading<Said>("/api/families", {}, data);
+  const subfamilies = useReading<Maps>("/api/maps", {}, data);
+  const [said, maps] = [families.value, subfamilies.value];
+  const wanted = said?.stage.map((f) => ({ name: f.name, count: f.gamut_count, which: { family: f.name } })) ?? [];
+  const { gamuts, problem } = useGamuts(wanted);
   const [hidden, setHidden] = useState<Set<string>>(new Set());
   const [variants, setVariants] = useState(true);
   const [chosen, setChosen] = useState<Chosen | null>(null);
@@ -402,7 +392,7 @@ export function Families({
         : [],
     [shown, variants],
   );
-  if (!said) return <p class="awaited wait">reading …</p>;
+  if (!said) return <Awaited problem={families.problem} />;
   if (all.length === 0)
     return (
       <p class="awaited wait">
@@ -447,6 +437,7 @@ export function Families({
                 </fieldset>
               </div>
             </div>
+            <Problem text={families.problem || problem} />
             <Standing said={said} />
             <PointChart
               name="families"
@@ -482,7 +473,7 @@ export function Families({
             </section>
           )}
         </div>
-        <DesignPanel chosen={chosen}>
+        <DesignPanel chosen={chosen} data={data}>
           <p class="quiet">Click a point, or press Enter on it, to see it break by its family's model.</p>
           {shown.map((family) => {
             const spotsOfIt = spots.filter((s) => s.family === family.name);
@@ -513,6 +504,7 @@ export function Families({
           <DesignTable families={said.stage} open={open} />
         </section>
       )}
+      <Problem text={subfamilies.problem} />
       {maps && <SubfamilyTable maps={maps} />}
       {maps?.families
         .filter((f) => f.mechanisms && f.mechanisms.length > 0)
@@ -521,7 +513,7 @@ export function Families({
             <MechanismTable family={f.name} mechanisms={f.mechanisms!} />
           </section>
         ))}
-      <Grouping said={said} run={run} refresh={refresh} colour={familyVariable} />
+      <Grouping said={said} run={run} refresh={families.read} colour={familyVariable} />
     </>
   );
 }

@@ -1,11 +1,17 @@
 // Which designs belong together: proposed by the program, changed by a person.
 
-import { useEffect, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import type { Families as Said, NamedSeeds } from "./api";
 import { useHandIn } from "./hand_in";
 import { Notice, Unit } from "./parts";
 
 const NONE = -1;
+
+/** A person's grouping that nobody has kept yet, and what the server said when it was begun. */
+interface Draft {
+  groups: NamedSeeds[];
+  from: string;
+}
 
 export function Grouping({
   said,
@@ -19,12 +25,16 @@ export function Grouping({
   colour: (index: number) => string;
 }) {
   const { families, near_pareto: near, from, problem } = said.grouping;
-  const [groups, setGroups] = useState<NamedSeeds[]>(families);
+  // Without a draft the groups follow the server; with one they stay a person's.
+  const [draft, setDraft] = useState<Draft | null>(null);
   const [notice, busy, handIn] = useHandIn(refresh, "writing …");
   const server = JSON.stringify(families);
-  useEffect(() => setGroups(families), [server]);
-  const designs = [...new Set([...families.flatMap((f) => f.seeds), ...near])];
+  const groups = draft?.groups ?? families;
+  const designs = [...new Set([...[...families, ...groups].flatMap((f) => f.seeds), ...near])];
   const changed = JSON.stringify(groups) !== server;
+  const isOvertaken = draft !== null && changed && draft.from !== server;
+  const setGroups = (next: NamedSeeds[]) =>
+    setDraft(JSON.stringify(next) === server ? null : { groups: next, from: draft?.from ?? server });
   const kept = groups.filter((g) => g.seeds.length > 0);
   const fault = kept.some((g) => !/^[A-Za-z0-9_-]{1,64}$/.test(g.name))
     ? "A family's name has letters, digits, - and _, at most 64."
@@ -48,14 +58,14 @@ export function Grouping({
     }
     setGroups(next);
   };
-  const keep = () =>
-    handIn(
-      "/api/grouping",
-      { families: kept },
+  const keep = async () => {
+    const done =
       said.stage.length === 0 && said.enabled
         ? "Kept: the family stage takes it."
-        : `Kept: nacre families --run ${run} works it out.`,
-    );
+        : `Kept: nacre families --run ${run} works it out.`;
+    if (await handIn("/api/grouping", { families: kept }, done))
+      setDraft((now) => (now === draft ? null : now)); // what was changed meanwhile is not kept yet
+  };
   return (
     <section class="panel">
       <h2>Grouping</h2>
@@ -106,10 +116,16 @@ export function Grouping({
         <button type="button" disabled={!changed || busy || fault !== ""} onClick={keep}>
           Keep this grouping
         </button>
-        <button type="button" class="quiet" disabled={!changed} onClick={() => setGroups(families)}>
-          as it was
+        <button type="button" class="quiet" disabled={!changed} onClick={() => setDraft(null)}>
+          {isOvertaken ? "take the new one" : "as it was"}
         </button>
       </div>
+      {isOvertaken && (
+        <p class="notice doubt" role="status">
+          {from === "file" ? "families.toml has" : "The proposal has"} changed since you began: your grouping stays until
+          you keep it or take the new one.
+        </p>
+      )}
       <Notice said={fault ? { kind: "bad", text: fault } : notice} />
     </section>
   );

@@ -1,34 +1,16 @@
 // The game: gamut and fronts by round, one design at a time beside them, and how the game stands.
 
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 import type { Measured, Rounds } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
 import { DesignPanel, NewestProposals, type Chosen } from "./design_panel";
-import { loadGamut, type Gamut } from "./gamut";
+import type { Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
 import { figure, GPA, MPA, percent, tick, withError } from "./numbers";
-import { Table } from "./parts";
-
-/** Gamuts of the rounds asked for, loaded again when they have grown. */
-function useGamuts(rounds: Rounds, wanted: Set<number>): Map<number, Gamut> {
-  const [gamuts, setGamuts] = useState(new Map<number, Gamut>());
-  const needed = rounds.rounds
-    .filter((r) => wanted.has(r.round) && r.gamut_count > 0 && gamuts.get(r.round)?.patterns.length !== r.gamut_count)
-    .map((r) => r.round);
-  useEffect(() => {
-    let dropped = false;
-    for (const round of needed) {
-      loadGamut({ round })
-        .then((gamut) => !dropped && setGamuts((before) => new Map(before).set(round, gamut)))
-        .catch(() => undefined);
-    }
-    return () => {
-      dropped = true;
-    };
-  }, [needed.join(), rounds]);
-  return gamuts;
-}
+import { Problem, Table } from "./parts";
+import { useGamuts } from "./reading";
+import { lastProposing, newestModel } from "./rounds";
 
 /** Lines by round: each a name on the screen and in the file, a colour, and a value per round. */
 interface Trend {
@@ -260,8 +242,15 @@ function Toggles({
   );
 }
 
-export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark" }) {
-  const newest = rounds.rounds.length > 0 ? rounds.rounds[rounds.rounds.length - 1].round : 0;
+export function Game({
+  rounds,
+  data,
+  theme,
+}: {
+  rounds: Rounds;
+  data: string | null;
+  theme: "light" | "dark";
+}) {
   const [picked, setPicked] = useState<Set<number> | null>(null);
   // Until somebody picks, the newest gamut: the rounds before it would hide it.
   const shown = useMemo(
@@ -283,8 +272,11 @@ export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark
     mixtures: true,
   });
   const [chosen, setChosen] = useState<Chosen | null>(null);
-  const gamuts = useGamuts(rounds, shown);
-  const visible = [...shown].map((round) => gamuts.get(round)).filter((g): g is Gamut => g !== undefined);
+  const wanted = rounds.rounds
+    .filter((r) => shown.has(r.round))
+    .map((r) => ({ name: String(r.round), count: r.gamut_count, which: { round: r.round } }));
+  const { gamuts, problem } = useGamuts(wanted);
+  const visible = [...shown].map((round) => gamuts.get(String(round))).filter((g): g is Gamut => g !== undefined);
   if (rounds.rounds.length === 0)
     return (
       <p class="awaited wait">
@@ -300,6 +292,7 @@ export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark
               <h2>Gamut</h2>
               <Toggles rounds={rounds} shown={shown} setShown={setPicked} layers={layers} setLayers={setLayers} />
             </div>
+            <Problem text={problem} />
             <GamutChart
               rounds={rounds}
               gamuts={visible}
@@ -311,12 +304,8 @@ export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark
           </section>
           <Trends rounds={rounds} theme={theme} />
         </div>
-        <DesignPanel chosen={chosen}>
-          <NewestProposals
-            newestModel={newestModel(rounds)}
-            choose={setChosen}
-            proposals={rounds.rounds.find((r) => r.round === newest)?.proposals ?? []}
-          />
+        <DesignPanel chosen={chosen} data={data}>
+          <NewestProposals round={lastProposing(rounds)} choose={setChosen} />
         </DesignPanel>
       </div>
       <section class="panel">
@@ -338,11 +327,6 @@ export function Game({ rounds, theme }: { rounds: Rounds; theme: "light" | "dark
       </section>
     </>
   );
-}
-
-/** The newest round with an adopted model. */
-export function newestModel(rounds: Rounds): number {
-  return Math.max(0, ...rounds.rounds.filter((r) => Object.keys(r.parameters).length > 0).map((r) => r.round));
 }
 
 function RoundTable({ rounds }: { rounds: Rounds }) {

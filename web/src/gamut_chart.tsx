@@ -8,6 +8,7 @@ import type { Chosen } from "./design_panel";
 import { keyAt, staircase, type Gamut } from "./gamut";
 import { GPA, MPA } from "./numbers";
 import { cloudSeries, PointChart, type Spot } from "./point_chart";
+import { newestModel } from "./rounds";
 
 export interface Layers {
   cloud: boolean;
@@ -19,7 +20,7 @@ export interface Layers {
 
 /** Few points that lie above the clouds: measured ones and proposals. */
 function marks(rounds: Rounds, layers: Layers, shown: Set<number>): Spot[] {
-  const newestModel = Math.max(0, ...rounds.rounds.map((r) => r.round));
+  const newest = newestModel(rounds);
   const proposals = layers.proposals
     ? rounds.rounds
         .filter((r) => shown.has(r.round))
@@ -39,7 +40,7 @@ function marks(rounds: Rounds, layers: Layers, shown: Set<number>): Spot[] {
         y: m.toughness_pa * MPA,
         design: m.design,
         of: `measured in round ${m.round}`,
-        model: newestModel,
+        model: newest,
       }))
     : [];
   return [...measured, ...proposals];

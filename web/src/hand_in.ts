@@ -1,12 +1,12 @@
 // Handing something in: what people decide and measure goes to the game and counts once it has been taken.
 
 import { useState } from "preact/hooks";
-import { post, Refusal } from "./api";
+import { post, problemOf } from "./api";
 import type { Said } from "./parts";
 
 type Answer = { answer: string };
 
-/** Hands something in and says what came of it. */
+/** Hands something in and says what came of it. `refresh` never throws. */
 export function useHandIn(
   refresh: () => Promise<void>,
   meanwhile = "waiting for the validation agent …",
@@ -18,11 +18,11 @@ export function useHandIn(
     setSaid({ kind: "busy", text: meanwhile });
     try {
       const { answer } = await post<Answer>(path, body);
-      await refresh().catch(() => undefined); // it has been taken, whether or not the page can read it yet
+      await refresh(); // where the page cannot read it yet, that is said beside it: it has been taken all the same
       setSaid({ kind: "good", text: answer === "repeated" ? "The run has this already." : done });
       return true;
     } catch (error) {
-      setSaid({ kind: "bad", text: error instanceof Refusal ? error.message : "the server does not answer" });
+      setSaid({ kind: "bad", text: problemOf(error) });
       return false;
     } finally {
       setBusy(false);

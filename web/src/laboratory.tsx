@@ -1,20 +1,11 @@
 // The laboratory's work: decide on proposals, enter measurements, judge specimens.
 
-import { useState } from "preact/hooks";
-import {
-  get,
-  type DesignState,
-  type Families,
-  type Family,
-  type Group,
-  type Laboratory as Work,
-  type Rounds,
-  type RunInfo,
-} from "./api";
+import type { DesignState, Families, Group, Laboratory as Work, Rounds, RunInfo } from "./api";
 import { Entry } from "./entry";
 import { gpa, mpa, percent } from "./numbers";
-import { Name, Table, Unit, useRepeated, useStored } from "./parts";
+import { Awaited, Name, Problem, Table, Unit, useRepeated, useStored } from "./parts";
 import { offerOf, Proposals } from "./proposals";
+import { AGAIN_MS, useAnswer } from "./reading";
 import { Specimens } from "./review";
 
 const stateColumns = [
@@ -101,21 +92,21 @@ const groupColumns = [
 ];
 
 export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: Rounds; playing: boolean }) {
-  const [work, setWork] = useState<Work | null>(null);
+  const families = useAnswer<Families>("/api/families");
+  const book = useAnswer<Work>("/api/laboratory");
   const [by, setBy] = useStored("by", info.user);
-  const [stage, setStage] = useState<Family[]>([]);
   const refresh = async () => {
-    const families = (await get<Families>("/api/families")).stage;
-    setStage((before) => (JSON.stringify(before) === JSON.stringify(families) ? before : families));
-    const next = await get<Work>("/api/laboratory");
-    setWork((before) => (JSON.stringify(before) === JSON.stringify(next) ? before : next));
+    await families.read();
+    await book.read();
   };
-  useRepeated(refresh, playing ? 2000 : 30_000);
-  if (!work) return <p class="awaited wait">reading the laboratory's book …</p>;
+  const problem = book.problem || families.problem;
+  useRepeated(refresh, playing ? 2000 : problem ? AGAIN_MS : 30_000);
+  const work = book.value;
+  if (!work) return <Awaited problem={book.problem} what="reading the laboratory's book …" />;
   const lastRound = rounds.rounds.find((r) => r.summary?.last)?.round ?? info.rounds;
-  const offer = offerOf(work, stage, lastRound);
   return (
     <>
+      <Problem text={problem} />
       {playing && (
         <div class="row who">
           <label>
@@ -124,7 +115,16 @@ export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: R
           <span class="quiet">kept with everything you decide here</span>
         </div>
       )}
-      <Proposals work={work} offer={offer} by={by} refresh={refresh} playing={playing} approval={info.approval} />
+      {families.value && ( // only the stage tells whether a proposal is still to be decided on
+        <Proposals
+          work={work}
+          offer={offerOf(work, families.value.stage, lastRound)}
+          by={by}
+          refresh={refresh}
+          playing={playing}
+          approval={info.approval}
+        />
+      )}
       <Entry work={work} refresh={refresh} playing={playing} />
       <Specimens work={work} by={by} refresh={refresh} playing={playing} />
       <section class="panel">

@@ -79,8 +79,10 @@ function Page() {
   useRepeated(async () => {
     try {
       const now = await get<Live>("/api/live");
+      // The report is written after the first round's data, and the last one while the nodes come to an end.
+      const isNew = now.data !== data || now.playing !== live?.playing;
       setLive(now);
-      if (!info) setInfo(await get<RunInfo>("/api/run"));
+      if (!info || (isNew && !info.report)) setInfo(await get<RunInfo>("/api/run"));
       if (now.data !== data) {
         const next = await get<Rounds>("/api/rounds");
         setRounds((before) => (JSON.stringify(before) === JSON.stringify(next) ? before : next));
@@ -143,11 +145,11 @@ function Page() {
       </header>
       {live && live.nodes.length > 0 && view !== "nodes" && <NodeStrip live={live} />}
       <main id="main" tabIndex={-1}>
-        {view === "game" && <Game rounds={rounds} theme={theme} />}
+        {view === "game" && <Game rounds={rounds} data={data} theme={theme} />}
         {view === "laboratory" && <Laboratory info={info} rounds={rounds} playing={playing} />}
         {view === "diagnosis" && <Diagnosis rounds={rounds} />}
         {view === "families" && <Families rounds={rounds} data={data} theme={theme} run={info.run} />}
-        {view === "explorer" && <Explorer rounds={rounds} theme={theme} />}
+        {view === "explorer" && <Explorer rounds={rounds} data={data} theme={theme} />}
         {view === "nodes" && live && <Nodes live={live} />}
       </main>
       <footer class="quiet">

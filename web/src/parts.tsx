@@ -179,6 +179,25 @@ export function Notice({ said }: { said: Said | null }) {
   );
 }
 
+/** Why something could not be read from the server; nothing where it could. */
+export function Problem({ text }: { text: string }) {
+  if (!text) return null;
+  return (
+    <p class="notice bad" role="status">
+      {text}
+    </p>
+  );
+}
+
+/** What stands in place of a view until the server has answered: that it is being read, or why it cannot be. */
+export function Awaited({ problem, what = "reading …" }: { problem: string; what?: string }) {
+  return (
+    <p class={`wait ${problem ? "notice bad" : "awaited"}`} role="status">
+      {problem || what}
+    </p>
+  );
+}
+
 /** State that lives in the browser's storage, for the name of the person and the theme. */
 export function useStored(key: string, initial: string): [string, (value: string) => void] {
   const [value, setValue] = useState(() => localStorage.getItem(`nacre.${key}`) ?? initial);
@@ -191,7 +210,8 @@ export function useStored(key: string, initial: string): [string, (value: string
   ];
 }
 
-/** Calls `task` now and then every `ms` while the page is visible and `active`; never twice at a time. */
+/** Calls `task` now and then every `ms` while the page is visible and `active`; never twice at a time. A task
+ *  says itself what went wrong; one that throws is a fault of the page, which goes on all the same. */
 export function useRepeated(task: () => Promise<void>, ms: number, active = true): void {
   const latest = useRef(task);
   latest.current = task;
@@ -200,7 +220,7 @@ export function useRepeated(task: () => Promise<void>, ms: number, active = true
     let stopped = false;
     let timer = 0;
     const turn = async () => {
-      if (!document.hidden) await latest.current().catch(() => undefined);
+      if (!document.hidden) await latest.current().catch(reportError);
       if (!stopped) timer = window.setTimeout(turn, ms);
     };
     void turn();

@@ -33,16 +33,9 @@ export function Specimens({
     .filter((s) => !find || `${s.specimen} ${s.design} ${s.test} ${s.batch}`.includes(find))
     .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
   const judge = async (s: LaboratorySpecimen) => {
-    if (
-      await handIn(
-        "/api/review",
-        { specimen: s.specimen, valid: !s.valid, by, why },
-        `${s.specimen} is ${s.valid ? "not valid" : "valid"} now.`,
-      )
-    ) {
-      setJudged(null);
-      setWhy("");
-    }
+    const done = `${s.specimen} is ${s.valid ? "not valid" : "valid"} now.`;
+    if (await handIn("/api/review", { specimen: s.specimen, valid: !s.valid, by, why }, done))
+      setJudged((now) => (now === s.specimen ? null : now)); // another one may be open by now
   };
   return (
     <section class="panel">

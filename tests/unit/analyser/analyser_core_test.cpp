@@ -93,10 +93,11 @@ std::string question(std::vector<std::string> specimens) {
   return wire::write(request);
 }
 
-std::string model_of(int round) {
+std::string model_of(int round, double factor = 1.0) {
   wire::AdoptedModel model;
   model.round = round;
   model.parameters = material::default_parameters();
+  model.parameters.toughness.w_vw_j_per_m3 *= factor;
   return wire::write(model);
 }
 
@@ -181,7 +182,7 @@ TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
   analyser.hear("FAMILY", wire::write(family));
   ASSERT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
   const auto asked = wire::read<wire::SimulateRequest>(analyser.sent_on("SIMULATE").front().payload).value();
-  EXPECT_EQ(asked.request_id, "analyser/family2/films");
+  EXPECT_THAT(asked.request_id, StartsWith("analyser/family2/films#"));
   EXPECT_TRUE(asked.film && asked.crack && asked.toughness && !asked.modulus);
   EXPECT_EQ(asked.parameters, family.parameters);
   EXPECT_THAT(asked.designs, ElementsAre(pattern::Pattern(5), pattern::Pattern(6)));
@@ -335,6 +336,34 @@ TEST(Analyser, ReportWaitsForStoresAndTheModelsWordOnMeasuredDesigns) {
   EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the answer is not stored";
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), ElementsAre(StartsWith("report/r1")));
+}
+
+// Its journal lost, it comes to another model of the same round, and the farm still repeats what it said of the first.
+TEST(Analyser, AnswersAboutAnotherModelOfTheRoundAreNotTaken) {
+  Watched before, now;
+  for (Watched* each : {&before, &now}) {
+    each->hear("MEASUREMENT", measurement_of("a", 5));
+    each->hear("PROPOSAL", proposal_of(1, {6}));
+    each->hear("PARAMETERS", model_of(1, each == &now ? 1.5 : 1.0));
+    each->hear("ROUND", round_of(1, false));
+    ASSERT_THAT(each->sent_on("SIMULATE"), SizeIs(2)) << "films, and the word on the measured design";
+  }
+  const auto hear_all_answers = [&](const std::vector<Message>& requests) {
+    for (const Message& request : requests) {
+      for (const std::string& answer : answers_to(request)) now.hear("SIMULATED", answer);
+      const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
+      wire::Fracture fracture;
+      fracture.request_id = asked.request_id;
+      fracture.design = asked.designs.front();
+      fracture.crack.columns = fracture.crack.rows = 40;
+      if (asked.film) now.hear("FRACTURE", wire::write(fracture));
+    }
+    now.finish_stores();
+  };
+  hear_all_answers(before.sent_on("SIMULATE"));
+  EXPECT_THAT(now.ids("report"), IsEmpty()) << "nothing that it asked has been answered";
+  hear_all_answers(now.sent_on("SIMULATE"));
+  EXPECT_THAT(now.ids("report"), SizeIs(1));
 }
 
 TEST(Analyser, ChunksOfAnAnswerCountOnceEach) {

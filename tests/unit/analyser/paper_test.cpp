@@ -146,6 +146,70 @@ TEST(Paper, AnOverFittedFamilyIsNamedAndASoundOneNot) {
   EXPECT_THAT(note, Not(HasSubstr("family-2")));
 }
 
+/// The designs of a family of the run, seeds or chosen, without what was measured of them in a property.
+void forget(PaperSource& run, std::size_t family, bool seeds, std::optional<double> game::DesignValues::*property) {
+  for (game::FamilyDesign& design : run.run.families[family].stated.designs)
+    if (design.is_seed == seeds) (design.measured.*property).reset();
+}
+
+TEST(Paper, AnErrorOfDesignsThatWereNotMeasuredIsADash) {
+  PaperSource run = source();
+  forget(run, 1, false, &game::DesignValues::modulus_pa);
+  const auto row = exhibit(exhibits_of(run), "table-3-7").tables.front().rows.at(1);
+  for (std::size_t i = 2; i < 6; ++i) {
+    EXPECT_EQ(row[i].shown, "–") << i;
+    EXPECT_EQ(row[i].kept, "") << i;
+  }
+  EXPECT_EQ(row[1].kept, "3");
+  EXPECT_NEAR(std::stod(row[8].kept), 0.1, 1e-3);
+
+  run = source();
+  forget(run, 1, false, &game::DesignValues::toughness_pa);
+  const auto moduli_alone = exhibit(exhibits_of(run), "table-3-7").tables.front().rows.at(1);
+  EXPECT_EQ(moduli_alone[1].kept, "3");
+  EXPECT_EQ(moduli_alone[6].kept, "");
+}
+
+TEST(Paper, FamiliesWhoseDesignsWereNotMeasuredHaveNoVerdict) {
+  PaperSource run = source();
+  for (const std::size_t family : {0, 1}) {
+    forget(run, family, false, &game::DesignValues::modulus_pa);
+    forget(run, family, false, &game::DesignValues::toughness_pa);
+  }
+  const std::vector<Exhibit> all = exhibits_of(run);
+  const std::vector<std::string>& notes = exhibit(all, "table-3-7").notes;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0], HasSubstr("No verdict: family-1 (T not measured), family-1 (E not measured), family-2"));
+  EXPECT_THAT(notes[0], Not(HasSubstr("over-fits")));
+}
+
+TEST(Paper, AVerdictSaysWhatItIsOf) {
+  PaperSource run = source();
+  forget(run, 0, false, &game::DesignValues::toughness_pa);  // the over-fitted property
+  for (game::FamilyDesign& design : run.run.families[1].stated.designs) design.family_model.modulus_pa.reset();
+  const std::vector<Exhibit> all = exhibits_of(run);
+  const std::vector<std::string>& notes = exhibit(all, "table-3-7").notes;
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_THAT(notes[0], HasSubstr("No verdict: family-1 (T not measured), family-2 (E not simulated)"));
+  EXPECT_THAT(notes[1], HasSubstr("Of what could be compared, no family's model over-fits"));
+}
+
+TEST(Paper, SeedErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
+  PaperSource run = source();
+  for (const std::size_t family : {0, 1}) forget(run, family, true, &game::DesignValues::modulus_pa);
+  const std::vector<Exhibit> all = exhibits_of(run);
+  const std::vector<PaperFigure>& figures = exhibit(all, "figure-3-14").figures;
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].name, "figure-3-14-toughness");
+  forget(run, 0, true, &game::DesignValues::toughness_pa);
+  const auto dots = [](const std::string& svg) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++found;
+    return found;
+  };
+  EXPECT_LT(dots(exhibit(exhibits_of(run), "figure-3-14").figures[0].svg), dots(figures[0].svg));
+}
+
 TEST(Paper, ThePageStandsByItself) {
   const PaperSource run = source();
   const std::string page = render_paper(run, exhibits_of(run));

@@ -49,11 +49,29 @@ class DashboardOfARun : public testing::Test {
   Response get(const std::string& path, std::map<std::string, std::string> query = {}) {
     return dashboard_->handle({.method = "GET", .path = path, .query = std::move(query), .headers = {}, .body = ""});
   }
-  Response post(const std::string& path, const std::string& body) {
-    return dashboard_->handle({.method = "POST", .path = path, .query = {}, .headers = {}, .body = body});
+  Response post(const std::string& path, const std::string& body, std::map<std::string, std::string> query = {}) {
+    return dashboard_->handle({.method = "POST", .path = path, .query = std::move(query), .headers = {}, .body = body});
   }
   Json json(const std::string& path, std::map<std::string, std::string> query = {}) {
     return Json::parse(get(path, std::move(query)).body);
+  }
+
+  /// A film that the game made of a design by the model of family-2; returns the design's name.
+  std::string film_of_the_stage() {
+    store::RunDatabase database(folder_ / "run.db");
+    wire::Fracture fracture = wire::samples::fracture();
+    fracture.request_id = fmt::format("analyser/family{}/films", wire::samples::family().number);
+    database.project("FRACTURE", wire::write(fracture));
+    std::ofstream(folder_ / "films" / fracture.film) << "NACREFLM of the game";
+    return fracture.design.name();
+  }
+
+  /// family-2 as `nacre families` leaves it; at `times` 1 its model is the one that the desk has of the stage.
+  void keep_model_in_folder(double times) {
+    material::ParameterSet parameters = material::default_parameters();
+    parameters.toughness.w_if_j_per_m3 *= times;
+    fs::create_directories(folder_ / "families" / "family-2");
+    std::ofstream(folder_ / "families" / "family-2" / "parameters.toml") << material::to_toml(parameters);
   }
 
   Settings settings() const {
@@ -194,6 +212,14 @@ TEST_F(DashboardOfARun, BetweenAPatternAndItselfLiesThePattern) {
   EXPECT_EQ(found["pattern"], "577fffe9fffdef");
 }
 
+TEST_F(DashboardOfARun, AJudgementThatTheGameWouldNotHeedIsRefusedWithTheReason) {
+  desk_.reason_against = "a: cannot be valid: modulus_pa 1.2 Pa";
+  const Response refusal = post("/api/review", R"({"specimen":"a","valid":true,"by":"Ada","why":"looks fine"})");
+  EXPECT_EQ(refusal.status, 409);
+  EXPECT_THAT(refusal.body, HasSubstr("cannot be valid"));
+  EXPECT_TRUE(desk_.judgements.empty());
+}
+
 TEST_F(DashboardOfARun, WhatIsHandedInReachesTheDesk) {
   EXPECT_EQ(post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})").status, 200);
   EXPECT_EQ(desk_.judgements.at(0).why, "slipped");
@@ -265,15 +291,44 @@ TEST_F(DashboardOfARun, TheVariantsOfAFamilyAreColumnsLikeAGamut) {
 }
 
 TEST_F(DashboardOfARun, AFilmOfAFamilysDesignComesFromTheGame) {
-  store::RunDatabase database(folder_ / "run.db");
-  wire::Fracture fracture = wire::samples::fracture();
-  fracture.request_id = fmt::format("analyser/family{}/films", wire::samples::family().number);
-  database.project("FRACTURE", wire::write(fracture));
-  std::ofstream(folder_ / "films" / fracture.film) << "NACREFLM of the game";
-  const std::map<std::string, std::string> query = {{"design", fracture.design.name()}, {"model", "family-2"}};
+  const std::string design = film_of_the_stage();
+  const std::map<std::string, std::string> query = {{"design", design}, {"model", "family-2"}};
   EXPECT_EQ(json("/api/simulation", query)["source"], "run");
   EXPECT_EQ(get("/api/film", query).body, "NACREFLM of the game");
-  EXPECT_EQ(json("/api/simulation", {{"design", fracture.design.name()}, {"model", "family-3"}})["state"], "absent");
+  EXPECT_EQ(json("/api/simulation", {{"design", design}, {"model", "family-3"}})["state"], "absent");
+}
+
+TEST_F(DashboardOfARun, AFilmOfTheGameIsNoneOfARegroupedFamilyOfItsName) {
+  const std::map<std::string, std::string> on_stage = {{"design", film_of_the_stage()}, {"model", "family-2"}};
+  std::map<std::string, std::string> on_map = on_stage;
+  on_map["map"] = "family-2/577fffe9fffdef";
+  keep_model_in_folder(2.0);
+  EXPECT_EQ(json("/api/simulation", on_map)["state"], "absent");
+  EXPECT_EQ(get("/api/film", on_map).status, 404);
+  EXPECT_EQ(json("/api/simulation", on_stage)["source"], "run");
+  keep_model_in_folder(1.0);  // what `nacre families` took from the stage
+  EXPECT_EQ(json("/api/simulation", on_map)["source"], "run");
+  EXPECT_EQ(get("/api/film", on_map).body, "NACREFLM of the game");
+}
+
+TEST_F(DashboardOfARun, AFilmMadeHereIsKnownByTheParametersThatBrokeIt) {
+  const std::map<std::string, std::string> map = {{"map", "family-2/577fffe9fffdef"}},
+                                           on_stage = {{"design", "577fffe9fffdef"}, {"model", "family-2"}};
+  std::map<std::string, std::string> on_map = on_stage;
+  on_map.insert(map.begin(), map.end());
+  keep_model_in_folder(2.0);
+  ASSERT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"family-2"})", map).status, 202);
+  EXPECT_NE(json("/api/simulation", on_map)["state"], "absent");
+  EXPECT_EQ(json("/api/simulation", on_stage)["state"], "absent") << "the game has another model of this name";
+  keep_model_in_folder(3.0);  // `nacre families` once more
+  EXPECT_EQ(json("/api/simulation", on_map)["state"], "absent");
+}
+
+TEST_F(DashboardOfARun, AModelOfTheGameIsReadOnceHoweverOftenItsFilmIsAskedFor) {
+  for (int turn = 0; turn < 3; ++turn)
+    EXPECT_EQ(json("/api/simulation", {{"design", "577fffe9fffdef"}, {"model", "family-2"}})["state"], "absent");
+  EXPECT_EQ(desk_.models_read, 1);
+  EXPECT_EQ(post("/api/simulate", R"({"design":"577fffe9fffdef","model":"family-9"})").status, 409);
 }
 
 TEST_F(DashboardOfARun, APersonGroupsMeasuredDesigns) {

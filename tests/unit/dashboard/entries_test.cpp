@@ -70,6 +70,9 @@ TEST(Entries, ADecisionNamesADesignAndARound) {
   ASSERT_TRUE(decision) << decision.error().message;
   EXPECT_EQ(decision->round, 2);
   EXPECT_EQ(decision_from_json(R"({"design":"mix:0.65","approved":true,"by":"Ada"})")->round, -1);
+  const auto coupon = decision_from_json(R"({"design":"checkerboard:2","approved":true,"by":"Ada"})");
+  ASSERT_TRUE(coupon) << coupon.error().message;
+  EXPECT_EQ(coupon->design, pattern::design_from_word("checkerboard:2")->name());
   EXPECT_FALSE(decision_from_json(R"({"design":"577fffe9fffdef","approved":false,"by":"Ada"})"));
   for (const char* round : {"-2", "1e3", "\"1\"", "18446744073709551615", "99999999999999999999999", "2000000"})
     EXPECT_FALSE(decision_from_json(fmt::format(R"({{"design":"soft","round":{},"approved":true,"by":"Ada"}})", round)))

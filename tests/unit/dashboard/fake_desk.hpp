@@ -13,15 +13,18 @@ class FakeDesk : public Desk {
  public:
   Laboratory laboratory() override { return picture; }
   std::optional<material::ParameterSet> model(int round) override {
+    ++models_read;
     return round == 0 ? std::optional(material::default_parameters()) : std::nullopt;
   }
   std::optional<material::ParameterSet> family_model(const std::string& family) override {
+    ++models_read;
     return family == "family-2" ? std::optional(material::default_parameters()) : std::nullopt;
   }
   std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
   Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
   Answer judge(const Judgement& judgement) override { return judgements.push_back(judgement), answer; }
+  std::optional<std::string> against(const Judgement&) override { return reason_against; }
   std::optional<std::string> against(const Decision&) override { return reason_against; }
   Answer decide(const Decision& decision) override { return decisions.push_back(decision), answer; }
 
@@ -30,6 +33,7 @@ class FakeDesk : public Desk {
   }
 
   Laboratory picture;
+  int models_read = 0;  ///< a real desk reads a journal each time
   std::vector<NodeReport> reports;
   Answer answer = Answer::accepted;
   std::optional<std::string> reason_against;

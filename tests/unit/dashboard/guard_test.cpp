@@ -1,6 +1,9 @@
 #include "dashboard/guard.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
 
 namespace nacre::dashboard {
 namespace {
@@ -40,6 +43,21 @@ TEST(Guard, LetsThisMachineIn) {
   for (const char* host : {"127.0.0.1:8765", "localhost:8765", "[::1]:8765"})
     EXPECT_EQ(status(kOpen, reading(host)), 200) << host;
   EXPECT_EQ(status(kOpen, writing()), 200);
+}
+
+TEST(Guard, NamesHaveNoCase) {
+  const AccessRules rules{.hosts = host_names("LabPC", 8765), .token = "", .cookie_name = "nacre_8765"};
+  for (const char* host : {"labpc:8765", "LabPC:8765", "LOCALHOST:8765"}) EXPECT_EQ(status(rules, reading(host)), 200);
+}
+
+TEST(Guard, TheLinkOpensThePageFromElsewhereToo) {
+  EXPECT_EQ(page_link("127.0.0.1", 8765, ""), "http://127.0.0.1:8765/");
+  EXPECT_EQ(page_link("::1", 8765, ""), "http://[::1]:8765/");
+  EXPECT_EQ(page_link("labpc", 80, "0123"), "http://labpc:80/?token=0123");
+  std::array<char, 256> own{};
+  ASSERT_EQ(::gethostname(own.data(), own.size() - 1), 0);
+  for (const char* everywhere : {"0.0.0.0", "::"})
+    EXPECT_EQ(page_link(everywhere, 8765, "0123"), std::string("http://") + own.data() + ":8765/?token=0123");
 }
 
 TEST(Guard, RefusesNamesThatAreNotItsOwn) {

@@ -10,6 +10,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/contrasts.hpp"
+#include "diagnosis/experiments.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
 
@@ -158,13 +159,14 @@ TEST(Diagnosis, BatchesThatShareNoDesignAreCautionedOf) {
   EXPECT_NE(diagnosis.summary.find("17 sets without a common design"), std::string::npos) << diagnosis.summary;
 }
 
-Diagnosis diagnose_coupons(const std::string& effect, std::vector<double> values) {
+Diagnosis diagnose_coupons(const std::string& effect, std::vector<double> values,
+                           const std::vector<double>& strains = pulled_to_two_percent()) {
   material::ParameterSet truth = synthetic_truth();
   if (!effect.empty()) truth.extensions[effect] = std::move(values);
   DiagnosisSettings settings;
   settings.start = material::default_parameters();
   settings.fidelity = tester::Fidelity::tiny;
-  return diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5), settings);
+  return diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5, strains), settings);
 }
 
 TEST(CouponDiagnosis, CouponsOfTheBaseModelAreBaseSufficient) {
@@ -177,6 +179,20 @@ TEST(CouponDiagnosis, SlackOfTheGripsIsNamedFromCurvesAlone) {
   ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
   EXPECT_EQ(diagnosis.effects[0].name, "toe_slack");
   EXPECT_NEAR(diagnosis.effects[0].parameter, 0.002, 0.0002);
+}
+
+// The machine stands between what was ordered and what the coupon felt, on the way back too.
+TEST(CouponDiagnosis, SlackIsNamedFromCouponsThatWereUnloadedOnTheWay) {
+  const Diagnosis diagnosis = diagnose_coupons("toe_slack", {0.002}, unload_history());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects[0].name, "toe_slack");
+  EXPECT_NEAR(diagnosis.effects[0].parameter, 0.002, 0.0002);
+}
+
+// The stiffness of the bulk materials takes a spring over whole; the curves must not contradict that.
+TEST(CouponDiagnosis, ASpringBesideUnloadedCouponsLeavesNothing) {
+  const Diagnosis diagnosis = diagnose_coupons("machine_compliance", {2e-10}, unload_history());
+  EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
 }
 
 // The curve is flat behind the yield point: reading it as far as its largest stress would leave out what the flow

@@ -85,7 +85,7 @@ tester::Curve plateau() {
 
 TEST(Features, ACouponThatFlowsIsReadWhileItFlows) {
   EXPECT_EQ(carried_strain(plateau()), 0.03);
-  const FeatureValues values = tensile_features(truncated(plateau(), *carried_strain(plateau())));
+  const FeatureValues values = tensile_features(tester::cut_at(plateau(), *carried_strain(plateau())));
   const double energy = 0.5 * 1e7 * 0.01 + 9.95e6 * 0.01 + 9.85e6 * 0.01;
   EXPECT_NEAR(at(values, Feature::knee), std::log(energy / (0.5 * 1e7 * 0.03)), 1e-9);
   EXPECT_NEAR(at(values, Feature::log_tangent_30), std::log(1e9), 1e-9);

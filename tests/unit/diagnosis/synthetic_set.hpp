@@ -52,15 +52,19 @@ inline std::vector<measurement::SpecimenRecord> synthetic_specimens(const Synthe
   return specimens;
 }
 
-/// Homogeneous coupons pulled to 2 % strain, one of each mixture and rate, as the material point predicts them for
-/// `truth`, with lognormal scatter of stress.
-inline std::vector<measurement::SpecimenRecord> synthetic_coupons(const material::ParameterSet& truth,
-                                                                  const std::vector<double>& rates_per_s,
-                                                                  int replicates, double noise_sd, std::uint64_t seed) {
-  RandomStream noise(seed, "test/coupons");
-  std::vector<measurement::SpecimenRecord> specimens;
+inline std::vector<double> pulled_to_two_percent() {
   std::vector<double> strains;
   for (int i = 0; i <= 60; ++i) strains.push_back(0.02 * i / 60);
+  return strains;
+}
+
+/// Homogeneous coupons pulled along `strains` of their own, one of each mixture and rate, as the material point
+/// predicts them for `truth`, with lognormal scatter of stress.
+inline std::vector<measurement::SpecimenRecord> synthetic_coupons(
+    const material::ParameterSet& truth, const std::vector<double>& rates_per_s, int replicates, double noise_sd,
+    std::uint64_t seed, const std::vector<double>& strains = pulled_to_two_percent()) {
+  RandomStream noise(seed, "test/coupons");
+  std::vector<measurement::SpecimenRecord> specimens;
   for (const double fraction : {0.0, 0.25, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
     for (const double rate : rates_per_s) {
       for (int r = 0; r < replicates; ++r) {

@@ -25,7 +25,7 @@ JobRequest request_of(int designs, int replicates) {
   for (int i = 0; i < designs; ++i) {
     const pattern::Mixture mixture{0.5 + 0.01 * i};
     request.wanted.push_back({.design = mixture, .replicates = replicates});
-    request.wanted.push_back({.design = mixture, .kind = SpecimenKind::tensile_bar, .replicates = replicates});
+    request.wanted.push_back({.design = mixture, .test = tester::TestKind::modulus, .replicates = replicates});
   }
   return request;
 }
@@ -59,10 +59,10 @@ TEST(Job, TraysAreFilledBeforeAnotherIsTaken) {
 
 TEST(Job, EveryModelIsPrintedOnceBeforeAnyIsPrintedAgain) {
   const Job job = plan_job(request_of(4, 3));
-  for (const SpecimenKind kind : {SpecimenKind::toughness, SpecimenKind::tensile_bar}) {
+  for (const tester::TestKind test : {tester::TestKind::toughness, tester::TestKind::modulus}) {
     std::vector<std::size_t> order;
     for (const Placed& specimen : job.specimens) {
-      if (job.models[specimen.model].wanted.kind == kind) order.push_back(specimen.model);
+      if (job.models[specimen.model].wanted.test == test) order.push_back(specimen.model);
     }
     ASSERT_EQ(order.size(), 12U);
     for (std::size_t block = 0; block < 3; ++block) {
@@ -120,10 +120,15 @@ TEST(Job, RefusesWhatCannotBePrinted) {
 
 TEST(TestSpeed, StrainsTheGaugeAtTheRate) {
   EXPECT_NEAR(test_speed_mm_per_min({.design = pattern::Mixture{1.0}}), 2.0, 1e-9);
-  const double bar = test_speed_mm_per_min({.design = pattern::Mixture{1.0}, .kind = SpecimenKind::tensile_bar});
+  const double bar = test_speed_mm_per_min({.design = pattern::Mixture{1.0}, .test = tester::TestKind::modulus});
   // ASTM D638 allows 5 mm/min within a quarter for a type I bar.
   EXPECT_GE(bar, 3.75);
   EXPECT_LE(bar, 6.25);
+}
+
+TEST(Pull, IsSaidInWordsAlongItsProgramme) {
+  EXPECT_EQ(pull_in_words({}), "monotonic");
+  EXPECT_EQ(pull_in_words({{0.02, 0.005, 0.022}}), "to 2 % strain, back to 0.5 %, on to 2.2 %");
 }
 
 TEST(BuildSheet, SaysWhatIsInTheSlices) {
@@ -131,7 +136,7 @@ TEST(BuildSheet, SaysWhatIsInTheSlices) {
   JobRequest request;
   request.name = "sheet";
   request.wanted = {{.design = *pattern::layout_from_key("577fffe9fffdef"), .thickness_mm = 0.1, .replicates = 2},
-                    {.design = pattern::Mixture{0.65}, .kind = SpecimenKind::tensile_bar, .thickness_mm = 0.1}};
+                    {.design = pattern::Mixture{0.65}, .test = tester::TestKind::modulus, .thickness_mm = 0.1}};
   const Job job = plan_job(request);
   write_job(job, folder);
   const auto sheet = nlohmann::json::parse(read_file(folder / "build_sheet.json"));

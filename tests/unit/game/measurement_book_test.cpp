@@ -83,6 +83,42 @@ TEST(MeasurementBook, ASpecimenOfAnotherQuestionDoesNotCount) {
   EXPECT_EQ(book.progress(std::vector{order("o", 1)}, 0).front().arrived, 0);
 }
 
+TEST(MeasurementBook, AnOrdersNameOnASpecimenOfAnotherQuestionClosesNothing) {
+  SpecimenRecord other = specimen("other design");
+  other.design = pattern::Mixture{0.75};
+  SpecimenRecord tough = specimen("other test");
+  tough.test = tester::TestKind::toughness;
+  SpecimenRecord turned = specimen("turned");
+  turned.conditions.orientation_deg = 90.0;
+  SpecimenRecord fast = specimen("fast");
+  fast.conditions.strain_rate_per_s *= 10.0;
+  SpecimenRecord thin = specimen("thin");
+  thin.conditions.thickness_mm *= 0.5;
+  MeasurementBook book;
+  for (const SpecimenRecord& each : {other, tough, turned, fast, thin}) book.enter(each, "o");
+  EXPECT_EQ(book.progress(std::vector{order("o", 1)}, 0).front().arrived, 0);
+  SpecimenRecord by_callipers = specimen("as callipers and clock show it");
+  by_callipers.conditions.thickness_mm = 3.27;
+  by_callipers.conditions.strain_rate_per_s *= 1.1;
+  book.enter(by_callipers, "o");
+  EXPECT_TRUE(book.progress(std::vector{order("o", 1)}, 0).front().complete);
+}
+
+TEST(MeasurementBook, SpecimensOfSwappedLabelsCountForTheOrdersThatAskedForThem) {
+  Order other = order("other", 1);
+  other.design = pattern::Mixture{0.75};
+  SpecimenRecord of_other = specimen("b");
+  of_other.design = other.design;
+  of_other.valid = false;
+  MeasurementBook book;
+  book.enter(specimen("a"), "other");
+  book.enter(of_other, "o");
+  const auto progress = book.progress(std::vector{order("o", 1), other}, 0);
+  EXPECT_EQ(progress[0].valid, 1);
+  EXPECT_EQ(progress[1].valid, 0);
+  EXPECT_TRUE(progress[1].complete);
+}
+
 TEST(MeasurementBook, HighestRevisionOfAReviewWinsInWhateverOrder) {
   std::vector<Review> reviews = {{1, false, "slipped"}, {2, true, "grip was fine"}, {3, false, "bubble"}};
   std::sort(reviews.begin(), reviews.end(), [](const auto& a, const auto& b) { return a.revision < b.revision; });
@@ -107,6 +143,21 @@ TEST(MeasurementBook, AJudgementThatChangesNothingIsToldWhichOneStands) {
   }
   EXPECT_FALSE(book.review_against("a", {2, false, "bubble"})) << "the same again";
   EXPECT_FALSE(book.review_against("a", {3, true, ""}));
+}
+
+TEST(MeasurementBook, NobodyMakesASpecimenValidThatSaysNothing) {
+  measurement::SpecimenRecord in_gpa = specimen("a");
+  in_gpa.valid = false;
+  in_gpa.modulus_pa = 1.2;
+  MeasurementBook book;
+  book.enter(in_gpa, "");
+  ASSERT_TRUE(book.against_validity("a"));
+  EXPECT_NE(book.against_validity("a")->find("modulus_pa"), std::string::npos) << *book.against_validity("a");
+  book.review("a", {1, true, "looks fine"});
+  EXPECT_FALSE(book.specimens().front().valid);
+  book.enter(specimen("b"), "");
+  EXPECT_FALSE(book.against_validity("b"));
+  EXPECT_FALSE(book.against_validity("nobody's"));
 }
 
 TEST(MeasurementBook, OrderOfArrivalDoesNotMatter) {

@@ -30,6 +30,24 @@ SpecimenRecord toughness(const std::string& name, const pattern::Design& design,
   return record;
 }
 
+/// The same specimen pulled ten times as fast: stiffer and tougher.
+SpecimenRecord fast_twin(SpecimenRecord record) {
+  record.specimen += "-fast";
+  record.conditions.strain_rate_per_s *= 10.0;
+  if (record.modulus_pa) *record.modulus_pa *= 2.0;
+  if (record.toughness_pa) *record.toughness_pa *= 3.0;
+  return record;
+}
+
+/// Pulled ten times as slowly: sorted before the others.
+SpecimenRecord slow_twin(SpecimenRecord record) {
+  record.specimen += "-slow";
+  record.conditions.strain_rate_per_s *= 0.1;
+  if (record.modulus_pa) *record.modulus_pa *= 0.5;
+  if (record.toughness_pa) *record.toughness_pa *= 0.3;
+  return record;
+}
+
 TEST(Standings, OnlyUprightValidPatternsCompete) {
   pattern::Layout coupon;
   coupon.set(0, 3, true);
@@ -93,6 +111,35 @@ TEST(Standings, BenchmarkRunsThroughTheMixturesByRigidFraction) {
       modulus("f", pattern::Pattern(7), 1.0e9),   toughness("g", pattern::Pattern(7), 1e5)};
   EXPECT_THAT(benchmark_line(specimens),
               ElementsAre(optimize::Performance{0.5e9, 8e5}, optimize::Performance{2.6e9, 7e4}));
+}
+
+TEST(Standings, BenchmarkIsMeasuredUnderStandardConditions) {
+  const SpecimenRecord stiff = modulus("a", pattern::Mixture{0.7}, 1e9),
+                       tough = toughness("b", pattern::Mixture{0.7}, 4e5);
+  EXPECT_THAT(benchmark_line({stiff, tough, slow_twin(stiff), slow_twin(tough)}),
+              ElementsAre(optimize::Performance{1e9, 4e5}));
+  EXPECT_THAT(benchmark_line({slow_twin(stiff), slow_twin(tough)}), testing::IsEmpty());
+  SpecimenRecord thin = stiff;
+  thin.conditions.thickness_mm = 1.6;
+  EXPECT_THAT(benchmark_line({thin, tough}), testing::IsEmpty());
+}
+
+TEST(Standings, ATwinPulledFasterIsCalibratedOnButIsNeitherForetoldNorASeedOfFamilies) {
+  const pattern::Design design = pattern::Pattern(7);
+  const SpecimenRecord stiff = modulus("a", design, 1e9), tough = toughness("b", design, 4e5);
+  const std::vector<SpecimenRecord> specimens = {
+      stiff, tough, fast_twin(stiff), fast_twin(tough), slow_twin(stiff), slow_twin(tough)};
+  const auto set = calibration_set(specimens);
+  EXPECT_EQ(set.size(), 3u) << "each predicted at its own rate";
+  std::map<std::string, sysid::Prediction> predictions;
+  predictions[design.name()].modulus_pa = 1.2e9;
+  const Foretold foretold = foretold_among(set, predictions);
+  ASSERT_EQ(foretold.measured.size(), 1u);
+  EXPECT_EQ(foretold.predicted.size(), 1u);
+  EXPECT_EQ(foretold.measured.front().modulus_pa, 1e9);
+  const auto seeds = patterns_with_both(specimens);
+  ASSERT_EQ(seeds.size(), 1u);
+  EXPECT_EQ(seeds.front().toughness_pa, 4e5);
 }
 
 TEST(Standings, CalibrationSetHoldsLayoutsNotMixturesNorTwins) {

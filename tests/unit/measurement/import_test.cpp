@@ -406,6 +406,34 @@ TEST_F(ImportedSet, ADefaultRateBesideATimeColumnIsSaid) {
   EXPECT_THAT(import.warnings[0], HasSubstr("A: its times tell no strain rate; 0.000617 1/s is assumed"));
 }
 
+TEST_F(ImportedSet, ThePlannedRateStandsWhereTheRecordTellsNoneAndAnotherThanPlannedIsSaid) {
+  const auto import_bar = [&](bool with_time, const std::string& rates) {
+    std::string text = with_time ? "time_s,extension_mm,force_n\n" : "extension_mm,force_n\n";
+    for (int i = 0; i <= 200; ++i) {  // at 1e-4 /s
+      const double strain = 1e-4 * i;
+      if (with_time) text += fmt::format("{},", i);
+      text += fmt::format("{},{}\n", 50 * strain, 2e3 * strain * 41.6);
+    }
+    write("a.csv", text);
+    return this->import(
+        "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,planned_strain_rate_per_s,strain_rate_per_s,loading"
+        "\na.csv,A,rigid,tensile,13,3.2,50," +
+        rates + ",to 2 % strain\n");
+  };
+  const auto rate_of = [](const Import& import) { return import.specimens.at(0).record.conditions.strain_rate_per_s; };
+  EXPECT_EQ(rate_of(import_bar(false, "0.00617,")), 0.00617);
+  EXPECT_EQ(rate_of(import_bar(false, ",")), 6.17e-4);
+  const Import as_planned = import_bar(true, "0.00011,"), faster = import_bar(true, "0.001,");
+  EXPECT_EQ(rate_of(as_planned), 1e-4) << "the clock knows better than the plan";
+  EXPECT_TRUE(as_planned.warnings.empty()) << as_planned.warnings.front();
+  EXPECT_FALSE(as_planned.specimens[0].record.other_columns.contains("loading"));
+  EXPECT_EQ(rate_of(faster), 1e-4);
+  ASSERT_EQ(faster.warnings.size(), 1U);
+  EXPECT_THAT(faster.warnings[0], HasSubstr("A: strain rate 0.0001 1/s, planned was 0.001: was the speed another"));
+  EXPECT_EQ(rate_of(import_bar(true, "0.001,0.002")), 0.002) << "a person's word stands";
+  EXPECT_EQ(import_bar(false, "fast,").rejected.at(0).column, "planned_strain_rate_per_s");
+}
+
 TEST_F(ImportedSet, ASheetWithoutARequiredColumnIsRefused) {
   write("sheet.csv", "file,specimen,pattern,width_mm,gauge_mm\n");
   EXPECT_THROW(import_exports({}, folder_ / "sheet.csv"), InputError);

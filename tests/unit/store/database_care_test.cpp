@@ -3,11 +3,13 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <utility>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "base/random.hpp"
 #include "store/run_record.hpp"
@@ -67,6 +69,43 @@ TEST_F(DatabaseFile, ACopyHoldsWhatWasCommittedAndNotWhatIsBeingWritten) {
   EXPECT_TRUE(check_database(folder_ / "copy.db"));
   EXPECT_EQ(SimulationCache(folder_ / "copy.db").size(), 50);
   EXPECT_FALSE(fs::exists(folder_ / "copy.db.part"));
+}
+
+/// Somebody who takes a file for themselves as it is opened for the first time, and lets go of it at the second.
+struct Rival {
+  std::string file;
+  sqlite3* held = nullptr;
+  bool has_come = false;
+  static Rival& instance() {
+    static Rival rival;
+    return rival;
+  }
+  static int meet(sqlite3* opened, const char**, const struct sqlite3_api_routines*) {
+    Rival& rival = instance();
+    const char* name = sqlite3_db_filename(opened, "main");
+    if (name == nullptr || rival.file != name) return SQLITE_OK;
+    if (!std::exchange(rival.has_come, true)) {  // the rival's own opening comes by here, too
+      EXPECT_EQ(sqlite3_open(name, &rival.held), SQLITE_OK);
+      EXPECT_EQ(sqlite3_exec(rival.held, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
+    } else if (rival.held != nullptr && opened != rival.held) {
+      sqlite3_close(std::exchange(rival.held, nullptr));
+    }
+    return SQLITE_OK;
+  }
+};
+
+TEST_F(DatabaseFile, ALockIsNoReasonForAnEmptyCopy) {
+  fill(50);
+  Rival::instance() = {.file = fs::weakly_canonical(folder_ / "copy.db.part").string()};
+  const auto meet = reinterpret_cast<void (*)()>(&Rival::meet);
+  ASSERT_EQ(sqlite3_auto_extension(meet), SQLITE_OK);
+  EXPECT_THROW(copy_database(file_, folder_ / "copy.db"), InputError);
+  sqlite3_cancel_auto_extension(meet);
+  EXPECT_TRUE(Rival::instance().has_come);
+  sqlite3_close(Rival::instance().held);
+  for (const char* left : {"copy.db", "copy.db.part"}) EXPECT_FALSE(fs::exists(folder_ / left)) << left;
+  copy_database(file_, folder_ / "copy.db");
+  EXPECT_EQ(SimulationCache(folder_ / "copy.db").size(), 50);
 }
 
 TEST_F(DatabaseFile, SalvageKeepsWhatCanBeReadAndInventsNothing) {

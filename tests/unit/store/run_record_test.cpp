@@ -34,6 +34,10 @@ TEST_F(RunRecordOfAFile, OnlyAnswersAboutMeasuredDesignsAreWhatTheModelSaysOfThe
   EXPECT_TRUE(read_run_record(file_).rounds[1].simulated.empty());
   project_answer("analyser/r1/measured/0");
   EXPECT_EQ(read_run_record(file_).rounds[1].simulated.size(), 2u);
+  project_answer("analyser/r2/films#0123456789abcdef");
+  EXPECT_TRUE(read_run_record(file_).rounds[2].simulated.empty());
+  project_answer("analyser/r2/measured/64#0123456789abcdef");
+  EXPECT_EQ(read_run_record(file_).rounds[2].simulated.size(), 2u) << "runs before ids ended in a hash are read, too";
 }
 
 TEST_F(RunRecordOfAFile, TheFitOfACalibrationIsKeptAndSpeaksAgainstAVerdictThatFindsNothing) {
@@ -64,7 +68,7 @@ TEST_F(RunRecordOfAFile, CracksBelongToTheRoundOrTheFamilyWhoseModelBrokeThem) {
   database_.project("FAMILY", wire::write(family));
   wire::Fracture fracture = wire::samples::fracture();
   for (const std::string& question :
-       {fmt::format("analyser/family{}/films", family.number), std::string("analyser/r7/films")}) {
+       {fmt::format("analyser/family{}/films", family.number), std::string("analyser/r7/films#0123456789abcdef")}) {
     fracture.request_id = question;
     database_.project("FRACTURE", wire::write(fracture));
   }
@@ -98,6 +102,30 @@ TEST_F(RunRecordOfAFile, FamiliesAreKeptInAFileOfAVersionBeforeThem) {
   EXPECT_TRUE(read_run_record(file_).families.empty());
   RunDatabase(file_).project("FAMILY", wire::write(wire::samples::family()));
   EXPECT_EQ(read_run_record(file_).families.size(), 1u);
+}
+
+TEST_F(RunRecordOfAFile, AReviewBringsBackASpecimenThatMeansSomethingAndNoOther) {
+  wire::Measurement measurement = wire::samples::measurement();
+  measurement.record.test = tester::TestKind::modulus;
+  measurement.record.curve = {};
+  measurement.record.toughness_pa = std::nullopt;
+  measurement.record.valid = false;
+  const auto project = [&](const std::string& name, double modulus_pa) {
+    measurement.record.specimen = name;
+    measurement.record.modulus_pa = modulus_pa;
+    database_.project("MEASUREMENT", wire::write(measurement));
+    review_t review{};
+    review.specimen = name;
+    review.revision = 1;
+    review.valid = true;
+    database_.project("REVIEW", wire::encode(review));
+  };
+  project("a", 1.2e9);
+  project("b", 1.2);  // typed in GPa
+  const auto specimens = read_run_record(file_).specimens;
+  ASSERT_EQ(specimens.size(), 2u);
+  EXPECT_TRUE(specimens[0].record.valid);
+  EXPECT_FALSE(specimens[1].record.valid);
 }
 
 TEST_F(RunRecordOfAFile, AGamutIsReadWithItsPatternsOrLeftOut) {

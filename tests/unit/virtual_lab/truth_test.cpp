@@ -99,23 +99,23 @@ TEST(LaboratoryFile, AnEffectWithoutValueOrNamedDrawIsDrawnFromTheSeed) {
 }
 
 TEST(LaboratoryFile, RefusalsNameFileLineKeyAndWhatWasExpected) {
-  EXPECT_THAT(refusal("seed = 1\nreplicate = 3\n"), HasSubstr("lab.toml: line 2, replicate = 3: expected one of"));
-  EXPECT_THAT(refusal("seed = -1\n"), HasSubstr("line 1, seed = -1: expected a whole number from 0"));
-  EXPECT_THAT(refusal("fidelity = \"fine\"\n"), HasSubstr("line 1, fidelity = 'fine': expected tiny, preview or full"));
+  EXPECT_THAT(refusal("seed = 1\nreplicate = 3\n"), HasSubstr("lab.toml:2:13: replicate = 3: expected one of"));
+  EXPECT_THAT(refusal("seed = -1\n"), HasSubstr(":1:8: seed = -1: expected a whole number from 0"));
+  EXPECT_THAT(refusal("fidelity = \"fine\"\n"), HasSubstr(":1:12: fidelity = 'fine': expected tiny, preview or full"));
   EXPECT_THAT(refusal("[noise]\nmodulus = 2\n"),
-              HasSubstr("line 2, noise.modulus = 2: expected a number from 0 to 0.5"));
-  EXPECT_THAT(refusal("[noise]\nmodulus = \"much\"\n"), HasSubstr("line 2, noise.modulus = 'much': expected a number"));
+              HasSubstr(":2:11: noise.modulus = 2: expected a number from 0 to 0.5"));
+  EXPECT_THAT(refusal("[noise]\nmodulus = \"much\"\n"), HasSubstr(":2:11: noise.modulus = 'much': expected a number"));
   EXPECT_THAT(refusal("[modulus]\nnu_tb = 0.7\n"),
-              HasSubstr("line 2, modulus.nu_tb = 0.7: expected a number from 0 to 0.5"));
-  EXPECT_THAT(refusal("[toughness]\ne_xx = 1\n"), HasSubstr("line 2, toughness.e_xx = 1: expected one of e_tb_pa"));
+              HasSubstr(":2:9: modulus.nu_tb = 0.7: expected a number from 0 to 0.5"));
+  EXPECT_THAT(refusal("[toughness]\ne_xx = 1\n"), HasSubstr(":2:8: toughness.e_xx = 1: expected one of e_tb_pa"));
   EXPECT_THAT(refusal("[[effect]]\nname = \"magic\"\nvalue = 1\n"),
-              HasSubstr("line 2, effect.name = 'magic': expected one of draw, machine_comp"));
+              HasSubstr(":2:8: effect.name = 'magic': expected one of draw, machine_comp"));
   EXPECT_THAT(refusal("[[effect]]\nvalue = 1\n"), HasSubstr("effect.name: expected one of"));
   EXPECT_THAT(refusal("[[effect]]\nname = \"corner_debonding\"\nvalue = 1.5\n"),
-              HasSubstr("line 3, effect.value = 1.5: expected a number"));
+              HasSubstr(":3:9: effect.value = 1.5: expected a number"));
   EXPECT_THAT(refusal("[[effect]]\nname = \"toe_slack\"\n[[effect]]\nname = \"toe_slack\"\n"),
               HasSubstr("each effect once"));
-  EXPECT_THAT(refusal("seed 1\n"), HasSubstr("lab.toml: line 1"));
+  EXPECT_THAT(refusal("seed 1\n"), HasSubstr("lab.toml:1:6: not TOML"));
 }
 
 TEST(LaboratoryFile, OneWithoutASeedIsAnotherLaboratoryInEveryGame) {

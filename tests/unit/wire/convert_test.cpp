@@ -1,10 +1,12 @@
 #include "wire/convert.hpp"
 
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "samples.hpp"
+#include "wire/channels.hpp"
 
 namespace nacre::wire {
 namespace {
@@ -52,6 +54,40 @@ TEST(Convert, RequestsWithoutRequesterTestOrDesignAreRefused) {
   EXPECT_TRUE(refused([](SimulateRequest& r) { r.conditions.orientation_deg = 45.0; }));
   EXPECT_TRUE(refused([](SimulateRequest& r) { r.curve_points = 1501; }));
   EXPECT_FALSE(refused([](SimulateRequest& r) { r.designs.resize(1); }));
+}
+
+TEST(Convert, ARequestsIdEndsInTheHashOfAllThatIsAsked) {
+  const SimulateRequest asked = with_content_id(samples::request());
+  EXPECT_EQ(asked, with_content_id(samples::request())) << "no choice is left";
+  const std::size_t end_of_place = asked.request_id.find('#');
+  ASSERT_NE(end_of_place, std::string::npos);
+  EXPECT_EQ(asked.request_id.substr(0, end_of_place), samples::request().request_id);
+  EXPECT_EQ(asked.request_id.size() - end_of_place, 1U + 16U);
+  EXPECT_EQ(requester_of(asked.request_id), "proposal_agent");
+  expect_round_trip(asked);
+  SimulateRequest rest = asked;
+  rest.request_id = samples::request().request_id;
+  EXPECT_EQ(rest, samples::request()) << "nothing else is changed";
+
+  const auto hash_of = [](auto change) {
+    SimulateRequest request = samples::request();
+    change(request);
+    const std::string id = with_content_id(request).request_id;
+    return id.substr(id.find('#'));
+  };
+  const std::string hash = hash_of([](SimulateRequest&) {});
+  EXPECT_EQ(hash, hash_of([](SimulateRequest& r) { r.request_id = "analyser/elsewhere"; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.modulus = false; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.crack = true; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.film = true; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.fidelity = tester::Fidelity::tiny; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.conditions.orientation_deg = 0.0; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.parameters.toughness.w_if_j_per_m3 *= 1.0 + 1e-15; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.parameters.extensions["droplet_mixing"] = {0.1}; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.curve_points = 99; }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.designs.pop_back(); }));
+  EXPECT_NE(hash, hash_of([](SimulateRequest& r) { std::swap(r.designs[0], r.designs[1]); }))
+      << "answers are paired with designs by their places";
 }
 
 TEST(Convert, CracksAndFilmsAreAskedForWithToughnessOnly) {
