@@ -118,7 +118,7 @@ TEST(LaboratoryFile, EffectsWithTwoNumbersReadBackAndRefuseOthers) {
     }
     return "accepted";
   };
-  EXPECT_THAT(refusal("[0.5]"), testing::HasSubstr("line 3, effect.value: expected two numbers"));
+  EXPECT_THAT(refusal("[0.5]"), testing::HasSubstr(":3:9: effect.value: expected two numbers"));
   EXPECT_THAT(refusal("[0.5, -1.0]"), testing::HasSubstr("expected a number from 0.001"));
   const Truth drawn = parse_laboratory("seed = 2\n[[effect]]\nname = \"rate_dependence\"\n", "a");
   EXPECT_GT(drawn.effects.rate_relaxation_s, 0.9);
