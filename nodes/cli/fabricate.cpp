@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "fabricate/build_sheet.hpp"
 #include "laboratory_view.hpp"
+#include "measurement/limits.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "pattern/constraints.hpp"
@@ -32,6 +33,8 @@ struct Options {
   int replicates = 4;
   double orientation_deg = 0.0;
   double thickness_mm = 3.2;
+  double strain_rate_per_s = thesis::kTestStrainRate;
+  std::string loading = "monotonic";
   bool twins = false;
   bool coupons = false;
   bool orders = false;
@@ -65,7 +68,17 @@ void warn_about_constraints(const pattern::Design& design) {
   if (const auto violation = pattern::violation(*pattern)) warn(fmt::format("{}: {}", design.name(), *violation));
 }
 
+/// How coupons are pulled; another programme than monotonic is for homogeneous ones alone.
+tester::Loading loading_of(const Options& options) {
+  const Result<tester::Loading> loading = tester::loading_from_string(options.loading);
+  if (!loading) throw InputError::format("--loading: {}", loading.error().message);
+  if (!loading->turns.empty() && options.test != "tensile")
+    throw InputError("--loading: only coupons of --test tensile are unloaded on the way");
+  return *loading;
+}
+
 std::vector<Wanted> wanted_by_name(const Options& options) {
+  const tester::Loading loading = loading_of(options);
   std::vector<std::string> names = options.designs;
   if (options.coupons) names.insert(names.end(), std::begin(kCoupons), std::end(kCoupons));
   std::vector<Wanted> wanted;
@@ -78,10 +91,15 @@ std::vector<Wanted> wanted_by_name(const Options& options) {
     }
     warn_about_constraints(design);
     for (const TestKind test : tests_of(options.test)) {
+      if (test == TestKind::tensile && design.mixture() == nullptr)
+        throw InputError::format(
+            "{}: a tensile test is of a homogeneous coupon, expected soft, interface, rigid or mix:F", name);
       wanted.push_back({.design = design,
                         .test = test,
                         .orientation_deg = options.orientation_deg,
                         .thickness_mm = options.thickness_mm,
+                        .strain_rate_per_s = options.strain_rate_per_s,
+                        .loading = loading,
                         .replicates = options.replicates});
       if (!options.twins || design.mixture() != nullptr) continue;
       wanted.push_back(wanted.back());
@@ -207,8 +225,10 @@ void add_fabricate(CLI::App& app, Action& action) {
                      "Pattern file, key, soft, interface, rigid, mix:F, checkerboard:P, laminate:x|y:R:S");
   command.add_option("--out", options->out, "Folder of the job")->required();
   command
-      .add_option("--test", options->test, "Kind of specimen: toughness (notched), modulus (ASTM D638 type I), both")
-      ->check(CLI::IsMember({"modulus", "toughness", "both"}))
+      .add_option("--test", options->test,
+                  "toughness (notched specimen), modulus (ASTM D638 type I), both, or tensile (the bar, homogeneous, "
+                  "with its curve)")
+      ->check(CLI::IsMember({"modulus", "toughness", "both", "tensile"}))
       ->capture_default_str();
   command.add_option("--replicates", options->replicates, "Specimens of each design and test")
       ->check(CLI::Range(1, 100))
@@ -217,6 +237,14 @@ void add_fabricate(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({0.0, 90.0}))
       ->capture_default_str();
   command.add_option("--thickness-mm", options->thickness_mm, "Thickness")->capture_default_str();
+  command.add_option("--strain-rate-per-s", options->strain_rate_per_s, "Rate at which they are to be pulled")
+      ->check(CLI::Range(measurement::kStrainRatePerS.least, measurement::kStrainRatePerS.most))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--loading", options->loading,
+          "How a tensile coupon is to be pulled: monotonic, or the strains to turn at, \"strain 0.02 0.005 0.022\"")
+      ->capture_default_str();
   command.add_flag("--twins", options->twins, "Each layout also turned by a quarter");
   command.add_flag("--coupons", options->coupons, "The calibration coupons: laminates and checkerboards");
   command.add_flag("--orders", options->orders, "What a game has ordered and nobody has printed yet");

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "blind_trial.hpp"
 
 namespace nacre::blind {
@@ -61,6 +63,25 @@ TEST(BlindCouponTrials, BatchesThatHoldBothRatesShowTheirDrift) {
   ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "batch_drift");
   EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.08, 0.012);
+}
+
+std::vector<virtual_laboratory::Question> unloaded_coupons(std::uint64_t seed) {
+  std::vector<virtual_laboratory::Question> questions = coupons(seed);
+  for (virtual_laboratory::Question& question : questions) question.loading = {{0.02, 0.005, 0.022}};
+  return questions;
+}
+
+// As a diagnosis orders them. The machine records other strains than the coupon feels, on the way back too.
+TEST(BlindCouponTrials, AMachineIsSeenThroughCouponsThatWereUnloadedOnTheWay) {
+  for (const auto& [name, value] : {std::pair{"toe_slack", 0.004}, {"machine_compliance", 2.5e-10}}) {
+    const Trial trial = run_trial(laboratory(54, name, fmt::format("{}", value)), unloaded_coupons, "tiny");
+    ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
+    ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
+    EXPECT_EQ(trial.diagnosis["effects"][0]["name"], name);
+    const auto interval = trial.diagnosis["effects"][0]["interval90"];
+    const double width = interval[1].get<double>() - interval[0].get<double>();
+    EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), value, 1.5 * width);
+  }
 }
 
 // Alone neither explains the curves: slack lies before the specimen carries, flow at its end.

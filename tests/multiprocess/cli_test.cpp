@@ -294,7 +294,7 @@ TEST_F(CommandLine, MeasureWritesASetAndSealsTheTruthBesideIt) {
   EXPECT_TRUE(fs::exists(path("set/measurements.csv")));
   EXPECT_TRUE(fs::exists(path("set.truth.toml")));
   expect_refused(run_nacre({"measure", "--lab", file("bad.toml", "sede = 3\n"), "--out", path("x"), "soft"}),
-                 {"bad.toml", "line 1", "sede"});
+                 {"bad.toml:1:8", "sede"});
 }
 
 TEST_F(CommandLine, CalibrateFindsTheModulusOfASetAndWritesParametersThatSimulateTakes) {

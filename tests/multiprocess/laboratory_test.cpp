@@ -40,13 +40,29 @@ TEST(Fabricate, WritesTheSlicesOfOneModelAndItsBuildSheet) {
 
 TEST(Fabricate, RefusesWhatCannotBePrinted) {
   const std::string folder = fresh_folder("refused").string();
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"fabricate", "--out", folder},
-                                                {"fabricate", "mix:1.5", "--out", folder},
-                                                {"fabricate", "rigid", "--dpi", "1,1,1", "--out", folder},
-                                                {"fabricate", "checkerboard:3", "--out", folder},
-                                                {"fabricate", "rigid", "--tray-mm", "50,50", "--out", folder}}) {
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"fabricate", "--out", folder},
+        {"fabricate", "mix:1.5", "--out", folder},
+        {"fabricate", "rigid", "--dpi", "1,1,1", "--out", folder},
+        {"fabricate", "checkerboard:3", "--out", folder},
+        {"fabricate", "rigid", "--tray-mm", "50,50", "--out", folder},
+        {"fabricate", "checkerboard:5", "--test", "tensile", "--out", folder},
+        {"fabricate", "rigid", "--loading", "strain 0.02 0.005", "--out", folder},
+        {"fabricate", "rigid", "--test", "tensile", "--loading", "up", "--out", folder}}) {
     EXPECT_EQ(run_nacre(wrong).status, 2) << wrong[1];
   }
+}
+
+// What a diagnosis asks for next, without a game.
+TEST(Fabricate, ACouponsSheetSaysHowItIsToBePulled) {
+  const fs::path folder = fresh_folder("tensile");
+  const Outcome outcome =
+      run_nacre({"fabricate", "rigid", "--test", "tensile", "--loading", "strain 0.02 0.005 0.022",
+                 "--strain-rate-per-s", "0.00617", "--dpi", "100,100,100", "--out", folder.string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string sheet = read_file(folder / "specimens.csv");
+  EXPECT_THAT(sheet, HasSubstr(",rigid,tensile,"));
+  EXPECT_THAT(sheet, HasSubstr(",0.00617,\"to 2 % strain, back to 0.5 %, on to 2.2 %\","));
 }
 
 TEST(Fabricate, WritesOverAnotherJobOnlyWhenToldTo) {
