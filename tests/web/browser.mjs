@@ -43,5 +43,11 @@ export async function visit(url, { width = 1360, height = 900, dark = false, tou
   return page;
 }
 
+/** Closes a page and all of its context; answers that are still on their way to it are nobody's fault. */
+export async function leave(page) {
+  await page.unrouteAll({ behavior: "ignoreErrors" });
+  await page.context().close();
+}
+
 export const photograph = (page, name, fullPage = false) =>
   page.screenshot({ path: join(SCREENSHOTS, `${name}.png`), fullPage });

@@ -5,7 +5,7 @@ import { request } from "node:http";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { browser, photograph, visit } from "./browser.mjs";
+import { browser, leave, photograph, visit } from "./browser.mjs";
 import { endAll, openDashboard, playGame, ROOT, until, withManyPatterns } from "./games.mjs";
 
 const game = await playGame(join(ROOT, "tests/web/live.toml"), "game");
@@ -145,7 +145,7 @@ test("every replicate of a turned order is handed in as a turned one", async () 
     ],
   );
   assert.deepEqual(other.troubles, []);
-  await other.context().close();
+  await leave(other);
 });
 
 test("a game that asks for no approvals offers none", async () => {
@@ -160,7 +160,7 @@ test("a game that asks for no approvals offers none", async () => {
   });
   await other.locator("text=does not wait for a person's yes").waitFor();
   assert.equal(await other.getByRole("button", { name: /Approve|Reject/ }).count(), 0);
-  await other.context().close();
+  await leave(other);
 });
 
 test("long names leave the remarks and the judge's button in sight, and a judgement its author", async () => {
@@ -176,7 +176,7 @@ test("long names leave the remarks and the judge's button in sight, and a judgem
   assert.ok(box.x + box.width < 1360, `the button ends at ${box.x + box.width}`);
   assert.match(await row.innerText(), /Ada: it broke as it should/);
   assert.equal(await row.locator("code.key").getAttribute("title"), of.design);
-  await other.context().close();
+  await leave(other);
 });
 
 test("what cannot be a measurement is refused with its column", async () => {
@@ -198,7 +198,7 @@ test("what cannot be a measurement is refused with its column", async () => {
     other.troubles.filter((t) => !/status of (400|413)/.test(t)),
     [],
   );
-  await other.context().close();
+  await leave(other);
 });
 
 /** Says yes to everything that waits for it. */
@@ -263,7 +263,7 @@ test("what is pointed at stays while the gamut comes", async () => {
   await until(async () => (await shareOf()) > bare, 20, "the gamut is shown");
   await ringAt(other);
   assert.equal(await pointedAt(other), pointed);
-  await other.context().close();
+  await leave(other);
 });
 
 test("a key that comes with the first frame finds the chart made", async () => {
@@ -283,7 +283,7 @@ test("a key that comes with the first frame finds the chart made", async () => {
       }),
   );
   assert.equal(said, "no error");
-  await other.context().close();
+  await leave(other);
 });
 
 test("the page of a live game has no errors and asks nobody else", async () => {
@@ -293,7 +293,7 @@ test("the page of a live game has no errors and asks nobody else", async () => {
 
 test("a finished run is the same page, in the dark", async () => {
   assert.equal(await live.close(), 0, live.said);
-  await page.context().close();
+  await leave(page);
   const finished = await openDashboard(game.folder);
   const dark = await visit(finished.url, { dark: true });
   await dark.locator(".standing", { hasText: "finished" }).waitFor();
@@ -308,7 +308,7 @@ test("a finished run is the same page, in the dark", async () => {
   await dark.locator(".standing").waitFor();
   assert.equal(await dark.evaluate(() => document.documentElement.dataset.theme), "light");
   assert.deepEqual(dark.troubles, []);
-  await dark.context().close();
+  await leave(dark);
   await finished.close();
 });
 
@@ -326,7 +326,7 @@ test("families show their variants and whether their models were worth it", asyn
   assert.match(readFileSync(await download.path(), "utf8"), /^family,what,pattern,[\s\S]*,simulated,[0-9a-f]{14},/);
   await photograph(on, "families", true);
   assert.deepEqual(on.troubles, []);
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -339,7 +339,7 @@ test("a family's model that is worse than the global one is called so", async ()
   });
   await on.locator("strong.bad", { hasText: "worse than the global model in T" }).waitFor();
   await on.locator(".notice.bad", { hasText: "worse than the global model in T on the variants" }).waitFor();
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -367,7 +367,7 @@ test("of a family none of whose variants was measured nothing is claimed", async
   chosen = { ...known, toughness_count: 0 };
   await on.reload();
   await cell("does not over-fit E; T not measured").first().waitFor();
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -396,7 +396,7 @@ test("a grouping that nobody has kept yet outlives another proposal", async () =
   await showsUp("third");
   assert.equal(await on.locator(".notice", { hasText: "changed since" }).count(), 0);
   assert.deepEqual(on.troubles, []);
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -412,7 +412,7 @@ test("what the server cannot answer is said in its words until it can", async ()
     await on.unroute(`**${path}`);
     await on.locator(".notice.bad").first().waitFor({ state: "detached" });
     await on.locator(".panel h2, .panel h3").first().waitFor();
-    await on.context().close();
+    await leave(on);
   };
   await Promise.all(Object.entries(views).map(isSaid));
   await finished.close();
@@ -438,7 +438,7 @@ test("a verdict stands under its own round alone", async () => {
   await on.getByRole("button", { name: "round 1" }).click();
   await verdict.locator("h2").waitFor();
   assert.equal(await verdict.locator(".notice").count(), 0);
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -458,7 +458,7 @@ test("the report is linked once it is there", async () => {
   assert.equal(asked, before); // nothing is new in the run
   data = "after";
   await link.waitFor();
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -488,7 +488,7 @@ test("an open design follows the run's data, and its film goes on", async () => 
   assert.equal(await on.locator(".film canvas").getAttribute("data-seen"), "yes");
   assert.equal(await on.locator(".panel.design").getAttribute("data-emptied"), null);
   assert.deepEqual(on.troubles, []);
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -510,7 +510,7 @@ test("a round that has just begun hides neither the newest proposals nor the new
   assert.match(await on.locator(".card-tip").innerText(), /measured in round/);
   assert.equal(await modelAsked(() => on.keyboard.press("Enter")), "1");
   assert.deepEqual(on.troubles, []);
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -530,7 +530,7 @@ test("a mean has the digits of its error, and only specimens of the usual condit
   await on.locator("td", { hasText: /^1\.797 ± 0\.016$/ }).first().waitFor();
   await on.locator("table", { hasText: "specimens" }).locator("button.link").first().click();
   await on.locator(".facts tr", { hasText: /^measured\s*1\.80/ }).waitFor();
-  await on.context().close();
+  await leave(on);
   await finished.close();
 });
 
@@ -567,7 +567,7 @@ test("the explorer breaks what lies between patterns", async () => {
   await explorer.keyboard.press("ArrowRight");
   await until(async () => /^[0-9a-f]{14}$/.test(await map.getAttribute("data-blend")), 20, "the other map is gone about");
   assert.deepEqual(explorer.troubles, []);
-  await explorer.context().close();
+  await leave(explorer);
   await finished.close();
 });
 
@@ -596,7 +596,7 @@ test("pictures and tables can be saved", async () => {
   );
   assert.match((await saved("gap as SVG")).toString(), /^<svg/);
   assert.deepEqual(saving.troubles, []);
-  await saving.context().close();
+  await leave(saving);
   await finished.close();
 });
 
@@ -641,7 +641,7 @@ test("everything is reached with the keyboard alone", async () => {
   );
   assert.deepEqual(unnamed, []);
   assert.deepEqual(keys.troubles, []);
-  await keys.context().close();
+  await leave(keys);
   await finished.close();
 });
 
@@ -659,7 +659,7 @@ test("a phone shows every view without scrolling sideways", async () => {
     await photograph(phone, `phone-${name}`, true);
   }
   assert.deepEqual(phone.troubles, []);
-  await phone.context().close();
+  await leave(phone);
   await finished.close();
 });
 
@@ -691,7 +691,7 @@ async function shownAndPointed(run, count, picture) {
   }
   if (picture) await photograph(on, picture);
   assert.deepEqual(on.troubles, []);
-  await on.context().close();
+  await leave(on);
   await dashboard.close();
   return { shown, pointed: times.sort((a, b) => a - b)[5] };
 }
@@ -746,6 +746,6 @@ test("other pages, names and files get nothing", async () => {
   await visited.locator(".standing").waitFor();
   assert.ok(!visited.url().includes("token"));
   assert.deepEqual(visited.troubles, []);
-  await visited.context().close();
+  await leave(visited);
   await guarded.close();
 });
