@@ -78,6 +78,18 @@ using Questions = std::function<std::vector<virtual_laboratory::Question>(std::u
 /// In which batch a replicate is printed, both counted from 0.
 using BatchOf = std::function<int(const virtual_laboratory::Question&, int replicate)>;
 
+/// What `nacre diagnose SET --fidelity FIDELITY --json` prints.
+inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::string& fidelity) {
+  const std::string command =
+      std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + set.string() + " --fidelity " + fidelity + " --json";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string output;
+  std::array<char, 4096> buffer{};
+  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;)
+    output.append(buffer.data(), count);
+  return nlohmann::json::parse(output);
+}
+
 /// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and
 /// the opened truth.
 inline Trial run_trial(
@@ -101,14 +113,7 @@ inline Trial run_trial(
     }
   }
   measurement::write_measurement_set(scratch.folder() / "set", records);
-  const std::string command = std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + (scratch.folder() / "set").string() +
-                              " --fidelity " + fidelity + " --json";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string output;
-  std::array<char, 4096> buffer{};
-  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;)
-    output.append(buffer.data(), count);
-  trial.diagnosis = nlohmann::json::parse(output);
+  trial.diagnosis = diagnosed(scratch.folder() / "set", fidelity);
   return trial;
 }
 

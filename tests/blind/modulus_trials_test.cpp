@@ -30,6 +30,13 @@ TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) {
 
 // What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 %
 // too small (docs/studies/numerics-floor.md).
+// The set that the first page sends people to.
+TEST(BlindModulusTrials, TheExampleIsDiagnosedAsItsReadmeSays) {
+  Trial example;
+  example.diagnosis = diagnosed(std::filesystem::path(NACRE_SOURCE_DIR) / "data/examples/turned", "preview");
+  expect_found(example, "interface_anisotropy", 0.45, 0.1);
+}
+
 TEST(BlindModulusTrials, DropletMixingIsFound) {
   expect_found(play(laboratory(14, "droplet_mixing", "0.6")), "droplet_mixing", 0.6, 0.25);
 }
