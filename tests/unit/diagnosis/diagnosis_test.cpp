@@ -17,13 +17,19 @@
 namespace nacre::diagnosis {
 namespace {
 
+/// From the built-in parameters, on the specimens of synthetic_set.hpp.
+DiagnosisSettings tiny_settings() {
+  DiagnosisSettings settings;
+  settings.start = material::default_parameters();
+  settings.fidelity = tester::Fidelity::tiny;
+  return settings;
+}
+
 Diagnosis diagnose_truth(const material::ParameterSet& truth, std::uint64_t seed = 1) {
   SyntheticSet set;
   set.seed = seed;
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
+  DiagnosisSettings settings = tiny_settings();
   settings.seed = seed;
-  settings.fidelity = tester::Fidelity::tiny;
   return diagnose(synthetic_specimens(set, truth), settings);
 }
 
@@ -100,10 +106,8 @@ TEST(Diagnosis, ACauseThatActsEvenlyAlongAConditionGetsNoName) {
       std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens(set, synthetic_truth());
       for (measurement::SpecimenRecord& specimen : specimens)
         if (specimen.conditions.orientation_deg == 90.0) *specimen.modulus_pa *= factor;
-      DiagnosisSettings settings;
-      settings.start = material::default_parameters();
+      DiagnosisSettings settings = tiny_settings();
       settings.seed = seed;
-      settings.fidelity = tester::Fidelity::tiny;
       const Diagnosis diagnosis = diagnose(specimens, settings);
       EXPECT_NE(to_string(diagnosis.verdict), "named") << factor << ", seed " << seed << ": " << diagnosis.summary;
     }
@@ -134,10 +138,7 @@ TEST(Diagnosis, ACauseOutsideTheLibraryIsSeenAndNotNamed) {
     group.design = specimen.design;
     *specimen.modulus_pa *= std::exp(-6.0 * std::pow(corners->of(group) - 0.5, 2));
   }
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  settings.fidelity = tester::Fidelity::tiny;
-  const Diagnosis diagnosis = diagnose(specimens, settings);
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
   EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
   EXPECT_TRUE(diagnosis.effects.empty());
   EXPECT_TRUE(diagnosis.partial_gain) << "what comes nearest is told";
@@ -155,10 +156,7 @@ TEST(Diagnosis, BatchesThatShareNoDesignAreCautionedOf) {
       *specimens[j].modulus_pa *= std::exp(offset);
     }
   }
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  settings.fidelity = tester::Fidelity::tiny;
-  const Diagnosis diagnosis = diagnose(specimens, settings);
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
   EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
   EXPECT_NE(diagnosis.summary.find("17 sets without a common design"), std::string::npos) << diagnosis.summary;
 }
@@ -167,10 +165,7 @@ Diagnosis diagnose_coupons(const std::string& effect, std::vector<double> values
                            const std::vector<double>& strains = pulled_to_two_percent()) {
   material::ParameterSet truth = synthetic_truth();
   if (!effect.empty()) truth.extensions[effect] = std::move(values);
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  settings.fidelity = tester::Fidelity::tiny;
-  return diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5, strains), settings);
+  return diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5, strains), tiny_settings());
 }
 
 TEST(CouponDiagnosis, CouponsOfTheBaseModelAreBaseSufficient) {
@@ -220,19 +215,14 @@ TEST(Diagnosis, ModuliOfCouponsAreNoCurves) {
     record.modulus_pa = 1e8 * (1.0 + fraction);
     specimens.push_back(record);
   }
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  settings.fidelity = tester::Fidelity::tiny;
-  EXPECT_THROW(diagnose(specimens, settings), TooFewSpecimens);
+  EXPECT_THROW(diagnose(specimens, tiny_settings()), TooFewSpecimens);
 }
 
 TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {
   SyntheticSet set;
   set.patterns = 3;
   set.twins = 0;
-  DiagnosisSettings settings;
-  settings.start = material::default_parameters();
-  EXPECT_THROW(diagnose(synthetic_specimens(set, synthetic_truth()), settings), InputError);
+  EXPECT_THROW(diagnose(synthetic_specimens(set, synthetic_truth()), tiny_settings()), InputError);
 }
 
 }  // namespace
