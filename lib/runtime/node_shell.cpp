@@ -9,7 +9,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "runtime/bus.hpp"
 #include "runtime/fold.hpp"
 #include "runtime/journal.hpp"
+#include "runtime/questions.hpp"
 #include "runtime/reliable.hpp"
 #include "runtime/text_log.hpp"
 #include "runtime/work_pool.hpp"
@@ -187,7 +187,9 @@ class NodeShell {
     const std::string hash = wire::message_hash(channel, received.message.payload);
     if (wire::is_answer(channel)) {
       const std::string request_id = wire::request_id_of(channel, received.message.payload);
-      if (!asked_.contains(request_id)) return handle_unasked(request_id, hash);
+      const AnswerFate fate = questions_.fate_of(request_id, core_.status().finished);
+      if (fate == AnswerFate::dismiss) inbox_.owe(hash, steady_us());
+      if (fate != AnswerFate::take) return;
     }
     if (!inbox_.is_new(hash)) {
       ++inbox_.duplicates;
@@ -198,12 +200,6 @@ class NodeShell {
       step(received.message);
     }
     inbox_.owe(hash, steady_us());
-  }
-
-  /// A node that lost its journal has yet to ask this again, and the answer is repeated until then; unless it has asked
-  /// something else at that place, or nothing more will be asked: then nobody waits for it.
-  void handle_unasked(const std::string& request_id, const std::string& hash) {
-    if (places_asked_.contains(wire::place_of(request_id)) || core_.status().finished) inbox_.owe(hash, steady_us());
   }
 
   void handle_status(const Received& received) {
@@ -284,11 +280,7 @@ class NodeShell {
   void offer(const Message& message) {
     const wire::Channel* channel = wire::find_channel(message.channel);
     if (!channel) return;
-    if (message.channel == "SIMULATE") {
-      const std::string request_id = wire::request_id_of(message.channel, message.payload);
-      places_asked_.insert(wire::place_of(request_id));
-      asked_.insert(request_id);
-    }
+    if (message.channel == "SIMULATE") questions_.ask(wire::request_id_of(message.channel, message.payload));
     outbox_.offer(wire::message_hash(message.channel, message.payload), message,
                   wire::receivers_of(*channel, message.payload, options_.participants, options_.node));
   }
@@ -352,8 +344,7 @@ class NodeShell {
   Outbox outbox_;
   Inbox inbox_;
   std::unique_ptr<Executor> executor_;
-  std::set<std::string> asked_;         ///< ids of our own requests
-  std::set<std::string> places_asked_;  ///< and their places (wire::place_of)
+  Questions questions_;
   Eta eta_;
   std::string last_problem_;
   bool heard_itself_ = false;
