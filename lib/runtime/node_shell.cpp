@@ -187,9 +187,7 @@ class NodeShell {
     const std::string hash = wire::message_hash(channel, received.message.payload);
     if (wire::is_answer(channel)) {
       const std::string request_id = wire::request_id_of(channel, received.message.payload);
-      const AnswerFate fate = questions_.fate_of(request_id, core_.status().finished);
-      if (fate == AnswerFate::dismiss) inbox_.owe(hash, steady_us());
-      if (fate != AnswerFate::take) return;
+      if (!questions_.asked(request_id)) return handle_unasked(request_id, hash);
     }
     if (!inbox_.is_new(hash)) {
       ++inbox_.duplicates;
@@ -200,6 +198,11 @@ class NodeShell {
       step(received.message);
     }
     inbox_.owe(hash, steady_us());
+  }
+
+  void handle_unasked(const std::string& request_id, const std::string& hash) {
+    const AnswerFate fate = questions_.fate_of(request_id, core_.status().finished);
+    if (fate == AnswerFate::dismiss) inbox_.owe(hash, steady_us());
   }
 
   void handle_status(const Received& received) {

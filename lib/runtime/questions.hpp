@@ -23,9 +23,11 @@ class Questions {
     places_.insert(wire::place_of(request_id));
   }
 
+  bool asked(const std::string& request_id) const { return asked_.contains(request_id); }
+
   /// `finished`: the node will ask nothing more.
   AnswerFate fate_of(const std::string& request_id, bool finished) const {
-    if (asked_.contains(request_id)) return AnswerFate::take;
+    if (asked(request_id)) return AnswerFate::take;
     const bool asked_otherwise = places_.contains(wire::place_of(request_id));
     return asked_otherwise || finished ? AnswerFate::dismiss : AnswerFate::leave;
   }

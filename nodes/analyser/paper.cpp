@@ -13,6 +13,7 @@
 #include "analyser/svg.hpp"
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "game/family_errors.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -92,6 +93,7 @@ Cell design_cell(std::string_view name) {
 Cell gpa_cell(const std::optional<double>& pa) { return {pa ? gpa(*pa) : "–", kept_number(pa)}; }
 Cell mpa_cell(const std::optional<double>& pa) { return {pa ? mpa(*pa) : "–", kept_number(pa)}; }
 Cell share_cell(const std::optional<double>& share) { return {percent_or_dash(share), kept_number(share)}; }
+Cell error_cell(int count, double error) { return share_cell(game::error_over(count, error)); }
 Cell number_cell(const std::optional<double>& value) { return {value ? figure(*value) : "–", kept_number(value)}; }
 
 std::optional<double> error_of(const std::optional<double>& simulated, const std::optional<double>& measured) {

@@ -59,6 +59,8 @@ Cell design_cell(std::string_view name);  ///< with a picture of the unit
 Cell gpa_cell(const std::optional<double>& pa);
 Cell mpa_cell(const std::optional<double>& pa);
 Cell share_cell(const std::optional<double>& share);
+/// An error over `count` designs, a dash over none (game::error_over).
+Cell error_cell(int count, double error);
 Cell number_cell(const std::optional<double>& value);
 
 /// Relative error of a prediction, where both are known.

@@ -78,13 +78,14 @@ PaperTable errors_table(const PaperSource& source, const std::string& name, bool
     const sysid::PredictionErrors& own = seeds ? errors.seeds_family : errors.chosen_family;
     const int count = std::max(designs_of(global), designs_of(own));
     if (!family.is_thesis && count == 0) continue;
-    const auto of = [](int n, double error) { return share_cell(game::error_over(n, error)); };
-    table.add({text_cell(family.name), text_cell(std::to_string(count)), of(global.modulus_count, global.modulus_mean),
-               of(global.modulus_count, global.modulus_max), of(own.modulus_count, own.modulus_mean),
-               of(own.modulus_count, own.modulus_max), of(global.toughness_count, global.toughness_mean),
-               of(global.toughness_count, global.toughness_max), of(own.toughness_count, own.toughness_mean),
-               of(own.toughness_count, own.toughness_max)},
-              family.is_thesis);
+    table.add(
+        {text_cell(family.name), text_cell(std::to_string(count)),
+         error_cell(global.modulus_count, global.modulus_mean), error_cell(global.modulus_count, global.modulus_max),
+         error_cell(own.modulus_count, own.modulus_mean), error_cell(own.modulus_count, own.modulus_max),
+         error_cell(global.toughness_count, global.toughness_mean),
+         error_cell(global.toughness_count, global.toughness_max), error_cell(own.toughness_count, own.toughness_mean),
+         error_cell(own.toughness_count, own.toughness_max)},
+        family.is_thesis);
   }
   return table;
 }

@@ -253,14 +253,16 @@ PaperTable error_table(const PaperSource& source) {
                    .on_page = true};
   const auto add = [&](const std::string& round, int count, const sysid::PredictionErrors& before,
                        const sysid::PredictionErrors& after, const sysid::PredictionErrors& held_out, bool thesis) {
-    const auto of = [](int n, double value) { return share_cell(n > 0 ? std::optional(value) : std::nullopt); };
-    table.add({text_cell(round), text_cell(std::to_string(count)), of(before.modulus_count, before.modulus_mean),
-               of(before.modulus_count, before.modulus_max), of(after.modulus_count, after.modulus_mean),
-               of(after.modulus_count, after.modulus_max), of(before.toughness_count, before.toughness_mean),
-               of(before.toughness_count, before.toughness_max), of(after.toughness_count, after.toughness_mean),
-               of(after.toughness_count, after.toughness_max), of(held_out.modulus_count, held_out.modulus_mean),
-               of(held_out.toughness_count, held_out.toughness_mean)},
-              thesis);
+    table.add(
+        {text_cell(round), text_cell(std::to_string(count)), error_cell(before.modulus_count, before.modulus_mean),
+         error_cell(before.modulus_count, before.modulus_max), error_cell(after.modulus_count, after.modulus_mean),
+         error_cell(after.modulus_count, after.modulus_max), error_cell(before.toughness_count, before.toughness_mean),
+         error_cell(before.toughness_count, before.toughness_max),
+         error_cell(after.toughness_count, after.toughness_mean),
+         error_cell(after.toughness_count, after.toughness_max),
+         error_cell(held_out.modulus_count, held_out.modulus_mean),
+         error_cell(held_out.toughness_count, held_out.toughness_mean)},
+        thesis);
   };
   for (const auto& [number, round] : source.run.rounds)
     if (round.summary)
