@@ -82,11 +82,7 @@ FeatureValues predicted_features(const PossibleTest& test, const CoordinateMap& 
       value_of(values, Feature::log_modulus) =
           std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
   } else if (test.test == TestKind::tensile) {
-    const auto pull = [&](const std::vector<double>& strain) {
-      return tester::test_tensile(simulation, strain).value_or(tester::Curve{});
-    };
-    const std::vector<double> history = unload_history();
-    if (!pull(history).empty()) values = tensile_features(measurement::observe_along(history, pull, set.extensions));
+    if (const auto curve = coupon_through_machine(simulation, unload_history())) values = tensile_features(*curve);
   } else if (auto result = tester::test_toughness({test.design, simulated_side(set), test.conditions, fidelity})) {
     sysid::Prediction prediction;
     prediction.toughness_pa = result->toughness_pa;

@@ -18,16 +18,26 @@ double unshown(const FeatureValues& values, Feature feature) {
 
 }  // namespace
 
-tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
-  const auto pull = [&](const std::vector<double>& strain) {
-    auto pulled = tester::test_tensile({group.design, set, group.conditions, fidelity_}, strain);
-    if (!pulled) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), pulled.error().message));
-    return *std::move(pulled);
+Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, const std::vector<double>& shown_strain,
+                                             const measurement::PrintContext& context) {
+  std::string fault;
+  const auto pull = [&](const std::vector<double>& strain) -> tester::Curve {
+    auto pulled = tester::test_tensile(coupon, strain);
+    if (pulled) return *std::move(pulled);
+    fault = pulled.error().message;
+    return {strain, std::vector<double>(strain.size(), 0.0)};
   };
-  const tester::Curve shown =
-      measurement::observe_along(group.curve.strain, pull, set.extensions, {.batch_step = group.batch_step});
+  tester::Curve shown = measurement::observe_along(shown_strain, pull, coupon.parameters.extensions, context);
+  if (!fault.empty()) return fail("{}", fault);
+  return shown;
+}
+
+tester::Curve FeatureModel::coupon_curve(const Observation& group, const material::ParameterSet& set) const {
+  const auto shown = coupon_through_machine({group.design, set, group.conditions, fidelity_}, group.curve.strain,
+                                            {.batch_step = group.batch_step});
+  if (!shown) throw std::runtime_error(fmt::format("coupon {}: {}", group.design.name(), shown.error().message));
   const auto end = carried_strain(group.curve);
-  return end ? tester::cut_at(shown, *end) : shown;
+  return end ? tester::cut_at(*shown, *end) : *shown;
 }
 
 Basis basis_for(const Observations& observations, const material::ParameterSet& start) {

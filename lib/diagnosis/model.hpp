@@ -70,6 +70,11 @@ class FeatureModel {
   mutable std::vector<LastProbe> last_;  ///< per group
 };
 
+/// The curve of a homogeneous coupon through the machine, at the strains that the machine records (or is to run
+/// through). The error: what the tensile tester says of a coupon that cannot be pulled so.
+Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, const std::vector<double>& shown_strain,
+                                             const measurement::PrintContext& context = {});
+
 /// Blocks of base constants that these observations need; what is not searched from `start`.
 Basis basis_for(const Observations& observations, const material::ParameterSet& start);
 
