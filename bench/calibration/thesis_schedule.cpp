@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "case.hpp"
+#include "material/ranges.hpp"
 #include "optimize/batch_optimizer.hpp"
 #include "table.hpp"
 
@@ -16,7 +17,7 @@ constexpr int kFirstPoints = 5, kBatches = 200, kBatch = 3;
 material::ParameterSet parameters_at(const optimize::Point& point) {
   material::ParameterSet set = material::default_parameters();
   material::ToughnessVector eta{};
-  const auto ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  const auto ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
   for (std::size_t j = 0; j < eta.size(); ++j) eta[j] = from_unit(ranges[j], point[j]);
   set.toughness = material::toughness_from_vector(eta);
   return set;

@@ -7,6 +7,7 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "explore/gamut_csv.hpp"
+#include "material/ranges.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
 
@@ -53,8 +54,8 @@ std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_
   while (static_cast<int>(sets.size()) < count) {
     material::ModulusVector theta{};
     material::ToughnessVector eta{};
-    const auto theta_ranges = material::modulus_ranges(material::FitTarget::microstructures);
-    const auto eta_ranges = material::toughness_ranges(material::FitTarget::microstructures);
+    const auto theta_ranges = material::thesis_ranges().modulus(material::FitTarget::microstructures);
+    const auto eta_ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
     for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = drawn(theta_ranges[i], random);
     for (std::size_t i = 0; i < eta.size(); ++i) eta[i] = drawn(eta_ranges[i], random);
     sets.push_back({.modulus = material::modulus_from_vector(theta),

@@ -1,5 +1,7 @@
 #include "diagnosis/coordinates.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -38,7 +40,7 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
   const auto add_moduli = [&](Block block, material::FitTarget target) {
     for (int i = 0; i < 6; ++i) {
       const bool logarithmic = i < 3;
-      const Bounds b = widened(material::modulus_ranges(target)[static_cast<std::size_t>(i)], logarithmic);
+      const Bounds b = widened(basis.ranges.modulus(target)[static_cast<std::size_t>(i)], logarithmic);
       base_.push_back({block, i, b.low, b.high, logarithmic, kWidePrior});
     }
   };
@@ -94,6 +96,19 @@ double CoordinateMap::plain(const BaseCoordinate& c, double u) const {
 double CoordinateMap::value(int i, double u) const {
   return i >= base_count() ? material::value_at_strength(parameter_of(i), u)
                            : plain(base_[static_cast<std::size_t>(i)], u);
+}
+
+std::vector<std::string> CoordinateMap::moduli_at_an_end(const Eigen::VectorXd& u) const {
+  constexpr double kEnd = 1e-3;
+  constexpr int kModuli = 3;
+  std::vector<std::string> found;
+  for (int i = 0; i < base_count(); ++i) {
+    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    if (c.block == Block::toughness || c.index >= kModuli || std::min(u[i], 1.0 - u[i]) > kEnd) continue;
+    found.push_back(fmt::format("{} = {:.3g}{}", material::modulus_parameter_names()[static_cast<std::size_t>(c.index)],
+                                value(i, u[i]), c.block == Block::coupon ? " of coupons" : ""));
+  }
+  return found;
 }
 
 material::ParameterSet CoordinateMap::with_extensions(material::ParameterSet set, const Eigen::VectorXd& u) const {

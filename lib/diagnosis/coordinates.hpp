@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "material/extensions.hpp"
+#include "material/ranges.hpp"
 
 namespace nacre::diagnosis {
 
@@ -19,7 +20,8 @@ struct Basis {
   bool toughness = false;  ///< eta of fracture tests: E and W of three materials, gamma
   bool coupon = false;     ///< E and nu of the bulk materials: homogeneous coupons
   material::ParameterSet centre =
-      material::default_parameters();  ///< where eta is looked for, and what is not searched
+      material::default_parameters();                            ///< where eta is looked for, and what is not searched
+  material::ParameterRanges ranges = material::thesis_ranges();  ///< of theta and the bulk constants
 };
 
 /// One parameter of one effect.
@@ -40,6 +42,9 @@ class CoordinateMap {
   double upper(int i) const;
   /// Standard deviation of the prior of a base coordinate about its middle, 0.5.
   double prior_sd(int i) const { return base_[static_cast<std::size_t>(i)].prior_sd; }
+  /// Young's moduli whose base coordinate is an end of what is searched, `e_vw_pa = 1.39e+09` (`... of coupons`): no
+  /// prior would leave them there, the ranges are those of other inks.
+  std::vector<std::string> moduli_at_an_end(const Eigen::VectorXd& u) const;
   /// Physical value of coordinate i at u.
   double value(int i, double u) const;
   /// Coordinate of the second parameter of an effect (a time, a shape) while the first is tried.

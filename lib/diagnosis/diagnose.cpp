@@ -170,7 +170,7 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
 
 /// The summary, and what a reader must know beside it.
 std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
-                                  const Observations& observations) {
+                                  const Observations& observations, const std::vector<std::string>& at_an_end) {
   std::string text = summary_of(diagnosis, decision);
   for (const SanityCheck& check : diagnosis.sanity) {
     // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
@@ -183,6 +183,12 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
         " Caution: the batches fall into {} sets without a common design, so that what batches add looks like what "
         "designs differ by: print one design in every batch.",
         observations.disconnected_batches);
+  }
+  if (diagnosis.verdict != Verdict::base_sufficient && !at_an_end.empty()) {
+    text += fmt::format(
+        " Caution: {} {} at the end of what was searched. Are the inks others than the thesis'? They need ranges of "
+        "their own (docs/FORMATS.md, \"Reference tables\").",
+        fmt::join(at_an_end, ", "), at_an_end.size() == 1 ? "stands" : "stand");
   }
   return text + assumption_in_words(tests_without_replicates(observations), diagnosis.noise_known);
 }
@@ -291,7 +297,8 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   report(0.98, "other numerics on three specimens");
   if (settings.check_numerics)
     diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
-  diagnosis.summary = summary_with_cautions(diagnosis, decision, observations);
+  const CoordinateMap map(evidence.model.basis(), decided.effects);
+  diagnosis.summary = summary_with_cautions(diagnosis, decision, observations, map.moduli_at_an_end(decided.u));
   report(1.0, "done");
   return diagnosis;
 }

@@ -11,7 +11,7 @@
 #include "diagnosis/features.hpp"
 #include "diagnosis/modulus_floor.hpp"
 #include "diagnosis/numerics.hpp"
-#include "material/parameters.hpp"
+#include "material/ranges.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/loading.hpp"
 #include "tester/tester.hpp"
@@ -176,7 +176,8 @@ struct Diagnosis {
 };
 
 struct DiagnosisSettings {
-  material::ParameterSet start;  ///< where the base fit begins
+  material::ParameterSet start;                                  ///< where the base fit begins
+  material::ParameterRanges ranges = material::thesis_ranges();  ///< moduli and ratios may leave them: CoordinateMap
   tester::Fidelity fidelity = tester::Fidelity::full;
   int bootstraps = 2000;  ///< at least 2 / name_level: fewer could never reach the level
   std::uint64_t seed = 1;

@@ -71,8 +71,9 @@ void FractureRuns::add(const std::vector<material::ParameterSet>& sets, const st
   for (std::size_t k = 0; k < wanted.size(); ++k) runs_.push_back({wanted[k].parameters, std::move(answers[k])});
 }
 
-material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start, int budget, std::uint64_t seed,
-                                                   const sysid::ProgressCallback& progress) {
+material::ToughnessParameters FractureRuns::search(const material::ParameterSet& start,
+                                                   const material::ParameterRanges& ranges, int budget,
+                                                   std::uint64_t seed, const sysid::ProgressCallback& progress) {
   // Turned twins and other conditions are the same specimens to the base model: one of each design is enough to find
   // where to look.
   std::vector<measurement::Replicates> designs;
@@ -82,6 +83,7 @@ material::ToughnessParameters FractureRuns::search(const material::ParameterSet&
     if (!known && each.toughness_pa > 1.0) designs.push_back(each);
   }
   sysid::CalibrationSettings settings;
+  settings.ranges = ranges;
   settings.start = simulated_side(start);
   settings.start.extensions.clear();
   settings.modulus_budget = 0;

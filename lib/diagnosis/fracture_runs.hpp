@@ -36,10 +36,10 @@ class FractureRuns {
   const std::vector<FractureRun>& runs() const { return runs_; }
   /// Simulations really done.
   int simulations() const { return simulator_->simulations(); }
-  /// The most probable eta for the measured toughness and peaks, by the search of a calibration from `start`; its
-  /// simulations are kept too.
-  material::ToughnessParameters search(const material::ParameterSet& start, int budget, std::uint64_t seed,
-                                       const sysid::ProgressCallback& progress);
+  /// The most probable eta in `ranges` for the measured toughness and peaks, by the search of a calibration from
+  /// `start`; its simulations are kept too.
+  material::ToughnessParameters search(const material::ParameterSet& start, const material::ParameterRanges& ranges,
+                                       int budget, std::uint64_t seed, const sysid::ProgressCallback& progress);
 
  private:
   std::vector<int> groups_;

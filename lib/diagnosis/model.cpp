@@ -40,8 +40,9 @@ tester::Curve FeatureModel::coupon_curve(const Observation& group, const materia
   return end ? tester::cut_at(*shown, *end) : *shown;
 }
 
-Basis basis_for(const Observations& observations, const material::ParameterSet& start) {
-  Basis basis{false, false, false, start};
+Basis basis_for(const Observations& observations, const material::ParameterSet& start,
+                const material::ParameterRanges& ranges) {
+  Basis basis{.modulus = false, .toughness = false, .coupon = false, .centre = start, .ranges = ranges};
   for (const Observation& group : observations.groups) {
     if (group.test == TestKind::toughness)
       basis.toughness = true;

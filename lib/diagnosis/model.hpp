@@ -75,7 +75,8 @@ class FeatureModel {
 Result<tester::Curve> coupon_through_machine(const tester::Simulation& coupon, const std::vector<double>& shown_strain,
                                              const measurement::PrintContext& context = {});
 
-/// Blocks of base constants that these observations need; what is not searched from `start`.
-Basis basis_for(const Observations& observations, const material::ParameterSet& start);
+/// Blocks of base constants that these observations need, in `ranges`; what is not searched from `start`.
+Basis basis_for(const Observations& observations, const material::ParameterSet& start,
+                const material::ParameterRanges& ranges);
 
 }  // namespace nacre::diagnosis

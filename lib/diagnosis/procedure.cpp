@@ -7,6 +7,7 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/outsider.hpp"
+#include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -20,6 +21,7 @@ std::string procedure_text(const DiagnosisSettings& settings) {
                       kToldApart, fmt::join(kSizes, " "));
   text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,
                       settings.floor.mesh_remainder_sd);
+  if (settings.ranges != material::thesis_ranges()) text += material::to_csv(settings.ranges);
   const FractureNumerics& fracture = settings.fracture_numerics;
   for (const Eigen::MatrixXd* matrix : {&fracture.shared, &fracture.rigid, &fracture.layout})
     text += fmt::format("fracture {:a}\n", fmt::join(matrix->reshaped(), " "));

@@ -55,7 +55,7 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
   for (const material::Effect& effect : material::effect_library()) {
     if (!effect.acts_on_toughness || effect.side != material::EffectSide::material) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
-    const CoordinateMap map(Basis{false, true, false, centre}, names);
+    const CoordinateMap map(Basis{.modulus = false, .toughness = true, .coupon = false, .centre = centre}, names);
     const int own = map.base_count();
     for (const double sign : {1.0, -1.0}) {
       if (sign < 0.0 && map.lower(own) >= 0.0) continue;
@@ -127,11 +127,12 @@ Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, 
       if (settings.progress) settings.progress(0.15 * share, "calibrating the fracture tester");
     };
     if (settings.search_budget > 0)
-      centre.toughness = runs_->search(settings.start, settings.search_budget, settings.seed, searching);
+      centre.toughness =
+          runs_->search(settings.start, settings.ranges, settings.search_budget, settings.seed, searching);
     surface_ = std::make_unique<FractureSurface>(observations_, *runs_, centre.toughness);
   }
-  model_ = std::make_unique<FeatureModel>(observations_, basis_for(observations_, centre), settings.fidelity,
-                                          surface_.get());
+  model_ = std::make_unique<FeatureModel>(observations_, basis_for(observations_, centre, settings.ranges),
+                                          settings.fidelity, surface_.get());
   if (runs_) simulate_around(settings);
   effects_ = acting_effects(*model_, observations_);
 }

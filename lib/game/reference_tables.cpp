@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/named_table.hpp"
+#include "base/named_table.hpp"
 
 namespace nacre::game {
 namespace {

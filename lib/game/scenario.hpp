@@ -79,7 +79,8 @@ struct Scenario {
   std::string benchmark_file;   ///< homogeneous benchmark for l1 when mixtures are not measured
   std::string base_materials_file =
       "data/thesis/base_materials.csv";  ///< real measurements that round 0 is fitted to; empty: not fitted
-  std::string model_file;  ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
+  std::string model_file;   ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
+  std::string ranges_file;  ///< of the parameters, for other inks; empty: the thesis'
   std::string numerics_floor_file =
       "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
   FarmSettings farm;

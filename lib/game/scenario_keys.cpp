@@ -218,6 +218,8 @@ std::vector<ScenarioKey> make_top_level_keys() {
                 at(&Scenario::base_materials_file)),
       file_name("", "model_file", "parameters that round 0 begins with, extensions included; \"\": the built-in ones",
                 at(&Scenario::model_file)),
+      file_name("", "ranges_file", "ranges of the fitted parameters, for other inks; \"\": those of the thesis",
+                at(&Scenario::ranges_file)),
       file_name("", "numerics_floor_file", "how far two numerics of one truth differ: the floor of every diagnosis",
                 at(&Scenario::numerics_floor_file)),
   };

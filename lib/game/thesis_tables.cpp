@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "game/named_table.hpp"
+#include "base/named_table.hpp"
 
 namespace nacre::game {
 namespace {

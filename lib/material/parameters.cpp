@@ -14,46 +14,6 @@ constexpr std::array<std::string_view, kToughnessParameterCount> kToughnessNames
     "e_tb_pa", "e_vw_pa",       "e_if_pa",       "nu_tb",         "nu_vw",
     "nu_if",   "w_tb_j_per_m3", "w_vw_j_per_m3", "w_if_j_per_m3", "gamma_per_s"};
 
-// Table A.1, Young's modulus.
-constexpr std::array<ParameterRange, kModulusParameterCount> kModulusBase = {{{"e_tb_pa", 8.08e5, 1.21e6},
-                                                                              {"e_vw_pa", 2.13e9, 3.19e9},
-                                                                              {"e_if_pa", 4.51e8, 6.77e8},
-                                                                              {"nu_tb", 0.4, 0.5},
-                                                                              {"nu_vw", 0.2, 0.4},
-                                                                              {"nu_if", 0.3, 0.4},
-                                                                              {"gamma_per_s", 2e4, 2e6}}};
-// Table A.1, toughness.
-constexpr std::array<ParameterRange, kToughnessParameterCount> kToughnessBase = {{{"e_tb_pa", 1e5, 2e6},
-                                                                                  {"e_vw_pa", 1e7, 1e9},
-                                                                                  {"e_if_pa", 1e7, 1e9},
-                                                                                  {"nu_tb", 0.4, 0.5},
-                                                                                  {"nu_vw", 0.2, 0.4},
-                                                                                  {"nu_if", 0.3, 0.4},
-                                                                                  {"w_tb_j_per_m3", 5e4, 1e6},
-                                                                                  {"w_vw_j_per_m3", 5e4, 1e7},
-                                                                                  {"w_if_j_per_m3", 1e6, 1e8},
-                                                                                  {"gamma_per_s", 2e4, 4e6}}};
-// Table A.2, Young's modulus.
-constexpr std::array<ParameterRange, kModulusParameterCount> kModulusMicrostructures = {{{"e_tb_pa", 8e5, 1.2e6},
-                                                                                         {"e_vw_pa", 2.08e9, 3.12e9},
-                                                                                         {"e_if_pa", 4.48e8, 6.72e8},
-                                                                                         {"nu_tb", 0.4, 0.5},
-                                                                                         {"nu_vw", 0.2, 0.4},
-                                                                                         {"nu_if", 0.3, 0.4},
-                                                                                         {"gamma_per_s", 2e4, 2e6}}};
-// Table A.2, toughness.
-constexpr std::array<ParameterRange, kToughnessParameterCount> kToughnessMicrostructures = {
-    {{"e_tb_pa", 5e5, 5e8},
-     {"e_vw_pa", 5e7, 1e9},
-     {"e_if_pa", 1e7, 5e8},
-     {"nu_tb", 0.4, 0.5},
-     {"nu_vw", 0.2, 0.4},
-     {"nu_if", 0.3, 0.4},
-     {"w_tb_j_per_m3", 5e4, 1e6},
-     {"w_vw_j_per_m3", 5e5, 1e7},
-     {"w_if_j_per_m3", 1e6, 1e8},
-     {"gamma_per_s", 2e4, 4e6}}};
-
 /// A sentence about the first value that the testers cannot compute with.
 template <class Vector>
 std::string vector_fault(std::string_view table, std::span<const std::string_view> names, const Vector& vector) {
@@ -123,19 +83,6 @@ ToughnessParameters toughness_from_vector(const ToughnessVector& v) {
           .gamma_per_s = v[9]};
 }
 
-std::span<const ParameterRange> modulus_ranges(FitTarget target) {
-  return target == FitTarget::base ? std::span<const ParameterRange>(kModulusBase) : kModulusMicrostructures;
-}
-
-std::span<const ParameterRange> toughness_ranges(FitTarget target) {
-  return target == FitTarget::base ? std::span<const ParameterRange>(kToughnessBase) : kToughnessMicrostructures;
-}
-
-double to_unit(const ParameterRange& range, double value) {
-  if (!range.logarithmic()) return (value - range.minimum) / (range.maximum - range.minimum);
-  return std::log(value / range.minimum) / std::log(range.maximum / range.minimum);
-}
-
 ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random) {
   constexpr double kLargestPoissonRatio = 0.499;
   ToughnessVector vector = to_vector(eta);
@@ -143,11 +90,6 @@ ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, R
   for (double& value : vector) value *= std::max(kSmallestFactor, 1.0 + relative * random.normal());
   for (std::size_t i = 3; i < 6; ++i) vector[i] = std::min(vector[i], kLargestPoissonRatio);
   return toughness_from_vector(vector);
-}
-
-double from_unit(const ParameterRange& range, double unit) {
-  if (!range.logarithmic()) return range.minimum + unit * (range.maximum - range.minimum);
-  return range.minimum * std::pow(range.maximum / range.minimum, unit);
 }
 
 ParameterSet default_parameters() {

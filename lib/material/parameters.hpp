@@ -63,23 +63,6 @@ struct ParameterSet {
 /// nobody knows better.
 ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random);
 
-/// Feasible range of one parameter (thesis Tables A.1 and A.2). Ranges that span over a decade are searched in log10.
-struct ParameterRange {
-  std::string_view name;
-  double minimum = 0.0;
-  double maximum = 0.0;
-  bool logarithmic() const { return maximum > 10.0 * minimum && minimum > 0.0; }
-};
-
-/// What the ranges are meant for: base materials one by one (Table A.1), or microstructures (Table A.2).
-enum class FitTarget { base, microstructures };
-std::span<const ParameterRange> modulus_ranges(FitTarget target);
-std::span<const ParameterRange> toughness_ranges(FitTarget target);
-
-/// Point of the unit interval <-> value of a parameter, log10 where range.logarithmic().
-double to_unit(const ParameterRange& range, double value);
-double from_unit(const ParameterRange& range, double unit);
-
 /// Built-in defaults (the content of data/defaults.toml): the measured base materials of Table 3.4 for the modulus
 /// tester, the geometric middle of Table A.2 for the toughness tester.
 ParameterSet default_parameters();

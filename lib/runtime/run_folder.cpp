@@ -164,6 +164,7 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
   take_along(resolved.benchmark_file, run.path_, "benchmark.csv");
   take_along(resolved.base_materials_file, run.path_, "base_materials.csv");
   take_along(resolved.model_file, run.path_, "model.toml");
+  take_along(resolved.ranges_file, run.path_, "ranges.csv");
   take_along(resolved.numerics_floor_file, run.path_, "numerics_floor.toml");
   take_along(resolved.laboratory.file, run.path_, "laboratory.toml");
   const std::string text = game::to_toml(resolved);

@@ -62,8 +62,8 @@ struct BaseCalibration::State {
   int batch_number = 0;
   Calibrated result;
 
-  std::span<const ParameterRange> theta_ranges() const { return material::modulus_ranges(settings.target); }
-  std::span<const ParameterRange> eta_ranges() const { return material::toughness_ranges(settings.target); }
+  std::span<const ParameterRange> theta_ranges() const { return settings.ranges.modulus(settings.target); }
+  std::span<const ParameterRange> eta_ranges() const { return settings.ranges.toughness(settings.target); }
 
   void begin() {
     for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -88,8 +88,8 @@ struct Calibration::State {
   int batch_number = 0;
   Calibrated result;
 
-  std::span<const ParameterRange> modulus_ranges() const { return material::modulus_ranges(settings.target); }
-  std::span<const ParameterRange> toughness_ranges() const { return material::toughness_ranges(settings.target); }
+  std::span<const ParameterRange> modulus_ranges() const { return settings.ranges.modulus(settings.target); }
+  std::span<const ParameterRange> toughness_ranges() const { return settings.ranges.toughness(settings.target); }
 
   /// `point` as a complete set: coordinates that did not move from a start in range, or that may not move (no
   /// `budget`), keep its exact value.

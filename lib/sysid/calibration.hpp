@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "material/parameters.hpp"
+#include "material/ranges.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
 #include "thesis/constants.hpp"
@@ -85,6 +85,7 @@ NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fid
 
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
+  material::ParameterRanges ranges = material::thesis_ranges();  ///< no fitted parameter leaves them
   material::ParameterSet start;  ///< where to begin; its extensions are kept as they are
   std::vector<material::ParameterSet>
       other_starts;                       ///< beside it in the first batch for eta; empty: chosen in the ranges

@@ -23,8 +23,9 @@ bool is_kept(const std::string& channel) {
 
 }  // namespace
 
-AnalyserCore::AnalyserCore(const game::Scenario& scenario, const diagnosis::ModulusFloor& floor)
-    : scenario_(scenario), floor_(floor) {}
+AnalyserCore::AnalyserCore(const game::Scenario& scenario, const material::ParameterRanges& ranges,
+                           const diagnosis::ModulusFloor& floor)
+    : scenario_(scenario), ranges_(ranges), floor_(floor) {}
 
 runtime::Outputs AnalyserCore::step(const runtime::Input& input) {
   outputs_ = {};
@@ -120,6 +121,7 @@ void AnalyserCore::diagnose_when_complete() {
                                                        .measurements = payloads,
                                                        .bootstraps = scenario_.diagnosis.bootstraps,
                                                        .seed = scenario_.seed,
+                                                       .ranges = ranges_,
                                                        .floor = floor_})});
   waiting_diagnosis_.reset();
 }
@@ -289,11 +291,13 @@ runtime::Status AnalyserCore::status() const {
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
+  const material::ParameterRanges ranges =
+      scenario.ranges_file.empty() ? material::thesis_ranges() : material::read_ranges(scenario.ranges_file);
   const diagnosis::ModulusFloor floor =
       scenario.numerics_floor_file.empty()
           ? diagnosis::ModulusFloor{}
           : diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity);
-  return std::make_unique<AnalyserCore>(scenario, floor);
+  return std::make_unique<AnalyserCore>(scenario, ranges, floor);
 }
 
 }  // namespace nacre::analyser

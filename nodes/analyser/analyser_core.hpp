@@ -24,7 +24,8 @@ inline constexpr int kCurvePoints = 64;
 /// has the report written (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
-  AnalyserCore(const game::Scenario& scenario, const diagnosis::ModulusFloor& floor);
+  AnalyserCore(const game::Scenario& scenario, const material::ParameterRanges& ranges,
+               const diagnosis::ModulusFloor& floor);
   runtime::Outputs step(const runtime::Input& input) override;
   runtime::Status status() const override;
 
@@ -49,6 +50,7 @@ class AnalyserCore : public runtime::NodeCore {
   void report_when_ready();
 
   game::Scenario scenario_;
+  material::ParameterRanges ranges_;
   diagnosis::ModulusFloor floor_;
   runtime::Outputs outputs_;  // of the present step
 
@@ -87,7 +89,8 @@ class AnalyserCore : public runtime::NodeCore {
   std::string phase_ = "following the game";
 };
 
-/// With the floor of scenario.numerics_floor_file; none when that is empty. Throws InputError when it cannot be used.
+/// With the ranges of scenario.ranges_file and the floor of scenario.numerics_floor_file; the thesis' ranges, no floor
+/// when those are empty. Throws InputError when one cannot be used.
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
 
 }  // namespace nacre::analyser

@@ -11,7 +11,7 @@
 namespace nacre::analyser {
 namespace {
 
-constexpr std::size_t kFixedFields = 6;
+constexpr std::size_t kFixedFields = 7;
 
 /// A spec that this program wrote itself must read back.
 template <class T>
@@ -29,6 +29,7 @@ DiagnosisTask task_from(const std::string& spec) {
   task.floor = {.log_modulus_sd = std::stod(fields.at(3)),
                 .mesh_amplitude = std::stod(fields.at(4)),
                 .mesh_remainder_sd = std::stod(fields.at(5))};
+  task.ranges = material::parse_ranges(fields.at(6), "the ranges of a diagnosis");
   task.measurements.assign(fields.begin() + kFixedFields, fields.end());
   return task;
 }
@@ -86,7 +87,8 @@ std::string diagnosis_spec(const DiagnosisTask& task) {
                                      std::to_string(task.seed),
                                      fmt::format("{}", task.floor.log_modulus_sd),
                                      fmt::format("{}", task.floor.mesh_amplitude),
-                                     fmt::format("{}", task.floor.mesh_remainder_sd)};
+                                     fmt::format("{}", task.floor.mesh_remainder_sd),
+                                     material::to_csv(task.ranges)};
   fields.insert(fields.end(), task.measurements.begin(), task.measurements.end());
   return runtime::pack(fields);
 }
@@ -95,6 +97,7 @@ std::string diagnose_work(const std::string& spec) {
   const DiagnosisTask task = task_from(spec);
   diagnosis::DiagnosisSettings settings;
   settings.start = task.request.parameters;
+  settings.ranges = task.ranges;
   settings.fidelity = task.request.fidelity;
   settings.bootstraps = task.bootstraps;
   settings.seed = task.seed;

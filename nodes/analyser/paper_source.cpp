@@ -7,8 +7,8 @@
 
 #include "analyser/paper.hpp"
 #include "analyser/report_data.hpp"
+#include "base/named_table.hpp"
 #include "game/model.hpp"
-#include "game/named_table.hpp"
 #include "game/standings.hpp"
 #include "runtime/journal.hpp"
 #include "sysid/objective.hpp"
@@ -171,14 +171,14 @@ void find_groups(const fs::path& run_dir, PaperSource& source) {
   source.groups_from = "families proposed just now by pattern and properties";
 }
 
-pattern::Pattern pattern_in(const game::NamedTable& table, std::size_t row) {
+pattern::Pattern pattern_in(const NamedTable& table, std::size_t row) {
   const auto layout = pattern::layout_from_key(table.text(row, "pattern"));
   const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
   if (!known) table.fail_at(row, "pattern", "expected the key of a pattern");
   return *known;
 }
 
-std::optional<double> number_in(const game::NamedTable& table, std::size_t row, const std::string& column) {
+std::optional<double> number_in(const NamedTable& table, std::size_t row, const std::string& column) {
   if (!table.has(column) || trimmed(table.text(row, column)).empty()) return std::nullopt;
   const auto value = number_from_text(table.text(row, column));
   if (!value) table.fail_at(row, column, "expected a number, found '" + table.text(row, column) + "'");
@@ -187,7 +187,7 @@ std::optional<double> number_in(const game::NamedTable& table, std::size_t row, 
 
 SubfamilyMap read_map(const fs::path& file, const std::string& family) {
   SubfamilyMap map{.family = family, .seed = file.stem().string(), .points = {}};
-  const game::NamedTable table(file, {"pattern", "source", "x", "y"});
+  const NamedTable table(file, {"pattern", "source", "x", "y"});
   for (std::size_t row = 0; row < table.size(); ++row) {
     MapPoint& point = map.points.emplace_back();
     point.pattern = pattern_in(table, row);

@@ -21,7 +21,7 @@ namespace {
 
 struct Options {
   std::string set;
-  std::string start;
+  std::string start, ranges;
   std::string out;
   std::string fidelity = "full", begin_at;
   int budget = 60;
@@ -137,7 +137,8 @@ void print_reservations(const sysid::OfflineCalibration& result) {
   for (const sysid::ParameterEstimate& estimate : result.calibrated.estimates) {
     const bool whole_range = !estimate.determined;
     if (whole_range && (estimate.value == estimate.low90 || estimate.value == estimate.high90))
-      remark(fmt::format("{} stands at the end of its range: other materials may need a wider one", estimate.name));
+      remark(fmt::format("{} stands at the end of its range: other materials may need a wider one (--ranges)",
+                         estimate.name));
   }
   const auto repeated = [](const measurement::Replicates& r) { return r.modulus_count > 1 || r.toughness_count > 1; };
   if (std::ranges::none_of(result.measured, repeated))
@@ -169,6 +170,7 @@ int calibrate(const Options& options) {
   warn_about(set, options.set);
   sysid::OfflineSettings settings;
   settings.calibration.start = parameters_from_option(options.start, material::default_parameters());
+  settings.calibration.ranges = ranges_from_option(options.ranges);
   settings.calibration.toughness_budget = options.budget;
   settings.calibration.modulus_budget = options.modulus_budget;
   settings.calibration.seed = options.seed;
@@ -209,6 +211,7 @@ void add_calibrate(CLI::App& app, Action& action) {
       add_command(app, action, "calibrate", "Fit the parameters to a measurement set", options, calibrate);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
   command.add_option("--start", options->start, "Parameter file to begin with; default: the built-in parameters");
+  add_ranges(command, options->ranges);
   command.add_option("--budget", options->budget, "Evaluations of the toughness set; 0 keeps the toughness parameters")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

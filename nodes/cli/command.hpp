@@ -46,6 +46,12 @@ inline CLI::Option* add_fidelity(CLI::App& command, std::string& fidelity, const
           otherwise);
 }
 
+/// `--ranges`, where something is fitted.
+inline CLI::Option* add_ranges(CLI::App& command, std::string& file, const std::string& otherwise = "the thesis'") {
+  return command.add_option("--ranges", file,
+                            "Ranges of the parameters, for other inks (docs/FORMATS.md); default: " + otherwise);
+}
+
 void add_simulate(CLI::App& app, Action& action);
 void add_calibrate(CLI::App& app, Action& action);
 void add_explore(CLI::App& app, Action& action);

@@ -23,7 +23,7 @@ namespace {
 
 struct Options {
   std::string set;
-  std::string parameters;
+  std::string parameters, ranges;
   std::string fidelity = "full";
   std::string table, measured, predicted;
   std::string numerics_floor;
@@ -77,6 +77,7 @@ int diagnose_table(const Options& options) {
 diagnosis::DiagnosisSettings settings_from(const Options& options) {
   diagnosis::DiagnosisSettings settings;
   settings.start = parameters_from_option(options.parameters, material::default_parameters());
+  settings.ranges = ranges_from_option(options.ranges);
   if (!settings.start.extensions.empty())
     warn(fmt::format("{}: its extensions are left aside: a diagnosis asks what the base model lacks",
                      options.parameters));
@@ -212,6 +213,7 @@ void add_diagnose(CLI::App& app, Action& action) {
                                   "Show what the simulation gets wrong about measurements, and why", options, diagnose);
   command.add_option("SET", options->set, "Measurement set (docs/FORMATS.md)");
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
+  add_ranges(command, options->ranges);
   add_fidelity(command, options->fidelity)->capture_default_str();
   command.add_option("--numerics-floor", options->numerics_floor,
                      "What the tester's elements leave of an error (data/numerics_floor.toml)");

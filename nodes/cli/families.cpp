@@ -123,6 +123,7 @@ void add_families(CLI::App& app, Action& action) {
   add_run_option(command, options->run);
   command.add_option("--params", options->params,
                      "Parameter file; default: the run's adopted model, or the built-in parameters");
+  add_ranges(command, options->ranges, "the run's, else the thesis'");
   command.add_option("--out", options->out,
                      "Folder, default RUN/families or families; families.toml in it may be edited, then call again");
   command.add_flag("--propose", options->propose,

@@ -16,6 +16,7 @@ FamilyData data_of_set(const FamilyOptions& options) {
   warn_about(set, options.set);
   return {.measured = game::patterns_with_both(set.specimens),
           .parameters = material::default_parameters(),
+          .ranges = ranges_from_option(options.ranges),
           .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity),
           .staged = {}};
 }
@@ -44,6 +45,7 @@ FamilyData data_of_run(const FamilyOptions& options) {
   const bool same_question = options.params.empty() && options.fidelity.empty();
   return {.measured = game::patterns_with_both(view_laboratory(run).facts.book.specimens()),
           .parameters = *adopted,
+          .ranges = ranges_from_option(options.ranges.empty() ? run.scenario.ranges_file : options.ranges),
           .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
           .staged = same_question ? staged_families(run) : std::vector<StagedFamily>{}};
 }

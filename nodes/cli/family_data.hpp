@@ -8,7 +8,7 @@
 
 #include "explore/search.hpp"
 #include "families/grouping.hpp"
-#include "material/parameters.hpp"
+#include "material/ranges.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
 #include "wire/convert.hpp"
@@ -19,7 +19,7 @@ namespace nacre::cli {
 struct FamilyOptions {
   std::string set;
   std::string run = "logs/latest";
-  std::string params;
+  std::string params, ranges;
   std::string out;
   std::string fidelity;
   std::string numerics_floor;
@@ -42,6 +42,7 @@ struct StagedFamily {
 struct FamilyData {
   std::vector<measurement::Replicates> measured;  ///< patterns alone
   material::ParameterSet parameters;
+  material::ParameterRanges ranges = material::thesis_ranges();  ///< of a family's own calibration
   tester::Fidelity fidelity = tester::Fidelity::full;
   std::vector<StagedFamily> staged;  ///< of the run's family stage, where one was played
 };

@@ -29,6 +29,7 @@ using pattern::Pattern;
 sysid::Calibrated family_model(const Family& family, const FamilyData& data, const FamilyOptions& options,
                                sysid::LocalSimulator& simulator) {
   sysid::CalibrationSettings settings;
+  settings.ranges = data.ranges;
   settings.start = data.parameters;
   settings.toughness_budget = options.calibration;
   settings.seed = options.seed;

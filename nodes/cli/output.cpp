@@ -69,10 +69,14 @@ material::ParameterSet parameters_from_option(const std::string& file, const mat
   const material::ParameterSet set = material::read_parameters(file, start);
   constexpr auto kTarget = material::FitTarget::base;
   warn_about_units(file, "modulus", material::modulus_parameter_names(), to_vector(set.modulus),
-                   material::modulus_ranges(kTarget));
+                   material::thesis_ranges().modulus(kTarget));
   warn_about_units(file, "toughness", material::toughness_parameter_names(), to_vector(set.toughness),
-                   material::toughness_ranges(kTarget));
+                   material::thesis_ranges().toughness(kTarget));
   return set;
+}
+
+material::ParameterRanges ranges_from_option(const std::string& file) {
+  return file.empty() ? material::thesis_ranges() : material::read_ranges(file);
 }
 
 tester::Fidelity fidelity_from_option(const std::string& name) {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "material/parameters.hpp"
+#include "material/ranges.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/tester.hpp"
 
@@ -43,6 +43,9 @@ void check_standard_output();
 /// The parameter file given, what it leaves out from `start`; `start` where none is given. Warns of a value that is a
 /// hundred times outside the range in which it is fitted: its unit may be another. Throws InputError.
 material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start);
+
+/// The ranges in the file given, those of the thesis where none is given. Throws InputError.
+material::ParameterRanges ranges_from_option(const std::string& file);
 
 /// A fidelity as typed; throws InputError with the choices.
 tester::Fidelity fidelity_from_option(const std::string& name);

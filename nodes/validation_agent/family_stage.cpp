@@ -142,6 +142,7 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
     family.designs.push_back(
         {.pattern = seed, .is_seed = true, .measured = measured_values(seed), .global_model = {}, .family_model = {}});
   sysid::CalibrationSettings settings;
+  settings.ranges = beginning_.ranges;
   settings.start = beginning_.model;
   settings.modulus_budget = scenario_.families.modulus_evaluations;
   settings.toughness_budget = scenario_.families.calibration_evaluations;

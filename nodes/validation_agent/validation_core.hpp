@@ -29,7 +29,8 @@ struct StartingPoint {
   std::vector<measurement::Replicates>
       base_materials;                            ///< that round 0 is fitted to; empty: the model is taken as it is
   std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
-  sysid::NumericsFloor floor;                    ///< at the scenario's fidelity
+  material::ParameterRanges ranges = material::thesis_ranges();
+  sysid::NumericsFloor floor;  ///< at the scenario's fidelity
 };
 
 /// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).

@@ -136,6 +136,7 @@ void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predi
 void ValidationCore::begin_calibration(const material::ParameterSet& start) {
   sysid::CalibrationSettings settings;
   settings.target = round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
+  settings.ranges = start_.ranges;
   settings.start = start;
   settings.modulus_budget = scenario_.validation.modulus_evaluations;
   settings.toughness_budget = scenario_.validation.calibration_evaluations;
@@ -280,6 +281,7 @@ StageBeginning ValidationCore::stage_beginning() const {
           .measured = game::patterns_with_both(specimens_),
           .benchmark = benchmark(),
           .settled = {settled.begin(), settled.end()},
+          .ranges = start_.ranges,
           .floor = start_.floor};
 }
 

@@ -192,6 +192,7 @@ TEST_F(CommandLine, FilesThatAScenarioNamesAreReadBeforeARunIsMade) {
   const std::string table = file("line.csv", "no,such,columns\n1,2,3\n");
   for (const auto& [lines, name] : {std::pair{"model_file = \"broken.toml\"\n", "broken.toml:2"},
                                     {"numerics_floor_file = \"broken.toml\"\n", "broken.toml:2"},
+                                    {"ranges_file = \"line.csv\"\n", "line.csv"},
                                     {"benchmark_file = \"line.csv\"\n", "line.csv"},
                                     {"base_materials_file = \"line.csv\"\n", "line.csv"},
                                     {"[laboratory]\nfile = \"broken.toml\"\n", "broken.toml:2"}}) {

@@ -7,6 +7,7 @@
 
 #include "fem/static_solver.hpp"
 #include "material/neo_hookean.hpp"
+#include "material/ranges.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
@@ -195,7 +196,7 @@ TEST(Statics, TheDesignFoundStiffByTheThesisIsStifferThanTheToughOne) {
 
 TEST(Statics, HoldsOverTheWholeRangeOfTheParameters) {
   RandomStream random(11, "statics_test");
-  const auto ranges = material::modulus_ranges(material::FitTarget::microstructures);
+  const auto ranges = material::thesis_ranges().modulus(material::FitTarget::microstructures);
   for (const pattern::Pattern& pattern : some_patterns(6)) {
     material::ModulusVector theta;
     // Three times as wide as Table A.2, as a diagnosis searches.

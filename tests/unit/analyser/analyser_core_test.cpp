@@ -26,7 +26,7 @@ using testing::StartsWith;
 
 /// A core with all that it has asked for.
 struct Watched {
-  AnalyserCore core{game::Scenario{}, {.log_modulus_sd = 0.006}};
+  AnalyserCore core{game::Scenario{}, material::thesis_ranges(), {.log_modulus_sd = 0.006}};
   std::vector<runtime::Compute> computes;
   std::vector<Message> messages;
   std::vector<runtime::LogLine> log;
@@ -209,7 +209,7 @@ TEST(Analyser, MoreDesignsThanARequestHoldsAreFilmedByTwo) {
 TEST(Analyser, TinySpecimensAreNotFilmed) {
   game::Scenario scenario;
   scenario.fidelity = tester::Fidelity::tiny;
-  AnalyserCore core(scenario, diagnosis::ModulusFloor{});
+  AnalyserCore core(scenario, material::thesis_ranges(), diagnosis::ModulusFloor{});
   (void)core.step(Message{"PARAMETERS", model_of(1)});
   EXPECT_THAT(core.step(Message{"PROPOSAL", proposal_of(1, {5, 6})}).messages, IsEmpty());
 }

@@ -39,6 +39,7 @@ Scenario with_nothing_at_its_default() {
   s.benchmark_file = "a \"quoted\" path\\with.csv";
   s.base_materials_file = "b.csv";
   s.model_file = "m.toml";
+  s.ranges_file = "r.csv";
   s.numerics_floor_file = "f.toml";
   s.farm = {"slurm", {"--partition=a b", "--time=\"5\""}, 7};
   s.proposal = {"random", 17, 5, 4, 3, 2};

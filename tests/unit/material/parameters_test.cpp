@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/files.hpp"
 #include "material/extensions.hpp"
+#include "material/ranges.hpp"
 
 namespace nacre::material {
 namespace {
@@ -37,51 +37,6 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
-const ParameterRange* range_named(std::span<const ParameterRange> ranges, std::string_view name) {
-  for (const ParameterRange& range : ranges)
-    if (range.name == name) return &range;
-  return nullptr;
-}
-
-TEST(Ranges, AreThoseOfTheThesisTables) {
-  std::istringstream table(read_file(kData / "thesis" / "parameter_ranges.csv"));
-  std::string line;
-  std::getline(table, line);
-  int rows = 0;
-  while (std::getline(table, line)) {
-    std::istringstream cells(line);
-    std::string tester, fitted_to, name, minimum, maximum;
-    for (std::string* cell : {&tester, &fitted_to, &name, &minimum, &maximum}) std::getline(cells, *cell, ',');
-    const FitTarget target = fitted_to == "base" ? FitTarget::base : FitTarget::microstructures;
-    const ParameterRange* range =
-        range_named(tester == "modulus" ? modulus_ranges(target) : toughness_ranges(target), name);
-    ASSERT_NE(range, nullptr) << line;
-    EXPECT_EQ(range->minimum, std::stod(minimum)) << line;
-    EXPECT_EQ(range->maximum, std::stod(maximum)) << line;
-    ++rows;
-  }
-  EXPECT_EQ(rows, 34);
-}
-
-TEST(Ranges, StandInTheOrderOfTheVectors) {
-  for (const FitTarget target : {FitTarget::base, FitTarget::microstructures}) {
-    for (std::size_t i = 0; i < kModulusParameterCount; ++i)
-      EXPECT_EQ(modulus_ranges(target)[i].name, modulus_parameter_names()[i]);
-    for (std::size_t i = 0; i < kToughnessParameterCount; ++i)
-      EXPECT_EQ(toughness_ranges(target)[i].name, toughness_parameter_names()[i]);
-  }
-}
-
-TEST(Ranges, WideOnesAreSearchedInDecades) {
-  const auto ranges = toughness_ranges(FitTarget::microstructures);
-  EXPECT_TRUE(range_named(ranges, "e_tb_pa")->logarithmic());
-  EXPECT_FALSE(range_named(ranges, "nu_tb")->logarithmic());
-  EXPECT_NEAR(from_unit(*range_named(ranges, "e_tb_pa"), 0.5), std::sqrt(5e5 * 5e8), 1.0);
-  EXPECT_NEAR(from_unit(*range_named(ranges, "nu_tb"), 0.5), 0.45, 1e-15);
-  for (const ParameterRange& range : ranges)
-    for (const double unit : {0.0, 0.3, 1.0}) EXPECT_NEAR(to_unit(range, from_unit(range, unit)), unit, 1e-12);
-}
-
 TEST(Defaults, FileAndProgramAgree) {
   const ParameterSet nothing;
   EXPECT_EQ(read_parameters(kData / "defaults.toml", nothing), default_parameters());
@@ -90,7 +45,7 @@ TEST(Defaults, FileAndProgramAgree) {
 
 TEST(Defaults, LieInTheMiddleOfTheToughnessRanges) {
   const ToughnessVector eta = to_vector(default_parameters().toughness);
-  const auto ranges = toughness_ranges(FitTarget::microstructures);
+  const auto ranges = thesis_ranges().toughness(FitTarget::microstructures);
   for (std::size_t i = 0; i < eta.size(); ++i) EXPECT_NEAR(to_unit(ranges[i], eta[i]), 0.5, 1e-3) << ranges[i].name;
 }
 

@@ -78,15 +78,15 @@ ParameterSet truth() {
   return parameters;
 }
 
-std::vector<Replicates> measured_designs(int count) {
+std::vector<Replicates> measured_designs(int count, const ParameterSet& truth = truth()) {
   std::vector<Replicates> measured;
   for (const pattern::Design& design : random_designs(count)) {
     Replicates replicates;
     replicates.design = design;
     replicates.modulus_count = replicates.toughness_count = 1;
     measured.push_back(replicates);
-    measured.back().modulus_pa = *answer(replicates, truth(), true).modulus_pa;
-    const Prediction fracture = answer(replicates, truth(), false);
+    measured.back().modulus_pa = *answer(replicates, truth, true).modulus_pa;
+    const Prediction fracture = answer(replicates, truth, false);
     measured.back().toughness_pa = *fracture.toughness_pa;
     measured.back().representative_curve = fracture.curve;
   }
@@ -161,9 +161,26 @@ TEST(Calibration, ParametersStayInTheirRanges) {
       EXPECT_LE(vector[j], ranges[j].maximum) << ranges[j].name;
     }
   };
-  check(to_vector(result.parameters.modulus), material::modulus_ranges(material::FitTarget::microstructures));
-  check(to_vector(result.parameters.toughness), material::toughness_ranges(material::FitTarget::microstructures));
+  check(to_vector(result.parameters.modulus), material::thesis_ranges().modulus(material::FitTarget::microstructures));
+  check(to_vector(result.parameters.toughness),
+        material::thesis_ranges().toughness(material::FitTarget::microstructures));
   EXPECT_EQ(material::parameter_fault(result.parameters), "");
+}
+
+TEST(Calibration, AnotherInkIsFoundInRangesOfItsOwn) {
+  ParameterSet softer = truth();
+  softer.modulus.e_vw_pa = 9e8;  // Table A.2 begins at 2.08 GPa
+  softer.modulus.e_if_pa = 2.5e8;
+  const std::vector<Replicates> measured = measured_designs(12, softer);
+  Calibration thesis(measured, settings());
+  EXPECT_GT(finish(thesis, measured).after.modulus_mean, 0.2);
+  CalibrationSettings with = settings();
+  with.ranges.microstructure_modulus[1] = {"e_vw_pa", 6e8, 1.5e9};
+  with.ranges.microstructure_modulus[2] = {"e_if_pa", 1e8, 5e8};
+  Calibration calibration(measured, with);
+  const Calibrated result = finish(calibration, measured);
+  EXPECT_LT(result.after.modulus_mean, 0.002);
+  EXPECT_NEAR(result.parameters.modulus.e_vw_pa, 9e8, 2e7);
 }
 
 TEST(Calibration, ModulusAloneLeavesToughnessParametersUntouched) {
@@ -347,7 +364,7 @@ TEST(PosteriorSearch, LooksAllOverTheRangesBeforeItNarrows) {
       calibration.tell(k, predictions);
     }
   }
-  const auto ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  const auto ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
   for (const std::size_t j : {0, 6, 9}) {  // modulus and failure energy of soft, damping
     std::vector<double> unit;
     for (const auto& eta : asked) unit.push_back(material::to_unit(ranges[j], eta[j]));
@@ -377,7 +394,7 @@ TEST(PosteriorSearch, DrawsAnEnsembleThatSpreadsWhereTheDataSayLittle) {
       sum += std::pow(std::log(value(member) / value(result.parameters)), 2);
     return std::sqrt(sum / 20.0);
   };
-  const auto ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  const auto ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
   for (const ParameterSet& member : result.ensemble) {
     const auto eta = to_vector(member.toughness);
     for (std::size_t j = 0; j < eta.size(); ++j) {
@@ -499,6 +516,17 @@ TEST(BaseCalibration, MeetsEveryMaterialByItself) {
   EXPECT_EQ(result.estimates.front().value, result.parameters.modulus.e_tb_pa);
   EXPECT_EQ(result.estimates.back().value, result.parameters.toughness.gamma_per_s);
   for (const ParameterEstimate& each : result.estimates) EXPECT_FALSE(each.determined) << each.name;
+}
+
+TEST(BaseCalibration, GoesAsFarAsTheRangesItIsGiven) {
+  const std::vector<Replicates> measured = base_materials();
+  CalibrationSettings base = settings();
+  base.target = material::FitTarget::base;
+  base.ranges.base_toughness[1] = {"e_vw_pa", 1e7, 5e9};
+  BaseCalibration calibration(measured, base);
+  const Calibrated result = finish_by(calibration, measured, base_answer);
+  EXPECT_GT(result.parameters.toughness.e_vw_pa, 1e9);
+  EXPECT_LT(result.after.toughness_max, 0.01);
 }
 
 TEST(BaseCalibration, KeepsWhatHasNoBudget) {

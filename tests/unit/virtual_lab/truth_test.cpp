@@ -10,6 +10,7 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "material/ranges.hpp"
 
 namespace nacre::virtual_laboratory {
 namespace {
@@ -33,8 +34,8 @@ TEST(Truth, TheSameSeedDrawsTheSameTruthAndAnotherSeedAnother) {
 }
 
 TEST(Truth, EveryDrawLiesInsideTheRangesThatCalibrationSearches) {
-  const auto modulus_ranges = material::modulus_ranges(material::FitTarget::microstructures);
-  const auto toughness_ranges = material::toughness_ranges(material::FitTarget::microstructures);
+  const auto modulus_ranges = material::thesis_ranges().modulus(material::FitTarget::microstructures);
+  const auto toughness_ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const auto theta = material::to_vector(draw_modulus_parameters(seed));
     for (std::size_t i = 0; i < theta.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,17 +14,21 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 
-namespace nacre::game {
+namespace nacre {
 
 /// A table whose cells are asked for by row and column name. Throws InputError naming file, line, column.
 class NamedTable {
  public:
-  NamedTable(std::filesystem::path path, const std::vector<std::string>& required) : path_(std::move(path)) {
-    const std::string text = read_file(path_);
-    CsvReader reader(text, path_.string());
+  NamedTable(const std::filesystem::path& path, const std::vector<std::string>& required)
+      : NamedTable(path.string(), read_file(path), required) {}
+
+  /// `source` names the table in errors.
+  NamedTable(std::string source, std::string_view text, const std::vector<std::string>& required)
+      : source_(std::move(source)) {
+    CsvReader reader(text, source_);
     for (CsvRow row; reader.next(row);) {
       if (!row.fault.empty()) {
-        throw InputError::format("{}:{}:{}: {}", path_.string(), row.fault_line, row.fault_column, row.fault);
+        throw InputError::format("{}:{}:{}: {}", source_, row.fault_line, row.fault_column, row.fault);
       }
       if (row.blank()) continue;
       if (columns_.empty()) {
@@ -33,7 +38,7 @@ class NamedTable {
       }
     }
     if (rows_.empty()) {
-      throw InputError::format("{}: no rows; expected a header with {} and at least one row", path_.string(),
+      throw InputError::format("{}: no rows; expected a header with {} and at least one row", source_,
                                fmt::join(required, ", "));
     }
   }
@@ -60,7 +65,7 @@ class NamedTable {
   }
 
   [[noreturn]] void fail_at(std::size_t row, const std::string& column, const std::string& what) const {
-    throw InputError::format("{}:{}: column {}: {}", path_.string(), rows_[row].line, column, what);
+    throw InputError::format("{}:{}: column {}: {}", source_, rows_[row].line, column, what);
   }
 
  private:
@@ -68,15 +73,15 @@ class NamedTable {
     for (std::size_t index = 0; index < header.cells.size(); ++index) columns_.emplace(header.cells[index].text, index);
     for (const std::string& name : required) {
       if (!columns_.contains(name)) {
-        throw InputError::format("{}:{}: column {} is missing; expected {}", path_.string(), header.line, name,
+        throw InputError::format("{}:{}: column {} is missing; expected {}", source_, header.line, name,
                                  fmt::join(required, ", "));
       }
     }
   }
 
-  std::filesystem::path path_;
+  std::string source_;
   std::map<std::string, std::size_t> columns_;
   std::vector<CsvRow> rows_;
 };
 
-}  // namespace nacre::game
+}  // namespace nacre
