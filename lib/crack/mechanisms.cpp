@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "tester/fracture_test.hpp"
 
@@ -15,20 +16,20 @@ fem::Phase phase_of(const fem::Grid& grid, int element) { return grid.phase[stat
 double soft_arrest(const fem::Grid& grid, const Record& record) {
   std::map<int, double> strain_of;
   for (const tester::Break& broken : record.order) strain_of[broken.element] = broken.strain;
-  double first = -1.0, tip = -1.0, waited = 0.0;
+  std::optional<double> first;
   for (const int element : record.path->elements) {
     const auto failed = strain_of.find(element);
-    if (failed == strain_of.end()) continue;
-    if (first < 0.0) {
-      first = tip = failed->second;
-      continue;
-    }
-    first = std::min(first, failed->second);
-    if (failed->second <= tip) continue;
+    if (failed != strain_of.end()) first = std::min(first.value_or(failed->second), failed->second);
+  }
+  if (!first) return 0.0;
+  double tip = *first, waited = 0.0;
+  for (const int element : record.path->elements) {
+    const auto failed = strain_of.find(element);
+    if (failed == strain_of.end() || failed->second <= tip) continue;
     if (phase_of(grid, element) == fem::Phase::soft) waited += failed->second - tip;
     tip = failed->second;
   }
-  return tip > first ? waited / (tip - first) : 0.0;
+  return tip > *first ? waited / (tip - *first) : 0.0;
 }
 
 /// Share of the specimen's elements that are soft or interface.

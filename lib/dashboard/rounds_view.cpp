@@ -3,6 +3,7 @@
 #include <set>
 
 #include "dashboard/views.hpp"
+#include "store/adopted_model.hpp"
 #include "store/measured_patterns.hpp"
 
 namespace nacre::dashboard {
@@ -104,7 +105,7 @@ Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_si
          {"summary", round.summary ? summary_json(*round.summary) : Json(nullptr)},
          {"gamut_count", gamut_size(number)},
          {"measured_front", points_json(optimize::pareto_front(means(store::measured_patterns(run, number))))},
-         {"benchmark", points_json(round.benchmark)},
+         {"benchmark", points_json(store::line_as_measured(round))},
          {"proposals", proposals},
          {"parameters", parameters},
          {"verdict", round.diagnosis ? Json(round.diagnosis->verdict) : Json(nullptr)}});

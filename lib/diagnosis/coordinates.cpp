@@ -135,7 +135,7 @@ material::ParameterSet CoordinateMap::parameters(const Eigen::VectorXd& u) const
 
 material::ParameterSet CoordinateMap::coupon_parameters(const Eigen::VectorXd& u) const {
   material::ParameterSet set = centre_;
-  material::ModulusVector theta = to_vector(material::default_parameters().modulus);
+  material::ModulusVector theta = to_vector(centre_.modulus);
   for (int i = 0; i < base_count(); ++i) {
     const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
     if (c.block == Block::coupon) theta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
@@ -145,16 +145,13 @@ material::ParameterSet CoordinateMap::coupon_parameters(const Eigen::VectorXd& u
 }
 
 Eigen::VectorXd CoordinateMap::coordinates(const material::ParameterSet& parameters) const {
-  const material::ModulusVector theta = to_vector(parameters.modulus),
-                                bulk = to_vector(material::default_parameters().modulus);
+  const material::ModulusVector theta = to_vector(parameters.modulus);
   const material::ToughnessVector eta = to_vector(parameters.toughness);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(size());
   for (int i = 0; i < base_count(); ++i) {
     const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
     const auto index = static_cast<std::size_t>(c.index);
-    const double plain_value = c.block == Block::toughness ? eta[index]
-                               : c.block == Block::modulus ? theta[index]
-                                                           : bulk[index];
+    const double plain_value = c.block == Block::toughness ? eta[index] : theta[index];
     const double x = c.logarithmic ? std::log(plain_value) : plain_value;
     u[i] = std::clamp((x - c.low) / (c.high - c.low), 0.02, 0.98);
   }

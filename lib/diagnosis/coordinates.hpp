@@ -53,9 +53,10 @@ class CoordinateMap {
   int first_coordinate(std::size_t effect) const;
   /// Parameters of layouts.
   material::ParameterSet parameters(const Eigen::VectorXd& u) const;
-  /// Parameters of homogeneous coupons: E and nu of the bulk in place of theta's.
+  /// Parameters of homogeneous coupons: E and nu of the bulk in place of theta's, where they are free.
   material::ParameterSet coupon_parameters(const Eigen::VectorXd& u) const;
-  /// Base coordinates of `parameters`, moved into the ranges; extension coordinates 0.
+  /// Base coordinates of `parameters`, moved into the ranges; extension coordinates 0. The bulk begins where theta
+  /// does.
   Eigen::VectorXd coordinates(const material::ParameterSet& parameters) const;
 
  private:

@@ -11,6 +11,26 @@ bool answers(const measurement::SpecimenRecord& specimen, const Order& order) {
          answers(specimen.conditions, order.conditions);
 }
 
+std::optional<std::string> beside_orders(const measurement::SpecimenRecord& specimen, std::span<const Order> orders) {
+  const Order* near = nullptr;
+  for (const Order& order : orders) {
+    if (answers(specimen, order)) return std::nullopt;
+    tester::TestConditions as_ordered = specimen.conditions;
+    as_ordered.strain_rate_per_s = order.conditions.strain_rate_per_s;
+    as_ordered.thickness_mm = order.conditions.thickness_mm;
+    const bool same_question = specimen.test == order.test && specimen.design == order.design;
+    if (same_question && answers(as_ordered, order.conditions)) near = &order;
+  }
+  if (near == nullptr) return std::nullopt;
+  return fmt::format(
+      "specimen {} of {}, {} test, does not answer its order: pulled at {:.3g} /s and {:.3g} mm thick, ordered at "
+      "{:.3g} "
+      "/s and {:.3g} mm (answered within 25 and 10 %)",
+      specimen.specimen, specimen.design.name(), tester::to_string(specimen.test),
+      specimen.conditions.strain_rate_per_s, specimen.conditions.thickness_mm, near->conditions.strain_rate_per_s,
+      near->conditions.thickness_mm);
+}
+
 MeasurementBook::Entry MeasurementBook::enter(const measurement::SpecimenRecord& record, const std::string& order_id) {
   const auto [position, is_new] = entries_.try_emplace(record.specimen, Reported{record, order_id});
   if (is_new) return Entry::accepted;

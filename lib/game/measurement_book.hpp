@@ -31,6 +31,11 @@ struct OrderProgress {
 /// Whether a specimen is what an order asked for: its design in its test, under conditions that answer the order's.
 bool answers(const measurement::SpecimenRecord& specimen, const Order& order);
 
+/// A sentence about a specimen of an ordered design in the ordered test that answers no order because it was pulled at
+/// another rate or is of another thickness (orientation is a question of its own); nothing for others. Such a
+/// specimen leaves its order open.
+std::optional<std::string> beside_orders(const measurement::SpecimenRecord& specimen, std::span<const Order> orders);
+
 class MeasurementBook {
  public:
   enum class Entry {

@@ -1,6 +1,7 @@
 #include "gpu/batch_tester.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace nacre::gpu {
@@ -38,7 +39,11 @@ Result<tester::ToughnessResult> PreparedTest::result(const std::vector<std::int3
     return fail("toughness tester: the solution blew up: J <= 0 in element row {} column {} at step {}",
                 inverted / columns, inverted % columns, failed_at[static_cast<std::size_t>(inverted)]);
   }
-  tester::ToughnessResult result = watch_.take();
+  Result<tester::ToughnessResult> taken = watch_.take();
+  if (!taken) return taken;
+  tester::ToughnessResult result = *std::move(taken);
+  // Elements that stand are looked at only where they fail: what is no number has passed no threshold.
+  if (!std::isfinite(result.toughness_pa)) return fail("toughness tester: the solution blew up: T is not a number");
   for (std::size_t element = 0; element < failed_at.size(); ++element) {
     const std::int32_t step = failed_at[element];
     if (step >= 0 && step < steps_) result.breaks.push_back({static_cast<int>(element), strain_at(step)});

@@ -72,8 +72,8 @@ NACRE_INLINE bool is_inverted(const fem::ExtendedState<float>& s, int node) {
   return false;
 }
 
-/// First pass: the element at `row`, `column`; notes in `inverted` that it failed inside out, as a solution does that
-/// blows up.
+/// First pass: the element at `row`, `column`; notes in `inverted`, unless that names another, that it failed inside
+/// out, as a solution does that blows up.
 NACRE_INLINE void step_element(const Specimen& specimen, std::int64_t step, int row, int column,
                                std::int32_t& inverted) {
   const fem::ExtendedState<float>& s = specimen.state;
@@ -84,11 +84,11 @@ NACRE_INLINE void step_element(const Specimen& specimen, std::int64_t step, int 
     f = specimen.extended ? scalar::Extended<float, true>::forces(s, node, element, nothing)
                           : scalar::NeoHookean<float>::forces(s, node, element, nothing);
     if (!(f.energy <= s.threshold[element])) {
-      if (is_inverted(s, node)) inverted = row * s.columns + column;
+      if (inverted < 0 && is_inverted(s, node)) inverted = row * s.columns + column;
       specimen.failed_at[element] = static_cast<std::int32_t>(step);
       erase(s, element);
     }
-  } else if (specimen.failed_at[element] == step - 1 && step > 0 && is_inverted(s, node)) {
+  } else if (inverted < 0 && specimen.failed_at[element] == step - 1 && step > 0 && is_inverted(s, node)) {
     inverted = row * s.columns + column;  // by the motion of the step that it failed in
   }
   const float forces[8] = {f.bottom_x + f.left_x, f.right_x - f.bottom_x, f.top_x - f.left_x, -(f.top_x + f.right_x),

@@ -78,6 +78,14 @@ ParameterRange& range_of(ParameterRanges& ranges, const NamedTable& file, std::s
   return *found;
 }
 
+template <class Vector>
+Vector brought_inside(Vector vector, std::span<const ParameterRange> ranges) {
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    if (vector[i] < ranges[i].minimum || vector[i] > ranges[i].maximum) vector[i] = from_unit(ranges[i], 0.5);
+  }
+  return vector;
+}
+
 }  // namespace
 
 double to_unit(const ParameterRange& range, double value) {
@@ -104,6 +112,13 @@ const ParameterRanges& thesis_ranges() {
                                               .base_toughness = kToughnessBase,
                                               .microstructure_toughness = kToughnessMicrostructures};
   return kThesis;
+}
+
+ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& ranges) {
+  ParameterSet inside = set;
+  inside.modulus = modulus_from_vector(brought_inside(to_vector(set.modulus), ranges.microstructure_modulus));
+  inside.toughness = toughness_from_vector(brought_inside(to_vector(set.toughness), ranges.microstructure_toughness));
+  return inside;
 }
 
 ParameterRanges parse_ranges(std::string_view text, const std::string& source) {

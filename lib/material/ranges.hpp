@@ -39,6 +39,10 @@ struct ParameterRanges {
 /// Tables A.1 and A.2 (the content of data/thesis/parameter_ranges.csv), for TangoBlackPlus and VeroWhitePlus.
 const ParameterRanges& thesis_ranges();
 
+/// `set` with the middle of its range for microstructures in place of every parameter that lies outside: where a search
+/// for other inks begins, which knows nothing of them but the ranges.
+ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& ranges);
+
 /// Ranges for other inks, CSV: `tester` (modulus, toughness), `fitted_to` (base, microstructures), `parameter`,
 /// `minimum`, `maximum` (SI units, above 0, minimum below maximum, nu at most 0.5), each range once; those that are
 /// absent are the thesis'. Throws InputError naming file, line, column.

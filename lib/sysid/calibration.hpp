@@ -119,6 +119,10 @@ struct ParameterEstimate {
   bool operator==(const ParameterEstimate&) const = default;
 };
 
+/// A simulated fracture test that ended at its strain limit (thesis 2.3.1; pure soft specimens have none that counts):
+/// its toughness is the area until there.
+bool is_unbroken(const Prediction& prediction, const pattern::Design& design);
+
 /// Whether residuals are of the size that replicates and the numerics floor explain.
 struct GoodnessOfFit {
   int count = 0;             ///< designs; 0: nothing to judge
@@ -163,6 +167,11 @@ struct Calibrated {
 };
 
 Provenance provenance_of(const Calibrated& calibrated, std::string_view search);
+
+/// The parameters that stand exactly at an end of their range, those that the data determine first: they would
+/// go further, and may push the others aside.
+std::vector<ParameterEstimate> at_an_end(const Calibrated& calibrated, const material::ParameterRanges& ranges,
+                                         material::FitTarget target);
 
 /// A calibration in progress. Deterministic in its settings and in what it was told.
 class Calibration {

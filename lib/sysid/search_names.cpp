@@ -35,13 +35,4 @@ Result<ToughnessSearch> toughness_search_from_string(std::string_view name) {
   return fail("\"{}\" is no search, expected one of {}", name, expected);
 }
 
-Provenance provenance_of(const Calibrated& calibrated, std::string_view search) {
-  return {.search = std::string(search),
-          .modulus_objective = calibrated.modulus_objective_after,
-          .toughness_objective = calibrated.toughness_objective_after,
-          .modulus_fit = calibrated.modulus_fit,
-          .toughness_fit = calibrated.toughness_fit,
-          .estimates = calibrated.estimates};
-}
-
 }  // namespace nacre::sysid

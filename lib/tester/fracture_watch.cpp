@@ -24,7 +24,8 @@ double typical_modulus_pa(const fem::Grid& grid) {
 int transit_steps(const FractureTest& test) {
   const double wave_m_per_s = std::sqrt(typical_modulus_pa(test.grid) / test.settings.density_kg_per_m3);
   const double height_m = test.grid.rows * test.grid.element_size_m;
-  return static_cast<int>(std::ceil(height_m / (wave_m_per_s * test.settings.time_step_s)));
+  const double steps = std::ceil(height_m / (wave_m_per_s * test.settings.time_step_s));
+  return static_cast<int>(std::min(steps, static_cast<double>(thesis::kStepLimit)));
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ bool FractureWatch::add(double strain, double stress_pa, std::int64_t steps) {
   } else if (strain >= strain_limit_) {
     result_.end = limit_is_no_failure_ ? EndReason::no_failure : EndReason::strain_limit;
   } else if (steps >= thesis::kStepLimit) {
-    result_.end = EndReason::step_limit;
+    result_.end = limit_is_no_failure_ ? EndReason::no_failure : EndReason::step_limit;
   } else {
     return false;
   }
@@ -60,7 +61,10 @@ void FractureWatch::add_breaks(std::vector<int> elements) {
   for (const int element : elements) result_.breaks.push_back({element, result_.failure_strain});
 }
 
-ToughnessResult FractureWatch::take() {
+Result<ToughnessResult> FractureWatch::take() {
+  if (result_.end == EndReason::step_limit)
+    return fail("toughness tester: no end after {} steps, at strain {:.3g}: a law as stiff as this needs shorter ones",
+                thesis::kStepLimit.value, result_.failure_strain);
   result_.toughness_pa = record_.toughness_pa();
   result_.peak_stress_pa = record_.peak_stress_pa();
   result_.curve = record_.take_curve();

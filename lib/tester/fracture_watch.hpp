@@ -18,8 +18,9 @@ class FractureWatch {
   bool add(double strain, double stress_pa, std::int64_t steps);
   /// Elements that failed in the step added last; call before the next one.
   void add_breaks(std::vector<int> elements);
-  /// The result but for its frames. Only once the test is over.
-  ToughnessResult take();
+  /// The result but for its frames. Only once the test is over. Error: it has taken too many steps, its area so far
+  /// says nothing.
+  Result<ToughnessResult> take();
 
  private:
   double strain_limit_;

@@ -38,6 +38,7 @@ struct PaperSource {
   std::string run_id;
   store::RunRecord run;
   game::ThesisTables thesis;
+  std::vector<measurement::Replicates> base_materials;               ///< that round 0 was fitted to
   std::vector<SearchPath> searches;                                  ///< by round and branch
   std::map<int, std::map<std::string, game::DesignValues>> answers;  ///< round of the model -> design -> what it says
   std::vector<families::Family> groups;

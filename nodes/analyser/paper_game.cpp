@@ -38,7 +38,7 @@ PaperTable gamut_data(const PaperSource& source) {
   };
   for (const auto& [number, round] : source.run.rounds) {
     for (const optimize::Performance& p : round.gamut) add(number, "simulated", "", p);
-    for (const optimize::Performance& p : round.benchmark) add(number, "homogeneous", "", p);
+    for (const optimize::Performance& p : store::line_as_measured(round)) add(number, "homogeneous", "", p);
     for (const store::RecordedProposal& p : round.proposals) add(number, "proposed", p.design, p.predicted);
     for (const MeasuredPattern& m : measured_patterns(source.run, number))
       if (m.round == number) add(number, "measured", m.pattern.key(), m.mean);
@@ -381,18 +381,20 @@ Exhibit base_material_exhibit(const PaperSource& source) {
   };
   bool found = false;
   for (const auto& [design, name] : {std::pair{"soft", "TB"}, std::pair{"rigid", "VW"}, std::pair{"interface", "IF"}}) {
-    const auto material = std::ranges::find(source.thesis.materials, name, &game::ThesisMaterial::name);
-    if (model == source.answers.end() || !model->second.contains(design) || material == source.thesis.materials.end())
+    const auto material = std::ranges::find(source.base_materials, design,
+                                            [](const measurement::Replicates& each) { return each.design.name(); });
+    if (model == source.answers.end() || !model->second.contains(design) || material == source.base_materials.end())
       continue;
     found = true;
-    add(name, material->measured, model->second.at(design), false);
+    add(name, {.modulus_pa = material->modulus_pa, .toughness_pa = material->toughness_pa}, model->second.at(design),
+        false);
   }
   for (const game::ThesisMaterial& material : source.thesis.materials)
     add("thesis " + material.name, material.measured, material.simulated, true);
-  exhibit.notes.push_back(found ? "The model of round 0 on the measurements that it was fitted to: those of the thesis "
-                                  "(or what the scenario named in their place)."
-                                : "What the model of round 0 says of the base materials is not in this folder (it "
-                                  "stands in the validation agent's journal).");
+  exhibit.notes.push_back(
+      found ? "The model of round 0 on the measurements that it was fitted to (`base_materials_file`)."
+            : "The base materials, or what the model of round 0 says of them, are not in this folder "
+              "(they stand in inputs/ and in the validation agent's journal).");
   exhibit.tables.push_back(table);
   return exhibit;
 }

@@ -9,6 +9,7 @@
 #include "analyser/report_data.hpp"
 #include "base/named_table.hpp"
 #include "game/model.hpp"
+#include "game/reference_tables.hpp"
 #include "game/standings.hpp"
 #include "runtime/journal.hpp"
 #include "sysid/objective.hpp"
@@ -217,6 +218,8 @@ PaperSource read_paper_source(const fs::path& run_dir, const std::string& run_id
   PaperSource source;
   source.run_id = run_id;
   source.run = store::read_run_record(run_dir / "run.db");
+  if (const fs::path file = run_dir / "inputs" / "base_materials.csv"; fs::exists(file))
+    source.base_materials = game::read_base_materials(file);
   if (!thesis_folder.empty()) source.thesis = game::read_thesis_tables(thesis_folder);
   source.searches = searches_of(farm_talk(run_dir, "proposal_agent"));
   source.answers = answers_in(farm_talk(run_dir, "validation_agent"), adopted_models(run_dir));

@@ -69,7 +69,7 @@ std::optional<double> line_at(std::span<const optimize::Performance> line, doubl
 
 std::vector<optimize::Performance> newest_line(const store::RunRecord& run) {
   for (auto round = run.rounds.rbegin(); round != run.rounds.rend(); ++round) {
-    if (!round->second.benchmark.empty()) return round->second.benchmark;
+    if (!round->second.benchmark.empty()) return store::line_as_measured(round->second);
   }
   return {};
 }
@@ -109,26 +109,6 @@ Improvement improvement_over(std::span<const optimize::Performance> line, const 
   if (modulus && *modulus > 0.0) improvement.modulus = design.modulus_pa / *modulus;
   if (toughness && *toughness > 0.0) improvement.toughness = design.toughness_pa / *toughness;
   return improvement;
-}
-
-material::Extensions extensions_of(const store::RoundRecord& round) {
-  constexpr std::string_view kPrefix = "extension.";
-  material::Extensions extensions;
-  for (const auto& [key, value] : round.parameters) {
-    if (!key.starts_with(kPrefix)) continue;
-    std::string name = key.substr(kPrefix.size());
-    std::size_t index = 0;
-    if (const auto dot = name.rfind('.'); dot != std::string::npos) {
-      std::from_chars(name.data() + dot + 1, name.data() + name.size(), index);
-      name.resize(dot);
-    }
-    const material::Effect* effect = material::find_effect(name);
-    if (effect == nullptr || index >= effect->parameters.size()) continue;
-    std::vector<double>& values = extensions[name];
-    values.resize(std::max(values.size(), index + 1));
-    values[index] = value;
-  }
-  return extensions;
 }
 
 std::vector<optimize::Performance> thinned(std::span<const optimize::Performance> points, std::size_t most) {

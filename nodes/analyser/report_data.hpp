@@ -8,18 +8,20 @@
 #include <vector>
 
 #include "pattern/layout.hpp"
+#include "store/adopted_model.hpp"
 #include "store/measured_patterns.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre::analyser {
 
+using store::extensions_of;
 using store::is_over;
 using store::measured_patterns;
 using store::MeasuredPattern;
 using store::newest_closed_round;
 using store::newest_round;
 
-/// The homogeneous line that the newest model carries.
+/// The homogeneous line that the newest model carries, as the machine shows it.
 std::vector<optimize::Performance> newest_line(const store::RunRecord& run);
 
 /// Mean relative errors of predictions that know nothing of structure.
@@ -44,10 +46,6 @@ struct Improvement {
   std::optional<double> toughness;  ///< T over that of the line at the same E
 };
 Improvement improvement_over(std::span<const optimize::Performance> line, const optimize::Performance& design);
-
-/// Extensions of the model of a round, from its parameters `extension.NAME` and `extension.NAME.INDEX`. Names outside
-/// the effect library are left out.
-material::Extensions extensions_of(const store::RoundRecord& round);
 
 /// At most about `most` points: all of the Pareto front, and every k-th of the others.
 std::vector<optimize::Performance> thinned(std::span<const optimize::Performance> points, std::size_t most);

@@ -99,8 +99,9 @@ std::string gamut_figure(const store::RunRecord& run, int number, const Range& x
              .width = 540,
              .height = 400});
   plot.cloud(to_points(thinned(round.gamut, kMostGamutPoints)), Ink::simulated, "simulated patterns");
-  plot.line(to_points(round.benchmark), Ink::homogeneous, Stroke::dashed, "homogeneous mixtures");
-  plot.dots(to_points(round.benchmark), Ink::homogeneous, "");
+  const std::vector<Point> mixtures = to_points(store::line_as_measured(round));
+  plot.line(mixtures, Ink::homogeneous, Stroke::dashed, "homogeneous mixtures");
+  plot.dots(mixtures, Ink::homogeneous, "");
   plot.staircase(front_points(round.gamut), Ink::simulated, "simulated front");
   draw_measured(plot, measured_patterns(run, number), number);
   std::vector<Point> proposals;

@@ -15,6 +15,7 @@
 #include "progress.hpp"
 #include "shipped_files.hpp"
 #include "sysid/offline.hpp"
+#include "thesis/constants.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -133,19 +134,23 @@ void print_errors(const std::string& name, const sysid::PredictionErrors& before
 }
 
 /// What the figures do not say by themselves.
-void print_reservations(const sysid::OfflineCalibration& result) {
-  for (const sysid::ParameterEstimate& estimate : result.calibrated.estimates) {
-    const bool whole_range = !estimate.determined;
-    if (whole_range && (estimate.value == estimate.low90 || estimate.value == estimate.high90))
-      remark(fmt::format("{} stands at the end of its range: other materials may need a wider one (--ranges)",
-                         estimate.name));
+void print_reservations(const sysid::OfflineCalibration& result, const material::ParameterRanges& ranges) {
+  const auto target = result.base_materials ? material::FitTarget::base : material::FitTarget::microstructures;
+  for (const sysid::ParameterEstimate& each : sysid::at_an_end(result.calibrated, ranges, target))
+    remark(
+        fmt::format("{} stands at the end of its range: other materials may need a wider one (--ranges)", each.name));
+  for (std::size_t i = 0; i < result.measured.size(); ++i) {
+    if (sysid::is_unbroken(result.calibrated.predictions[i], result.measured[i].design))
+      remark(fmt::format(
+          "{} does not break within {:g} % of strain, where a simulated test ends: its T is the area until there",
+          result.measured[i].design.name(), 100.0 * thesis::kStrainLimit));
   }
   const auto repeated = [](const measurement::Replicates& r) { return r.modulus_count > 1 || r.toughness_count > 1; };
   if (std::ranges::none_of(result.measured, repeated))
     remark("no design was measured twice: how much replicates scatter is assumed, 1 % of E and 5 % of T");
 }
 
-void print_table(const sysid::OfflineCalibration& result) {
+void print_table(const sysid::OfflineCalibration& result, const material::ParameterRanges& ranges) {
   // What the fit has not seen comes first: that is what a model is worth.
   if (!result.held_out.empty()) print_errors("held out", result.before_held_out, result.after_held_out);
   print_errors("fitted", result.before_fitted, result.after_fitted);
@@ -156,7 +161,7 @@ void print_table(const sysid::OfflineCalibration& result) {
   if (result.ensemble_held_out.toughness_count > 0) {
     fmt::print("held out, mean of the ensemble: T {:.1f} %\n", 100.0 * result.ensemble_held_out.toughness_mean);
   }
-  print_reservations(result);
+  print_reservations(result, ranges);
   print_fit("E", result.calibrated.modulus_fit);
   print_fit("T", result.calibrated.toughness_fit);
   fmt::print("{} simulations", result.simulations);
@@ -169,8 +174,10 @@ int calibrate(const Options& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   sysid::OfflineSettings settings;
-  settings.calibration.start = parameters_from_option(options.start, material::default_parameters());
-  settings.calibration.ranges = ranges_from_option(options.ranges);
+  const material::ParameterRanges ranges = ranges_from_option(options.ranges);
+  settings.calibration.ranges = ranges;
+  settings.calibration.start =
+      parameters_from_option(options.start, material::brought_inside(material::default_parameters(), ranges), ranges);
   settings.calibration.toughness_budget = options.budget;
   settings.calibration.modulus_budget = options.modulus_budget;
   settings.calibration.seed = options.seed;
@@ -199,7 +206,7 @@ int calibrate(const Options& options) {
   write_file_atomically(options.out, material::to_toml(result.calibrated.parameters));
   nlohmann::ordered_json document = to_json(result);
   document["rejected"] = rejected_json(set.rejected);
-  options.json ? print_json(document) : print_table(result);
+  options.json ? print_json(document) : print_table(result, ranges);
   return 0;
 }
 

@@ -76,8 +76,9 @@ int diagnose_table(const Options& options) {
 
 diagnosis::DiagnosisSettings settings_from(const Options& options) {
   diagnosis::DiagnosisSettings settings;
-  settings.start = parameters_from_option(options.parameters, material::default_parameters());
   settings.ranges = ranges_from_option(options.ranges);
+  settings.start = parameters_from_option(
+      options.parameters, material::brought_inside(material::default_parameters(), settings.ranges), settings.ranges);
   if (!settings.start.extensions.empty())
     warn(fmt::format("{}: its extensions are left aside: a diagnosis asks what the base model lacks",
                      options.parameters));

@@ -14,9 +14,10 @@ namespace {
 FamilyData data_of_set(const FamilyOptions& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
+  const material::ParameterRanges ranges = ranges_from_option(options.ranges);
   return {.measured = game::patterns_with_both(set.specimens),
-          .parameters = material::default_parameters(),
-          .ranges = ranges_from_option(options.ranges),
+          .parameters = material::brought_inside(material::default_parameters(), ranges),
+          .ranges = ranges,
           .fidelity = fidelity_from_option(options.fidelity.empty() ? "full" : options.fidelity),
           .staged = {}};
 }
@@ -54,7 +55,7 @@ FamilyData data_of_run(const FamilyOptions& options) {
 
 FamilyData family_data(const FamilyOptions& options) {
   FamilyData data = options.set.empty() ? data_of_run(options) : data_of_set(options);
-  data.parameters = parameters_from_option(options.params, data.parameters);
+  data.parameters = parameters_from_option(options.params, data.parameters, data.ranges);
   return data;
 }
 

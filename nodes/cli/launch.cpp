@@ -24,6 +24,22 @@ void check_inputs(const game::Scenario& scenario) {
   if (scenario.laboratory.virtual_lab) make_laboratory(scenario);
 }
 
+/// Inks of one's own in one place and the thesis' in another: most likely something was forgotten.
+void warn_about_inks(const game::Scenario& scenario) {
+  const bool thesis_base = scenario.base_materials_file.ends_with(game::Scenario{}.base_materials_file);
+  const bool own_model = !scenario.model_file.empty() || !scenario.ranges_file.empty();
+  if (own_model && thesis_base)
+    warn(
+        "round 0 is fitted to the thesis' base materials; of a model_file its extensions stay. For other inks name "
+        "their "
+        "base_materials_file, or \"\" to begin with the model as it is");
+  const bool own_inks = !scenario.ranges_file.empty() || (!scenario.base_materials_file.empty() && !thesis_base);
+  if (own_inks && scenario.laboratory.virtual_lab && scenario.laboratory.file.empty())
+    warn(
+        "the virtual laboratory measures the thesis' inks: expected a laboratory.file with constants of yours "
+        "([modulus], [toughness])");
+}
+
 int play(const runtime::LaunchOptions& options) {
   if (options.scenario.empty() == options.resume.empty()) {
     throw InputError("nacre launch: expected either a SCENARIO.toml or --resume RUN");
@@ -40,7 +56,11 @@ int play(const runtime::LaunchOptions& options) {
   if (!options.only.empty() && !options.elsewhere.empty()) {
     throw InputError("nacre launch: expected either --only or --elsewhere, not both");
   }
-  if (!options.scenario.empty()) check_inputs(game::read_scenario(options.scenario));
+  if (!options.scenario.empty()) {
+    const game::Scenario scenario = game::read_scenario(options.scenario);
+    check_inputs(scenario);
+    warn_about_inks(scenario);
+  }
   return runtime::launch(options);
 }
 

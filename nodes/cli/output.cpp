@@ -13,14 +13,19 @@ namespace nacre::cli {
 
 namespace {
 
+using material::FitTarget;
+
 template <class Vector>
-void warn_about_units(const std::string& file, std::string_view table, std::span<const std::string_view> names,
-                      const Vector& values, std::span<const material::ParameterRange> ranges) {
+void warn_about_units(const std::string& file, std::string_view table, const Vector& values,
+                      std::span<const material::ParameterRange> base,
+                      std::span<const material::ParameterRange> microstructures) {
   constexpr double kFar = 100.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] >= ranges[i].minimum / kFar && values[i] <= ranges[i].maximum * kFar) continue;
+    const double minimum = std::min(base[i].minimum, microstructures[i].minimum),
+                 maximum = std::max(base[i].maximum, microstructures[i].maximum);
+    if (values[i] >= minimum / kFar && values[i] <= maximum * kFar) continue;
     warn(fmt::format("{}: {}.{} = {:g} lies far outside {:g} to {:g}, where it is fitted: is the unit right?", file,
-                     table, names[i], values[i], ranges[i].minimum, ranges[i].maximum));
+                     table, base[i].name, values[i], minimum, maximum));
   }
 }
 
@@ -64,14 +69,14 @@ void check_standard_output() {
   throw InputError::format("standard output: cannot be written: {}", std::strerror(errno));
 }
 
-material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start) {
+material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start,
+                                              const material::ParameterRanges& ranges) {
   if (file.empty()) return start;
   const material::ParameterSet set = material::read_parameters(file, start);
-  constexpr auto kTarget = material::FitTarget::base;
-  warn_about_units(file, "modulus", material::modulus_parameter_names(), to_vector(set.modulus),
-                   material::thesis_ranges().modulus(kTarget));
-  warn_about_units(file, "toughness", material::toughness_parameter_names(), to_vector(set.toughness),
-                   material::thesis_ranges().toughness(kTarget));
+  warn_about_units(file, "modulus", to_vector(set.modulus), ranges.modulus(FitTarget::base),
+                   ranges.modulus(FitTarget::microstructures));
+  warn_about_units(file, "toughness", to_vector(set.toughness), ranges.toughness(FitTarget::base),
+                   ranges.toughness(FitTarget::microstructures));
   return set;
 }
 

@@ -41,8 +41,9 @@ nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>
 void check_standard_output();
 
 /// The parameter file given, what it leaves out from `start`; `start` where none is given. Warns of a value that is a
-/// hundred times outside the range in which it is fitted: its unit may be another. Throws InputError.
-material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start);
+/// hundred times outside the ranges in which it is fitted: its unit may be another. Throws InputError.
+material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start,
+                                              const material::ParameterRanges& ranges = material::thesis_ranges());
 
 /// The ranges in the file given, those of the thesis where none is given. Throws InputError.
 material::ParameterRanges ranges_from_option(const std::string& file);

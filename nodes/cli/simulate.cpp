@@ -154,7 +154,7 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
     return entry;
   }
   for (const char* field :
-       {"modulus_pa", "toughness_pa", "peak_stress_pa", "failure_strain", "steps", "element_steps_per_s"}) {
+       {"modulus_pa", "toughness_pa", "peak_stress_pa", "failure_strain", "end", "steps", "element_steps_per_s"}) {
     entry[field] = nullptr;
   }
   if (specimen.modulus) entry["modulus_pa"] = (*specimen.modulus)->modulus_pa;
@@ -163,6 +163,7 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
     entry["toughness_pa"] = result.toughness_pa;
     entry["peak_stress_pa"] = result.peak_stress_pa;
     entry["failure_strain"] = result.failure_strain;
+    entry["end"] = tester::to_string(result.end);
     entry["steps"] = result.steps;
     entry["element_steps_per_s"] =
         static_cast<double>(result.steps) * static_cast<double>(result.element_count) / specimen.kernel_s;

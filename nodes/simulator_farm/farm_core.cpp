@@ -94,10 +94,15 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
     result->design.failure = "its result cannot be used";
   }
   Question& question = position->second;
-  question.answered = true;
   question.running = false;
-  question.has = question.computing;
-  question.answer = *std::move(result);
+  if (question.answered && question.answer.design.failure.empty() && !result->design.failure.empty()) {
+    // Numbers that were answered once stay: another's crack or film does not take them away.
+    question.extras_failure = result->design.failure;
+  } else {
+    question.answered = true;
+    question.has = question.computing;
+    question.answer = *std::move(result);
+  }
   const std::vector<std::string> waiting = std::exchange(question.waiting, {});
   for (const std::string& id : waiting) {
     Request& request = requests_.at(id);
@@ -116,7 +121,11 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
 }
 
 bool FarmCore::Question::suffices(const Extras& wanted) const {
-  return answered && (!answer.design.failure.empty() || has.covers(wanted));
+  return answered && (!failure(wanted).empty() || has.covers(wanted));
+}
+
+const std::string& FarmCore::Question::failure(const Extras& wanted) const {
+  return answer.design.failure.empty() && !has.covers(wanted) ? extras_failure : answer.design.failure;
 }
 
 const FarmCore::Question& FarmCore::question(const wire::SimulateRequest& request, const pattern::Design& design,
@@ -128,13 +137,14 @@ wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, 
   wire::SimulatedDesign whole;
   whole.design = design;
   for (tester::TestKind test : tests_of(request)) {
-    const wire::SimulatedDesign& part = question(request, design, test).answer.design;
-    if (!part.failure.empty()) {
+    const Question& asked = question(request, design, test);
+    if (const std::string& failure = asked.failure(wanted_extras(request, test)); !failure.empty()) {
       wire::SimulatedDesign failed;
       failed.design = design;
-      failed.failure = fmt::format("{}: {}", tester::to_string(test), part.failure);
+      failed.failure = fmt::format("{}: {}", tester::to_string(test), failure);
       return failed;
     }
+    const wire::SimulatedDesign& part = asked.answer.design;
     if (test == tester::TestKind::modulus) {
       whole.modulus_pa = part.modulus_pa;
       continue;

@@ -33,9 +33,12 @@ class FarmCore : public runtime::NodeCore {
     bool running = false;
     Extras has, computing;  ///< of the answer, and of the one that is being computed
     Answer answer;
+    std::string extras_failure;        ///< why crack or film cannot be had, although the numbers are there
     std::vector<std::string> waiting;  ///< request ids, in the order of asking
     /// Whether the answer is there and holds what is wanted (a failure has nothing to add).
     bool suffices(const Extras& wanted) const;
+    /// Why whoever wants these gets no answer; empty: the answer is there.
+    const std::string& failure(const Extras& wanted) const;
   };
   struct Request {
     wire::SimulateRequest request;

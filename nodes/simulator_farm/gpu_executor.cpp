@@ -90,8 +90,11 @@ void GpuExecutor::prepare() {
 
 void GpuExecutor::sort(const runtime::Compute& compute) {
   const AskedSimulation asked = asked_in(compute.spec);
-  // The film of a specimen whose numbers are known is made by threads.
-  if (asked.test != tester::TestKind::toughness || has_numbers(*cache_, asked)) return give_to_threads(compute);
+  // The film of a specimen whose numbers are known is made by threads. So is a pure soft specimen, which may have to be
+  // pulled again with a shorter step.
+  const bool pure_soft = asked.simulation.design.rigid_fraction() == 0.0;
+  if (asked.test != tester::TestKind::toughness || pure_soft || has_numbers(*cache_, asked))
+    return give_to_threads(compute);
   Result<gpu::PreparedTest> test = gpu::PreparedTest::of(tester::fracture_test(asked.simulation));
   // What cannot be pulled is refused in the words of the tester.
   if (!test) return give_to_threads(compute);

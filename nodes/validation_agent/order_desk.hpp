@@ -57,8 +57,8 @@ class OrderDesk {
   /// Orders of the open round that are complete, and how many there are.
   std::pair<int, int> completed(const game::MeasurementBook& book) const;
 
-  /// Why a specimen does not count for the order whose id it carries, as a sentence; nothing where it does, and where
-  /// the desk has no such order.
+  /// Why a specimen does not count for the order whose id it carries, or for that of its design and test, as a
+  /// sentence; nothing where it does, and where the desk has no such order.
   std::optional<std::string> against_label(const measurement::SpecimenRecord& specimen,
                                            const std::string& order_id) const;
 

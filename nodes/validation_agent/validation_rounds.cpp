@@ -188,6 +188,16 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
       say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom",
                                          round_, what, fit.chi_squared, fit.freedom));
   }
+  const auto target = round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
+  for (const sysid::ParameterEstimate& each : sysid::at_an_end(result, start_.ranges, target)) {
+    // The fracture tester has moduli of its own, at bounds that the thesis' inks reach; what the data do not tell may
+    // end anywhere.
+    const bool telling = each.determined || provenance_.modulus_fit.misfit();
+    if (each.name.starts_with("modulus.e_") && telling)
+      say(LogLevel::warning,
+          fmt::format("round {}: {} stands at the end of its range: other inks need another (ranges_file)", round_,
+                      each.name));
+  }
 }
 
 void ValidationCore::diagnose() {

@@ -278,6 +278,29 @@ TEST(SimulatorFarm, FracturesGoToThoseWhoAskedForThem) {
   EXPECT_EQ(fractures["c/1"][0].film, "some.film");
 }
 
+TEST(SimulatorFarm, ACrackThatCannotBeToldTakesNoNumbersAway) {
+  FarmCore farm;
+  auto numbers = request("a/1", {kMixed}), crack = request("b/1", {kMixed}), later = request("c/1", {kMixed});
+  for (wire::SimulateRequest* each : {&numbers, &crack, &later}) each->modulus = false;
+  crack.crack = true;
+  const Compute first = ask(farm, numbers).computes.at(0);
+  ASSERT_THAT(answers(farm.step(done(first))), SizeIs(1));
+  const Compute second = ask(farm, crack).computes.at(0);
+  Answer failed;
+  failed.design.design = kMixed;
+  failed.design.failure = "the crack cannot be told";
+  const auto told = answers(farm.step(runtime::WorkDone{second.id, write_answer(failed)}));
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told")) << "whoever asked for it hears why";
+  const Outputs again = ask(farm, later);
+  EXPECT_THAT(again.computes, IsEmpty());
+  ASSERT_THAT(answers(again), SizeIs(1));
+  EXPECT_EQ(answers(again)[0].results.at(0).failure, "");
+  EXPECT_GT(answers(again)[0].results.at(0).toughness_pa, 0.0);
+  crack.request_id = "d/1";
+  EXPECT_THAT(answers(ask(farm, crack)).at(0).results.at(0).failure, testing::HasSubstr("cannot be told"));
+}
+
 TEST(SimulatorFarm, ForeignBytesChangeNothing) {
   FarmCore farm;
   EXPECT_THAT(farm.step(Message{"SIMULATE", "rubbish"}).log, SizeIs(1));

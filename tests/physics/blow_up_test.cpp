@@ -84,6 +84,33 @@ TEST(BlowUp, AnUnstableTestGivesAReasonAndNoNumber) {
   EXPECT_THAT(result.error().message, testing::ContainsRegex("element row [0-9]+ column [0-9]+ at step [0-9]+"));
 }
 
+// A soft phase that stiffens without bound, in the thesis' ranges: the step for its stiffest state is so short that no
+// number of steps that is allowed reaches an end.
+TEST(BlowUp, ALawThatNeedsTooManyStepsGivesAReasonAndNoNumber) {
+  tester::Simulation simulation = specimen(patterns(1)[0]);
+  simulation.fidelity = tester::Fidelity::tiny;
+  simulation.parameters.toughness.e_tb_pa = 1e6;
+  simulation.parameters.toughness.w_tb_j_per_m3 = 6.6e5;
+  simulation.parameters.extensions["soft_stiffening"] = {0.2};
+  const auto result = tester::test_toughness(simulation);
+  ASSERT_FALSE(result) << result->toughness_pa;
+  EXPECT_THAT(result.error().message, testing::HasSubstr("no end after 400000 steps"));
+}
+
+// Stretched to three times its length the softest material carries faster waves than at rest.
+TEST(BlowUp, PureSoftMaterialIsPulledAgainWithAShorterStep) {
+  tester::Simulation simulation = specimen(pattern::Mixture{0.0});
+  simulation.fidelity = tester::Fidelity::tiny;
+  simulation.parameters.toughness.e_tb_pa = 1e5;
+  simulation.parameters.toughness.w_tb_j_per_m3 = 1e6;
+  simulation.parameters.toughness.gamma_per_s = 2e4;
+  const auto result = tester::test_toughness(simulation),
+             half = tester::test_toughness(simulation, {.time_step_scale = 0.5});
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_TRUE(half) << half.error().message;
+  EXPECT_NEAR(result->toughness_pa, half->toughness_pa, 0.02 * half->toughness_pa);
+}
+
 TEST(BlowUp, ATimeStepBeyondStabilityIsRefused) {
   const auto result = tester::test_toughness(specimen(pattern::Mixture{1.0}), {.time_step_scale = 1.3});
   ASSERT_FALSE(result);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "drawing.hpp"
 
 namespace nacre::crack {
@@ -41,6 +43,15 @@ TEST(Mechanisms, WaitingInFrontOfSoftMaterialIsArrest) {
   for (tester::Break& broken : drawing.order)
     if (broken.element % 10 >= 4) broken.strain += 0.007;  // the soft element holds for as long as all others together
   EXPECT_NEAR(soft_arrest(), 8.0 / 14, 1e-9);
+}
+
+TEST(Mechanisms, SoftMaterialAtTheNotchThatFailsLastIsArrestToo) {
+  Drawing drawing = draw({"..........", "oosxxxxxxx", ".........."});
+  double last = 0.0;
+  for (const tester::Break& broken : drawing.order) last = std::max(last, broken.strain);
+  for (tester::Break& broken : drawing.order)
+    if (broken.element % 10 == 2) broken.strain = 2.0 * last;
+  EXPECT_NEAR(mechanisms_of(drawing.grid, crack_record(drawing.grid, drawing.order)).soft_arrest, 1.0, 1e-9);
 }
 
 TEST(Mechanisms, APathThatSeeksWeakElementsIsGuided) {

@@ -48,6 +48,22 @@ TEST_F(Plans, ACauseWithoutANameIsCountedLikeOneOfTheLibrary) {
   EXPECT_NEAR(s, planned(plain, "droplet_mixing").signal_to_noise, 1e-3 * s);
 }
 
+// Coupons of a soft rigid ink carry little stress: what it yields at is that of the ink, not of the thesis'.
+TEST_F(Plans, CouponsAreThoseOfTheInksThatAreGiven) {
+  settings_.start.modulus.e_vw_pa = 1.1e9;
+  settings_.start.modulus.e_if_pa = 2.2e8;
+  settings_.ranges.base_modulus[1] = {"e_vw_pa", 8e8, 1.5e9};
+  settings_.ranges.base_modulus[2] = {"e_if_pa", 1.5e8, 3e8};
+  const auto planned_yield = [&] {
+    return planned(synthetic_coupons(settings_.start, {1e-3}, 3, 0.0, 1), "rigid_yield").smallest_seen.value();
+  };
+  const double own = planned_yield();
+  settings_ = {};
+  settings_.start = material::default_parameters();
+  settings_.fidelity = tester::Fidelity::tiny;
+  EXPECT_LT(own, 0.6 * planned_yield());
+}
+
 // Flow leaves nothing until stress reaches the yield stress: the smallest effect is where it begins to show.
 TEST_F(Plans, AYieldStressIsSeenFromWhereItShows) {
   const auto pulled = [&](const material::ParameterSet& truth) { return synthetic_coupons(truth, {1e-3}, 3, 0.0, 1); };

@@ -70,6 +70,20 @@ TEST(Ranges, ThoseOfOtherInksReplaceTheOnesTheyName) {
   EXPECT_NE(ranges, thesis_ranges());
 }
 
+TEST(Ranges, WhatLiesOutsideBeginsInTheMiddle) {
+  EXPECT_EQ(brought_inside(default_parameters(), thesis_ranges()), default_parameters());
+  ParameterRanges ranges = thesis_ranges();
+  ranges.microstructure_modulus[1] = {"e_vw_pa", 8e8, 1.2e9};
+  ranges.microstructure_toughness[0] = {"e_tb_pa", 1e5, 1e7};
+  ParameterSet expected = default_parameters();
+  expected.modulus.e_vw_pa = 1e9;
+  expected.toughness.e_tb_pa = 1e6;  // its range is searched in decades
+  const ParameterSet inside = brought_inside(default_parameters(), ranges);
+  EXPECT_NEAR(inside.toughness.e_tb_pa, expected.toughness.e_tb_pa, 1.0);
+  expected.toughness.e_tb_pa = inside.toughness.e_tb_pa;
+  EXPECT_EQ(inside, expected);
+}
+
 TEST(Ranges, WrittenAreReadBackToTheBit) {
   ParameterRanges ranges = thesis_ranges();
   ranges.base_modulus[0].maximum = 1e7 / 3.0;

@@ -167,6 +167,29 @@ TEST(Calibration, ParametersStayInTheirRanges) {
   EXPECT_EQ(material::parameter_fault(result.parameters), "");
 }
 
+TEST(Calibration, WhatStandsAtAnEndIsNamedDeterminedOnesFirst) {
+  CalibrationSettings narrow = settings();
+  narrow.ranges.microstructure_modulus[1] = {"e_vw_pa", 2.6e9, 3.2e9};  // the truth is 2.3
+  const std::vector<Replicates> measured = measured_designs(12);
+  Calibration calibration(measured, narrow);
+  const Calibrated result = finish(calibration, measured);
+  const auto at_ends = at_an_end(result, narrow.ranges, narrow.target);
+  ASSERT_FALSE(at_ends.empty());
+  EXPECT_EQ(at_ends.front().name, "modulus.e_vw_pa");
+  Calibration wide(measured, settings());
+  const auto none = at_an_end(finish(wide, measured), material::thesis_ranges(), narrow.target);
+  EXPECT_EQ(std::ranges::count(none, "modulus.e_vw_pa", &ParameterEstimate::name), 0);
+}
+
+TEST(Calibration, ATestThatEndsAtTheStrainLimitIsUnbroken) {
+  const pattern::Design layout = random_designs(1).front();
+  Prediction broken{.modulus_pa = {}, .toughness_pa = 1e5, .curve = {{0.0, 0.05, 0.06}, {0.0, 1e6, 0.0}}};
+  Prediction unbroken{.modulus_pa = {}, .toughness_pa = 1e5, .curve = {{0.0, 0.15, 0.2999}, {0.0, 1e6, 2e6}}};
+  EXPECT_FALSE(is_unbroken(broken, layout));
+  EXPECT_TRUE(is_unbroken(unbroken, layout));
+  EXPECT_FALSE(is_unbroken(unbroken, pattern::Mixture{0.0})) << "pure soft material goes on to 200 %";
+}
+
 TEST(Calibration, AnotherInkIsFoundInRangesOfItsOwn) {
   ParameterSet softer = truth();
   softer.modulus.e_vw_pa = 9e8;  // Table A.2 begins at 2.08 GPa
