@@ -307,7 +307,15 @@ void SlurmExecutor::put_batch(std::vector<Question> questions) {
   const std::string name = batch_name(bytes);
   spool_.put(name, bytes);
   for (const Question& question : questions) batch_of_spec_[question.spec] = name;
-  in_flight_.insert_or_assign(name, InFlight{std::move(questions), {}, BatchWatch(now_s())});
+  if (const auto known = in_flight_.find(name); known != in_flight_.end()) {
+    // On its way from before the farm was killed: whoever waits for it goes on waiting.
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      Question& waited_for = known->second.questions.at(i);
+      if (!waited_for.compute) waited_for.compute = std::move(questions[i].compute);
+    }
+    return;
+  }
+  in_flight_.emplace(name, InFlight{std::move(questions), {}, BatchWatch(now_s())});
   to_submit_.push_back(name);
 }
 
