@@ -99,6 +99,8 @@ class ValidationCore : public runtime::NodeCore {
   void calibrate_on();
   void finish_calibration();
   void take_over(const sysid::Calibrated& result);
+  /// What the present round is fitted to.
+  material::FitTarget fit_target() const;
   void diagnose();
   std::optional<material::ParameterSet> extended_by(const diagnosis_t& diagnosis);
   bool model_holds(const diagnosis_t& diagnosis) const;

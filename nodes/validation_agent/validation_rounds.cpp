@@ -133,9 +133,13 @@ void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predi
   begin_calibration(model_);
 }
 
+material::FitTarget ValidationCore::fit_target() const {
+  return round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
+}
+
 void ValidationCore::begin_calibration(const material::ParameterSet& start) {
   sysid::CalibrationSettings settings;
-  settings.target = round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
+  settings.target = fit_target();
   settings.ranges = start_.ranges;
   settings.start = start;
   settings.modulus_budget = scenario_.validation.modulus_evaluations;
@@ -188,8 +192,7 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
       say(LogLevel::warning, fmt::format("round {}: the model misfits {}: chi squared {:.1f} at {} degrees of freedom",
                                          round_, what, fit.chi_squared, fit.freedom));
   }
-  const auto target = round_ == 0 ? material::FitTarget::base : material::FitTarget::microstructures;
-  for (const sysid::ParameterEstimate& each : sysid::at_an_end(result, start_.ranges, target)) {
+  for (const sysid::ParameterEstimate& each : sysid::at_an_end(result, start_.ranges, fit_target())) {
     // The fracture tester has moduli of its own, at bounds that the thesis' inks reach; what the data do not tell may
     // end anywhere.
     const bool telling = each.determined || provenance_.modulus_fit.misfit();
