@@ -4,6 +4,7 @@
 
 #include "base/processor_time.hpp"
 #include "explore/predictors.hpp"
+#include "kept_evaluations.hpp"
 
 namespace nacre::search_study {
 
@@ -13,6 +14,7 @@ Foretold foretell(const Options& options, std::uint64_t seed, std::span<const ex
   foretold.samples = run.first(std::min(run.size(), learnt + static_cast<std::size_t>(options.next)));
   explore::SearchSettings settings = options.search;
   settings.seed = seed;
+  settings.mechanics = mechanics_of(options);
   const double begin = processor_time_s();
   explore::Predictors former;
   if (!settings.former.empty()) former = explore::fit_predictors(settings.former, settings);

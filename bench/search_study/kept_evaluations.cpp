@@ -6,7 +6,7 @@
 
 #include "base/processor_time.hpp"
 #include "base/result.hpp"
-#include "explore/exact_modulus.hpp"
+#include "explore/mechanics.hpp"
 #include "explore/synthetic.hpp"
 
 namespace nacre::search_study {
@@ -26,12 +26,16 @@ std::optional<tester::Fidelity> fidelity_named(const std::string& name) {
   return *fidelity;
 }
 
+material::ParameterSet parameters_of(const Options& options) {
+  const material::ParameterSet built_in = material::default_parameters();
+  return options.params.empty() ? built_in : material::read_parameters(options.params, built_in);
+}
+
 }  // namespace
 
 KeptEvaluations::KeptEvaluations(const Options& options)
     : fidelity_(fidelity_named(options.fidelity)),
-      parameters_(options.params.empty() ? material::default_parameters()
-                                         : material::read_parameters(options.params, material::default_parameters())),
+      parameters_(parameters_of(options)),
       table_(table_path(options), {"modulus_pa", "toughness_pa"}) {}
 
 KeptEvaluations::Answer KeptEvaluations::operator()(const pattern::Pattern& pattern) {
@@ -52,14 +56,21 @@ KeptEvaluations::Answer KeptEvaluations::operator()(const pattern::Pattern& patt
   return {performance(kept[0], kept[1]), spent};
 }
 
-explore::ModulusOf KeptEvaluations::moduli(int threads) const {
-  if (fidelity_) return explore::modulus_by_tester(parameters_, *fidelity_, threads);
-  return [](std::span<const pattern::Pattern> patterns) {
-    std::vector<std::optional<double>> moduli;
-    for (const pattern::Pattern& pattern : patterns)
-      moduli.push_back(explore::synthetic_performance(pattern).modulus_pa);
-    return moduli;
-  };
+explore::Mechanics mechanics_of(const Options& options) {
+  explore::Mechanics mechanics;
+  if (const auto fidelity = fidelity_named(options.fidelity)) {
+    mechanics = explore::mechanics_by_tester(parameters_of(options), *fidelity, options.threads);
+  } else {
+    mechanics.modulus_of = [](std::span<const pattern::Pattern> patterns) {
+      std::vector<std::optional<double>> moduli;
+      for (const pattern::Pattern& pattern : patterns)
+        moduli.push_back(explore::synthetic_performance(pattern).modulus_pa);
+      return moduli;
+    };
+  }
+  if (options.believed_modulus) mechanics.modulus_of = {};
+  if (options.no_cells) mechanics.cell_modulus = mechanics.cell_loads = {};
+  return mechanics;
 }
 
 }  // namespace nacre::search_study

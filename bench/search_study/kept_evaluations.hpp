@@ -20,13 +20,14 @@ class KeptEvaluations {
   };
   /// Thread-safe.
   Answer operator()(const pattern::Pattern& pattern);
-  /// Moduli alone; not kept.
-  explore::ModulusOf moduli(int threads) const;
 
  private:
   std::optional<tester::Fidelity> fidelity_;
   material::ParameterSet parameters_;
   study::StudyTable table_;
 };
+
+/// What `learned` may compute, as the options allow.
+explore::Mechanics mechanics_of(const Options& options);
 
 }  // namespace nacre::search_study

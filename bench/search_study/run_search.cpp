@@ -25,7 +25,7 @@ study::StudyTable growth_table(const Options& options, std::uint64_t seed) {
 bool run_one(const Options& options, std::uint64_t seed, KeptEvaluations& evaluate, Clock::time_point end) {
   explore::SearchSettings settings = options.search;
   settings.seed = seed;
-  if (!options.believed_modulus) settings.modulus_of = evaluate.moduli(options.threads);
+  settings.mechanics = mechanics_of(options);
   const auto search = explore::make_search(settings);
   explore::BatchLog log(run_path(options, options.variant, seed) + "-batches.txt", settings);
   study::StudyTable growth = growth_table(options, seed);

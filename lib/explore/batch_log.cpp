@@ -19,9 +19,11 @@ std::string identity_of(const SearchSettings& settings, const std::string& model
   const LearnedSettings& learned = settings.learned;
   const std::string samples = content_hash(to_csv(settings.known) + to_csv(settings.former));
   const bool learns = settings.algorithm == "learned";
-  return fmt::format("batches of {} seed={} population={} batch={} samples={} learned={}{}{}", settings.algorithm,
+  return fmt::format("batches of {} seed={} population={} batch={} samples={} learned={}{}{}{}", settings.algorithm,
                      settings.seed, settings.population, settings.batch, samples, learns ? to_text(learned) : "-",
-                     learns && settings.modulus_of ? " modulus=exact" : "", model.empty() ? "" : " model=" + model);
+                     learns && settings.mechanics.modulus_of ? " modulus=exact" : "",
+                     learns && settings.mechanics.cell_loads ? " cells=elastic" : "",
+                     model.empty() ? "" : " model=" + model);
 }
 
 std::vector<pattern::Pattern> batch_from(const std::string& line, const std::filesystem::path& path,

@@ -114,8 +114,8 @@ std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors
   Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, std::max(kShortList, count))),
                                      front, std::max(kFinalists, count));
   SharedErrors shared{{}, predictors.toughness->covariance(finalists.patterns)};
-  if (question.settings.modulus_of)
-    know_moduli(finalists, question.settings.modulus_of);
+  if (question.settings.mechanics.modulus_of)
+    know_moduli(finalists, question.settings.mechanics.modulus_of);
   else
     shared.log_modulus = predictors.modulus->covariance(finalists.patterns);
   std::vector<pattern::Pattern> batch;

@@ -168,13 +168,13 @@ Predictors fit_predictors(std::span<const Evaluated> samples, const SearchSettin
   const LogSamples all = logarithms(samples, samples.size(), learned);
   const std::vector<Evaluated> chosen = learnt_samples(samples, learned.most_samples);
   const LogSamples learnt = logarithms(chosen, chosen.size(), learned);
-  const auto fit = [&](const std::vector<double> LogSamples::*property, surrogate::PriorMean prior_mean,
-                       const std::shared_ptr<const Predictor>& of_base) {
-    return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), prior_mean},
-                       {learnt.patterns, learnt.*property, prior_mean}, settings.seed, of_base);
+  const auto fit = [&](const std::vector<double> LogSamples::*property, const surrogate::Features& trend,
+                       const surrogate::Features& likeness, const std::shared_ptr<const Predictor>& of_base) {
+    return fit_patches({std::span(all.patterns).first(stage), std::span(all.*property).first(stage), trend, likeness},
+                       {learnt.patterns, learnt.*property, trend, likeness}, settings.seed, of_base);
   };
-  return {fit(&LogSamples::log_modulus, surrogate::PriorMean::fraction_and_conductance, base.modulus),
-          fit(&LogSamples::log_toughness, surrogate::PriorMean::fraction, base.toughness)};
+  return {fit(&LogSamples::log_modulus, settings.mechanics.cell_modulus, {}, base.modulus),
+          fit(&LogSamples::log_toughness, {}, settings.mechanics.cell_loads, base.toughness)};
 }
 
 std::vector<optimize::Performance> believed(const Predictors& predictors, std::span<const pattern::Pattern> at,

@@ -11,6 +11,7 @@
 
 #include "optimize/pareto.hpp"
 #include "pattern/layout.hpp"
+#include "surrogate/predictor.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::explore {
@@ -53,6 +54,14 @@ std::string to_text(const LearnedSettings& settings);
 /// Young's modulus of patterns, exactly as a simulation would tell it, in Pa; nothing where that fails.
 using ModulusOf = std::function<std::vector<std::optional<double>>(std::span<const pattern::Pattern>)>;
 
+/// What elasticity tells of any pattern for far less than a simulation (mechanics.hpp). A search does without what is
+/// empty.
+struct Mechanics {
+  ModulusOf modulus_of = {};              ///< asked of the finalists of a batch (hundreds)
+  surrogate::Features cell_modulus = {};  ///< asked of all that a batch's search visits (thousands): one column
+  surrogate::Features cell_loads = {};    ///< the same; where the energy goes, in logarithms
+};
+
 struct SearchSettings {
   std::string algorithm = "nsga2";   ///< one of algorithms()
   int budget = 300;                  ///< simulations
@@ -64,7 +73,7 @@ struct SearchSettings {
   std::vector<Evaluated> former =
       {};                        ///< simulated with other parameters or at another fidelity; `learned` learns from them
   LearnedSettings learned = {};  ///< of `learned` alone
-  ModulusOf modulus_of = {};  ///< when given, `learned` asks it for the moduli of the finalists of a batch (hundreds)
+  Mechanics mechanics = {};      ///< for `learned`
 };
 
 /// Everything that the next batch of a model-based search depends on.

@@ -16,15 +16,16 @@ std::array<ShapeGradients, kGaussPoints> make_gradients() {
   return result;
 }
 
-ElementMatrix make_stiffness(const material::Lame& lame) {
+ElementMatrix make_stiffness(const material::Lame& lame, double width, double height) {
   const Eigen::Matrix4d moduli = material::tangent(Eigen::Matrix2d::Zero(), lame);
+  const double sizes[2] = {width, height};
   ElementMatrix stiffness = ElementMatrix::Zero();
   for (const ShapeGradients& gradients : shape_gradients()) {
     Eigen::Matrix<double, 4, 2 * kElementNodes> operator_b = Eigen::Matrix<double, 4, 2 * kElementNodes>::Zero();
     for (int node = 0; node < kElementNodes; ++node)
       for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j) operator_b(2 * i + j, 2 * node + i) = gradients(j, node);  // dH_ij/du_i
-    stiffness += kGaussWeight * operator_b.transpose() * moduli * operator_b;
+        for (int j = 0; j < 2; ++j) operator_b(2 * i + j, 2 * node + i) = gradients(j, node) / sizes[j];  // dH_ij/du_i
+    stiffness += kGaussWeight * width * height * operator_b.transpose() * moduli * operator_b;
   }
   return 0.5 * (stiffness + stiffness.transpose());
 }
@@ -77,9 +78,13 @@ double strain_energy(const ElementVector& displacement, const material::Lame& la
   return energy;
 }
 
+UnitStiffness rectangle_stiffness(double width, double height) {
+  return {.shear = make_stiffness({.mu_pa = 1.0, .lambda_pa = 0.0}, width, height),
+          .bulk = make_stiffness({.mu_pa = 0.0, .lambda_pa = 1.0}, width, height)};
+}
+
 const UnitStiffness& unit_stiffness() {
-  static const UnitStiffness stiffness = {.shear = make_stiffness({.mu_pa = 1.0, .lambda_pa = 0.0}),
-                                          .bulk = make_stiffness({.mu_pa = 0.0, .lambda_pa = 1.0})};
+  static const UnitStiffness stiffness = rectangle_stiffness(1.0, 1.0);
   return stiffness;
 }
 

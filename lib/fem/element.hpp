@@ -40,6 +40,8 @@ struct UnitStiffness {
   ElementMatrix bulk;
 };
 const UnitStiffness& unit_stiffness();
+/// The same of an element of `width` x `height` (in units of h; displacements too).
+UnitStiffness rectangle_stiffness(double width, double height);
 
 /// Lame parameters of every element (Eqs. 2.2, 2.3); both zero where the grid is empty.
 std::vector<material::Lame> lame_of(const Grid& grid);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "fem/element.hpp"
-
 namespace nacre::fem {
 namespace {
 
@@ -68,14 +66,16 @@ void FrontalCholesky::lay_out() {
   }
 }
 
-void FrontalCholesky::assemble(std::size_t k, const std::vector<material::Lame>& lame) {
+void FrontalCholesky::assemble(std::size_t k, const std::vector<material::Lame>& lame,
+                               const std::vector<const UnitStiffness*>& shapes) {
   const DissectionBlock& block = plan_->blocks[k];
   const FrontView& front = fronts_[k];
   std::fill_n(front.factor, front.stride() * front.pivots, 0.0);
   std::fill_n(front.update, front.border_rows * front.border, 0.0);
-  const UnitStiffness& unit = unit_stiffness();
   for (std::size_t e = 0; e < block.elements.size(); ++e) {
-    const material::Lame& constants = lame[static_cast<std::size_t>(block.elements[e])];
+    const auto element = static_cast<std::size_t>(block.elements[e]);
+    const material::Lame& constants = lame[element];
+    const UnitStiffness& unit = shapes.empty() ? unit_stiffness() : *shapes[element];
     kernel_.add_element(front, {block.element_rows[e].data(), constants.mu_pa, constants.lambda_pa}, unit.shear.data(),
                         unit.bulk.data());
   }
@@ -84,10 +84,13 @@ void FrontalCholesky::assemble(std::size_t k, const std::vector<material::Lame>&
                      static_cast<int>(block.half_runs[half].size()));
 }
 
-bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame) {
+bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame) { return factorise(lame, {}); }
+
+bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame,
+                                const std::vector<const UnitStiffness*>& shapes) {
   const double smallest_pivot = kSmallestPivot * stiffest(lame);
   for (std::size_t k = 0; k < fronts_.size(); ++k) {
-    assemble(k, lame);
+    assemble(k, lame, shapes);
     if (!kernel_.eliminate(fronts_[k], smallest_pivot)) return false;
   }
   return true;

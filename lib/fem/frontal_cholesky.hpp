@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/dissection.hpp"
+#include "fem/element.hpp"
 #include "fem/frontal_kernel.hpp"
 #include "material/neo_hookean.hpp"
 
@@ -20,6 +21,8 @@ class FrontalCholesky {
   /// is when a part of the grid can move freely. About 1 ms for 80 x 40 elements, growing with the number of elements
   /// to the power 1.5.
   bool factorise(const std::vector<material::Lame>& lame);
+  /// The same of elements that are not squares: shapes[e] for element e.
+  bool factorise(const std::vector<material::Lame>& lame, const std::vector<const UnitStiffness*>& shapes);
 
   /// Solves K x = b in place; entries of held unknowns are neither read nor written.
   void solve(std::vector<double>& x);
@@ -32,7 +35,8 @@ class FrontalCholesky {
   static double* numbers(std::vector<Line>& lines) { return lines.empty() ? nullptr : lines.front().number; }
 
   void lay_out();
-  void assemble(std::size_t block, const std::vector<material::Lame>& lame);
+  void assemble(std::size_t block, const std::vector<material::Lame>& lame,
+                const std::vector<const UnitStiffness*>& shapes);
 
   std::shared_ptr<const DissectionPlan> plan_;
   const FrontalKernel& kernel_;

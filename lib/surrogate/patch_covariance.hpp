@@ -14,7 +14,7 @@ using QuarterRows = std::array<std::uint16_t, pattern::kQuarter>;
 QuarterRows quarter_rows(const pattern::Pattern& pattern);
 
 /// Weights and decays of the covariance. A decay is the factor that every pixel in which two neighbourhoods differ
-/// costs.
+/// costs. Of features, which patch_process.hpp adds, a length is how far apart patterns may be in them.
 struct PatchKernel {
   double pixel_variance = 0.25;  ///< single pixels: the share of equal ones
   double patch_variance = 1.0;   ///< 3 x 3 neighbourhoods
@@ -23,8 +23,12 @@ struct PatchKernel {
   double region_decay = 0.8;     ///< in (0, 1)
   double whole_variance = 0.25;  ///< the quarter as a whole
   double whole_decay = 0.95;     ///< in (0, 1), per pixel of the quarter
+  double feature_variance = 0.0;
+  double feature_length = 1.0;   ///< root mean square over the features
   double noise_variance = 0.01;  ///< what neighbourhoods cannot explain; on the diagonal only
-  double signal_variance() const { return pixel_variance + patch_variance + region_variance + whole_variance; }
+  double signal_variance() const {
+    return pixel_variance + patch_variance + region_variance + whole_variance + feature_variance;
+  }
 };
 
 /// k(x, x') = v_1 s + v_3 mean_p d_3^h3(p) + v_5 mean_p d_5^h5(p) + v_w d_w^h: s the share of equal pixels of the

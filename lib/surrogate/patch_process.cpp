@@ -13,7 +13,6 @@
 
 #include "base/hash.hpp"
 #include "base/random.hpp"
-#include "surrogate/pixel_network.hpp"
 
 namespace nacre::surrogate {
 namespace {
@@ -22,11 +21,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The prior's mean: least squares on 1, phi, phi^2, two conductances where they count, and what `base` predicts.
+/// The prior's mean: least squares on 1, phi, phi^2, the features of the trend, and what `base` predicts.
 class Trend {
  public:
-  Trend(const Samples& samples, const Predictor* base)
-      : conducts_(samples.prior_mean == PriorMean::fraction_and_conductance), base_(base) {
+  Trend(const Samples& samples, const Predictor* base) : features_(samples.trend), base_(base) {
     const MatrixXd terms = terms_at(samples.patterns);
     const Eigen::Map<const VectorXd> values(samples.values.data(), static_cast<Index>(samples.values.size()));
     // The ridge decides only where the samples do not (all of one fraction, fewer samples than terms).
@@ -39,45 +37,81 @@ class Trend {
 
  private:
   MatrixXd terms_at(std::span<const pattern::Pattern> at) const {
-    const int own_terms = conducts_ ? 5 : 3;
-    MatrixXd terms(static_cast<Index>(at.size()), base_ ? own_terms + 1 : own_terms);
+    const MatrixXd features = features_ ? features_(at) : MatrixXd();
+    const Index own = 3 + features.cols();
+    MatrixXd terms(static_cast<Index>(at.size()), base_ ? own + 1 : own);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double fraction = at[i].rigid_fraction() - 0.7;  // about the middle of the design space
-      auto row = terms.row(static_cast<Index>(i));
-      row.head<3>() << 1.0, fraction, fraction * fraction;
-      // Soft pixels as nearly nothing, and as a good part of the whole: chains of rigid pixels, and the mixture.
-      constexpr double kNearlyNothing = 1e-3, kGoodPart = 0.05;
-      if (conducts_) row.segment<2>(3) << log_conductance(at[i], kNearlyNothing), log_conductance(at[i], kGoodPart);
+      terms.row(static_cast<Index>(i)).head<3>() << 1.0, fraction, fraction * fraction;
     }
+    if (features.cols() > 0) terms.middleCols(3, features.cols()) = features;
     if (base_) {
       const std::vector<double> base = base_->means(at);
-      terms.col(own_terms) = Eigen::Map<const VectorXd>(base.data(), terms.rows());
+      terms.col(own) = Eigen::Map<const VectorXd>(base.data(), terms.rows());
     }
     return terms;
   }
 
-  bool conducts_;
+  Features features_;
   const Predictor* base_;
   VectorXd coefficients_;
 };
 
-std::vector<QuarterRows> rows_of(std::span<const pattern::Pattern> patterns) {
+/// Patterns as the covariance sees them.
+struct Points {
   std::vector<QuarterRows> rows;
-  rows.reserve(patterns.size());
-  for (const pattern::Pattern& pattern : patterns) rows.push_back(quarter_rows(pattern));
-  return rows;
+  MatrixXd features;  ///< a column for each pattern; without rows where nobody gives any
+  std::size_t size() const { return rows.size(); }
+};
+
+Points points_of(std::span<const pattern::Pattern> patterns, const Features& likeness) {
+  Points points;
+  points.rows.reserve(patterns.size());
+  for (const pattern::Pattern& pattern : patterns) points.rows.push_back(quarter_rows(pattern));
+  points.features =
+      likeness ? MatrixXd(likeness(patterns).transpose()) : MatrixXd(0, static_cast<Index>(patterns.size()));
+  return points;
 }
 
-/// Lower triangle of the covariance of the samples, noise on its diagonal.
-MatrixXd sample_covariance(const std::vector<QuarterRows>& rows, const PatchKernel& kernel) {
-  const PatchCovariance covariance(kernel);
-  const auto n = static_cast<Index>(rows.size());
-  MatrixXd matrix(n, n);
-  for (Index j = 0; j < n; ++j) {
-    for (Index i = j; i < n; ++i)
-      matrix(i, j) = covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-    matrix(j, j) += kernel.noise_variance;
+/// Of patches and features together.
+class Covariance {
+ public:
+  explicit Covariance(const PatchKernel& kernel) : patches_(kernel), kernel_(kernel) {}
+  double operator()(const Points& a, std::size_t i, const Points& b, std::size_t j) const {
+    double value = patches_(a.rows[i], b.rows[j]);
+    if (a.features.rows() == 0) return value;
+    const double apart = (a.features.col(static_cast<Index>(i)) - b.features.col(static_cast<Index>(j))).squaredNorm() /
+                         static_cast<double>(a.features.rows());
+    return value +
+           kernel_.feature_variance * std::exp(-0.5 * apart / (kernel_.feature_length * kernel_.feature_length));
   }
+  /// a.size() x b.size().
+  MatrixXd between(const Points& a, const Points& b) const {
+    MatrixXd matrix(static_cast<Index>(a.size()), static_cast<Index>(b.size()));
+    for (std::size_t j = 0; j < b.size(); ++j)
+      for (std::size_t i = 0; i < a.size(); ++i)
+        matrix(static_cast<Index>(i), static_cast<Index>(j)) = (*this)(a, i, b, j);
+    return matrix;
+  }
+  /// Lower triangle of that of points with themselves.
+  MatrixXd within(const Points& points) const {
+    const auto n = static_cast<Index>(points.size());
+    MatrixXd matrix(n, n);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = j; i < n; ++i)
+        matrix(i, j) = (*this)(points, static_cast<std::size_t>(i), points, static_cast<std::size_t>(j));
+    return matrix;
+  }
+
+ private:
+  PatchCovariance patches_;
+  PatchKernel kernel_;
+};
+
+/// Lower triangle of the covariance of the samples, noise on its diagonal.
+MatrixXd sample_covariance(const Points& points, const PatchKernel& kernel) {
+  MatrixXd matrix = Covariance(kernel).within(points);
+  matrix.diagonal().array() += kernel.noise_variance;
   return matrix;
 }
 
@@ -86,32 +120,24 @@ class PatchProcess final : public Predictor {
   PatchProcess(const Samples& samples, const PatchKernel& kernel, std::shared_ptr<const Predictor> base)
       : base_(std::move(base)),
         trend_(samples, base_.get()),
-        rows_(rows_of(samples.patterns)),
+        likeness_(samples.likeness),
+        samples_(points_of(samples.patterns, likeness_)),
         covariance_(kernel),
         signal_variance_(kernel.signal_variance()),
-        factor_(sample_covariance(rows_, kernel)) {
+        factor_(sample_covariance(samples_, kernel)) {
     assert(factor_.info() == Eigen::Success);
     const Eigen::Map<const VectorXd> values(samples.values.data(), static_cast<Index>(samples.values.size()));
     weights_ = factor_.solve(values - trend_(samples.patterns));
   }
 
   std::vector<double> means(std::span<const pattern::Pattern> at) const override {
-    const VectorXd trend = trend_(at);
-    std::vector<double> result(at.size());
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      const QuarterRows rows = quarter_rows(at[i]);
-      double sum = trend[static_cast<Index>(i)];
-      for (std::size_t k = 0; k < rows_.size(); ++k)
-        sum += weights_[static_cast<Index>(k)] * covariance_(rows, rows_[k]);
-      result[i] = sum;
-    }
-    return result;
+    const VectorXd means = trend_(at) + covariance_.between(samples_, points_of(at, likeness_)).transpose() * weights_;
+    return {means.begin(), means.end()};
   }
 
   std::vector<Prediction> predict(std::span<const pattern::Pattern> at) const override {
-    const VectorXd trend = trend_(at);
-    MatrixXd cross = to_samples(rows_of(at));
-    const VectorXd means = trend + cross.transpose() * weights_;
+    MatrixXd cross = covariance_.between(samples_, points_of(at, likeness_));
+    const VectorXd means = trend_(at) + cross.transpose() * weights_;
     factor_.matrixL().solveInPlace(cross);
     std::vector<Prediction> result(at.size());
     for (Index i = 0; i < cross.cols(); ++i) {
@@ -122,45 +148,35 @@ class PatchProcess final : public Predictor {
   }
 
   MatrixXd covariance(std::span<const pattern::Pattern> at) const override {
-    const std::vector<QuarterRows> rows = rows_of(at);
-    MatrixXd cross = to_samples(rows), prior(cross.cols(), cross.cols());
+    const Points points = points_of(at, likeness_);
+    MatrixXd cross = covariance_.between(samples_, points);
     factor_.matrixL().solveInPlace(cross);
-    for (Index j = 0; j < prior.cols(); ++j) {
-      for (Index i = j; i < prior.rows(); ++i)
-        prior(i, j) = prior(j, i) = covariance_(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-    }
+    const MatrixXd prior = covariance_.within(points).selfadjointView<Eigen::Lower>();
     return prior - cross.transpose() * cross;
   }
 
  private:
-  /// Covariance of every sample (rows) with these patterns (columns).
-  MatrixXd to_samples(const std::vector<QuarterRows>& at) const {
-    MatrixXd cross(static_cast<Index>(rows_.size()), static_cast<Index>(at.size()));
-    for (Index i = 0; i < cross.cols(); ++i) {
-      for (Index k = 0; k < cross.rows(); ++k)
-        cross(k, i) = covariance_(at[static_cast<std::size_t>(i)], rows_[static_cast<std::size_t>(k)]);
-    }
-    return cross;
-  }
-
   std::shared_ptr<const Predictor> base_;
   Trend trend_;
-  std::vector<QuarterRows> rows_;
-  PatchCovariance covariance_;
+  Features likeness_;
+  Points samples_;
+  Covariance covariance_;
   double signal_variance_;
   Eigen::LLT<MatrixXd, Eigen::Lower> factor_;
   VectorXd weights_;
 };
 
-/// Unknowns of the kernel's search: logarithms of variances, logarithms of -log decay; standardised values.
-constexpr int kUnknowns = 8;
-constexpr double kCentre[kUnknowns] = {-1.5, -0.5, -0.7, -0.7, -2.0, -1.5, -2.5, -3.0};
+/// Unknowns of the kernel's search: logarithms of variances, logarithms of -log decay; of features, where there are
+/// any, the logarithms of variance and length; standardised values.
+constexpr double kCentre[] = {-1.5, -0.5, -0.7, -0.7, -2.0, -1.5, -2.5, -3.0, -0.7, -1.2};
+constexpr std::size_t kPatchUnknowns = 8;
 constexpr double kSpread = 1.5;
 constexpr double kReach = 2.5;  ///< bounds of the search, in spreads
 
 double decay_from(double unknown) { return std::exp(-std::exp(unknown)); }
 
 PatchKernel kernel_at(const std::vector<double>& at) {
+  const bool has_features = at.size() > kPatchUnknowns;
   return {.pixel_variance = std::exp(at[0]),
           .patch_variance = std::exp(at[1]),
           .patch_decay = decay_from(at[4]),
@@ -168,24 +184,30 @@ PatchKernel kernel_at(const std::vector<double>& at) {
           .region_decay = decay_from(at[5]),
           .whole_variance = std::exp(at[3]),
           .whole_decay = decay_from(at[6]),
+          .feature_variance = has_features ? std::exp(at[8]) : 0.0,
+          .feature_length = has_features ? std::exp(at[9]) : 1.0,
           .noise_variance = std::exp(at[7])};
 }
 
 struct KernelQuestion {
-  std::vector<QuarterRows> rows;
+  Points points;
   VectorXd values;  ///< standardised while a kernel is looked for
+  /// Where a search for its kernel begins.
+  std::vector<double> centre() const {
+    return {std::begin(kCentre), points.features.rows() > 0 ? std::end(kCentre) : std::begin(kCentre) + kPatchUnknowns};
+  }
 };
 
 /// Negative log posterior density of a kernel.
 double misfit(const std::vector<double>& at, std::vector<double>&, void* data) {
   const KernelQuestion& question = *static_cast<KernelQuestion*>(data);
-  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(question.rows, kernel_at(at)));
+  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(question.points, kernel_at(at)));
   if (factor.info() != Eigen::Success) return 1e10;
   const VectorXd reduced = factor.matrixL().solve(question.values);
   const MatrixXd& lower = factor.matrixLLT();
   double value = 0.5 * reduced.squaredNorm() + lower.diagonal().array().log().sum();
-  for (int k = 0; k < kUnknowns; ++k) {
-    const double apart = (at[static_cast<std::size_t>(k)] - kCentre[k]) / kSpread;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double apart = (at[k] - kCentre[k]) / kSpread;
     value += 0.5 * apart * apart;
   }
   return value;
@@ -193,15 +215,16 @@ double misfit(const std::vector<double>& at, std::vector<double>&, void* data) {
 
 /// The most probable unknowns; BOBYQA, which needs no derivatives.
 std::vector<double> most_probable(KernelQuestion& question) {
-  std::vector<double> at(std::begin(kCentre), std::end(kCentre)), lower = at, upper = at;
+  std::vector<double> at = question.centre(), lower = at, upper = at;
   for (double& bound : lower) bound -= kReach * kSpread;
   for (double& bound : upper) bound += kReach * kSpread;
-  nlopt::opt search(nlopt::LN_BOBYQA, kUnknowns);
+  nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(at.size()));
   search.set_lower_bounds(lower);
   search.set_upper_bounds(upper);
   search.set_initial_step(0.7);
   search.set_min_objective(misfit, &question);
-  search.set_maxeval(90);
+  constexpr int kMostPerUnknown = 11;
+  search.set_maxeval(kMostPerUnknown * static_cast<int>(at.size()));
   search.set_ftol_abs(0.05);
   try {
     double value = 0.0;
@@ -232,12 +255,13 @@ KernelQuestion deciding_samples(const Samples& samples, std::uint64_t seed, cons
       Eigen::Map<const VectorXd>(samples.values.data(), static_cast<Index>(samples.values.size())) -
       trend(samples.patterns);
   RandomStream random(seed, "surrogate/kernel");
-  KernelQuestion question;
+  std::vector<pattern::Pattern> patterns;
   std::vector<double> values;
   for (const std::size_t i : chosen_indices(samples.values.size(), kKernelSamples, random)) {
-    question.rows.push_back(quarter_rows(samples.patterns[i]));
+    patterns.push_back(samples.patterns[i]);
     values.push_back(residuals[static_cast<Index>(i)]);
   }
+  KernelQuestion question{.points = points_of(patterns, samples.likeness), .values = {}};
   question.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   return question;
 }
@@ -261,9 +285,14 @@ class KernelMemory {
 
  private:
   static std::string key_of(const KernelQuestion& question) {
-    std::string bytes(reinterpret_cast<const char*>(question.rows.data()), question.rows.size() * sizeof(QuarterRows));
-    bytes.append(reinterpret_cast<const char*>(question.values.data()),
-                 static_cast<std::size_t>(question.values.size()) * sizeof(double));
+    const Points& points = question.points;
+    std::string bytes(reinterpret_cast<const char*>(points.rows.data()), points.rows.size() * sizeof(QuarterRows));
+    const auto append = [&](const auto& numbers) {
+      bytes.append(reinterpret_cast<const char*>(numbers.data()),
+                   static_cast<std::size_t>(numbers.size()) * sizeof(double));
+    };
+    append(question.values);
+    append(points.features);
     return content_hash(bytes);
   }
   std::mutex mutex_;
@@ -279,10 +308,9 @@ PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const P
   const double scale = variance > 0.0 ? std::sqrt(variance) : 1.0;
   question.values /= scale;
   static KernelMemory memory;
-  PatchKernel kernel = kernel_at(size < 10 ? std::vector<double>(std::begin(kCentre), std::end(kCentre))
-                                           : memory.most_probable_of(question));
+  PatchKernel kernel = kernel_at(size < 10 ? question.centre() : memory.most_probable_of(question));
   for (double* part : {&kernel.pixel_variance, &kernel.patch_variance, &kernel.region_variance, &kernel.whole_variance,
-                       &kernel.noise_variance}) {
+                       &kernel.feature_variance, &kernel.noise_variance}) {
     *part *= scale * scale;
   }
   return kernel;
@@ -290,7 +318,7 @@ PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const P
 
 double log_likelihood(const Samples& samples, const PatchKernel& kernel, std::uint64_t seed, const Predictor* base) {
   const KernelQuestion deciding = deciding_samples(samples, seed, base);
-  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(deciding.rows, kernel));
+  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(deciding.points, kernel));
   assert(factor.info() == Eigen::Success);
   const VectorXd reduced = factor.matrixL().solve(deciding.values);
   constexpr double kLogTwoPi = 1.8378770664093453;

@@ -10,16 +10,12 @@
 
 namespace nacre::surrogate {
 
-/// What the mean of the prior is linear in, beside the base: a parabola in the rigid fraction, and two
-/// log_conductance()s where the quantity hangs on them (the modulus does; for toughness they are a distraction:
-/// docs/studies/search.md).
-enum class PriorMean { fraction, fraction_and_conductance };
-
 /// Samples of one quantity: values[i] at patterns[i].
 struct Samples {
   std::span<const pattern::Pattern> patterns;
   std::span<const double> values;
-  PriorMean prior_mean = PriorMean::fraction;
+  Features trend = {};     ///< the mean of the prior is linear in them, beside a parabola in the rigid fraction
+  Features likeness = {};  ///< patterns that are close in them are alike: a Gaussian covariance beside that of patches
 };
 
 /// At most so many samples decide on a kernel.

@@ -2,6 +2,7 @@
 // What a search believes about patterns that nobody has simulated: one quantity, learnt from samples.
 
 #include <Eigen/Dense>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct Prediction {
   double mean = 0.0;
   double deviation = 0.0;  ///< of the belief; 0 where the quantity is known
 };
+
+/// Numbers that say something of patterns: a row for each, in their order, always as many. Pure, and cheap to ask
+/// again: a process asks for those of its samples whenever it is made.
+using Features = std::function<Eigen::MatrixXd(std::span<const pattern::Pattern>)>;
 
 /// A regression that has been fitted. Predictions depend on what it was fitted to alone; thread-safe.
 class Predictor {

@@ -13,7 +13,7 @@
 #include "base/result.hpp"
 #include "command.hpp"
 #include "explore/batch_log.hpp"
-#include "explore/exact_modulus.hpp"
+#include "explore/mechanics.hpp"
 #include "explore/gamut_csv.hpp"
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
@@ -75,7 +75,7 @@ int explore_gamut(const Options& options) {
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
   const auto parameters = parameters_from_option(options.params, material::default_parameters());
   explore::SearchSettings settings = search_settings(options);
-  settings.modulus_of = explore::modulus_by_tester(parameters, fidelity, 0);
+  settings.mechanics = explore::mechanics_by_tester(parameters, fidelity, 0);
   const auto search = explore::make_search(settings);
   prepare_output_file(options.out);
   std::unique_ptr<store::SimulationCache> cache;

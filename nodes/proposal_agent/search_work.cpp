@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "explore/exact_modulus.hpp"
+#include "explore/mechanics.hpp"
 #include "game/model.hpp"
 #include "runtime/journal.hpp"
 
@@ -77,7 +77,7 @@ explore::Question question_from(const std::string& spec) {
   const auto model = wire::read<wire::AdoptedModel>(fields->at(7));
   if (!model) throw std::logic_error("the model in the spec of a search: " + model.error().message);
   // On one core: the farm has the others.
-  question.settings.modulus_of = explore::modulus_by_tester(game::material_side(model->parameters), model->fidelity, 1);
+  question.settings.mechanics = explore::mechanics_by_tester(game::material_side(model->parameters), model->fidelity, 1);
   return question;
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "explore/exact_modulus.hpp"
+#include "explore/mechanics.hpp"
 
 namespace nacre::proposal_agent {
 namespace {
@@ -35,10 +35,10 @@ TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli
   const auto batch = batch_from_result(search_work(search_spec(question, model)));
   ASSERT_TRUE(batch) << batch.error().message;
   EXPECT_EQ(batch->size(), 10u);
-  question.settings.modulus_of = explore::modulus_by_tester(model.parameters, model.fidelity, 1);
+  question.settings.mechanics = explore::mechanics_by_tester(model.parameters, model.fidelity, 1);
   EXPECT_EQ(*batch, explore::answer_to(question));
-  question.settings.modulus_of = {};
-  EXPECT_NE(*batch, explore::answer_to(question)) << "moduli that are believed choose otherwise";
+  question.settings.mechanics = {};
+  EXPECT_NE(*batch, explore::answer_to(question)) << "who believes what could be computed chooses otherwise";
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(Learned, ChoosingByRankAsTheThesisDoesLearnsToo) {
 TEST(Learned, TheModulusThatIsComputedDecidesAndNotTheOneBelieved) {
   SearchSettings chosen = settings("learned", 2, 40);
   std::vector<pattern::Pattern> asked;
-  chosen.modulus_of = [&](std::span<const pattern::Pattern> patterns) {
+  chosen.mechanics.modulus_of = [&](std::span<const pattern::Pattern> patterns) {
     std::vector<std::optional<double>> moduli;
     for (const pattern::Pattern& pattern : patterns) {
       asked.push_back(pattern);

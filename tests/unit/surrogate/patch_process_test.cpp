@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -9,7 +11,6 @@
 #include "base/random.hpp"
 #include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
-#include "surrogate/pixel_network.hpp"
 
 namespace nacre::surrogate {
 namespace {
@@ -150,21 +151,65 @@ TEST(PatchProcess, LearnsOnlyWhatAKindredPredictorGetsWrong) {
   EXPECT_GT(rank_correlation(with->means(unseen), truth), rank_correlation(without->means(unseen), truth) + 0.1);
 }
 
-TEST(PatchProcess, AQuantityThatHangsOnConductanceIsLearntFromFewSamples) {
-  const auto few = random_patterns(30, 10), unseen = random_patterns(200, 11);
-  const auto conductances = [](const std::vector<pattern::Pattern>& patterns) {
+/// Cost of the cheapest way down the quarter, for which only rigid pixels cost: not a sum over neighbourhoods.
+double cheapest_way(const pattern::Pattern& pattern) {
+  std::array<double, pattern::kQuarter> way{};
+  for (int r = 0; r < pattern::kQuarter; ++r) {
+    const auto above = way;
+    for (int c = 0; c < pattern::kQuarter; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      way[at] = above[at];
+      if (c > 0) way[at] = std::min(way[at], above[at - 1]);
+      if (c + 1 < pattern::kQuarter) way[at] = std::min(way[at], above[at + 1]);
+      if (pattern.rigid(r, c)) way[at] += 1.0 + 0.031 * r + 0.017 * c;
+    }
+  }
+  return *std::min_element(way.begin(), way.end());
+}
+
+/// A quantity that patches see badly and a feature sees well, but for what it is of the feature.
+TEST(PatchProcess, FeaturesTellWhatNeighbourhoodsDoNot) {
+  const auto few = random_patterns(80, 10), unseen = random_patterns(200, 11);
+  double middle = 0.0;
+  for (const pattern::Pattern& pattern : few) middle += cheapest_way(pattern) / 80.0;
+  const auto quantity = [&](const std::vector<pattern::Pattern>& patterns) {
     std::vector<double> values;
-    for (const pattern::Pattern& pattern : patterns) values.push_back(log_conductance(pattern, 0.01));
+    for (const pattern::Pattern& pattern : patterns) values.push_back(std::pow(cheapest_way(pattern) - middle, 2));
     return values;
   };
-  const auto values = conductances(few);
-  const auto rank_with = [&](PriorMean prior_mean) {
-    const Samples samples = {few, values, prior_mean};
-    return rank_correlation(make_patch_process(samples, fit_patch_kernel(samples, 1))->means(unseen),
-                            conductances(unseen));
+  const Features feature = [](std::span<const pattern::Pattern> patterns) {
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(patterns.size()), 1);
+    for (std::size_t i = 0; i < patterns.size(); ++i) rows(static_cast<Eigen::Index>(i), 0) = cheapest_way(patterns[i]);
+    return rows;
   };
-  EXPECT_GT(rank_with(PriorMean::fraction_and_conductance), 0.97);
-  EXPECT_GT(rank_with(PriorMean::fraction_and_conductance), rank_with(PriorMean::fraction) + 0.03);
+  const auto values = quantity(few);
+  const auto rank_with = [&](const Features& trend, const Features& likeness) {
+    const Samples samples = {few, values, trend, likeness};
+    return rank_correlation(make_patch_process(samples, fit_patch_kernel(samples, 1))->means(unseen), quantity(unseen));
+  };
+  EXPECT_GT(rank_with({}, feature), 0.85);
+  EXPECT_GT(rank_with({}, feature), rank_with({}, {}) + 0.1);
+  EXPECT_GT(rank_with({}, feature), rank_with(feature, {}) + 0.1) << "no line";
+}
+
+TEST(PatchProcess, ATrendInAFeatureIsLearntFromFewSamples) {
+  const auto few = random_patterns(30, 10), unseen = random_patterns(200, 11);
+  const auto ways = [](std::span<const pattern::Pattern> patterns) {
+    std::vector<double> values;
+    for (const pattern::Pattern& pattern : patterns) values.push_back(3.0 * cheapest_way(pattern));
+    return values;
+  };
+  const Features feature = [&](std::span<const pattern::Pattern> patterns) {
+    const std::vector<double> values = ways(patterns);
+    return Eigen::MatrixXd(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  };
+  const auto values = ways(few);
+  const auto rank_with = [&](const Features& trend) {
+    const Samples samples = {few, values, trend};
+    return rank_correlation(make_patch_process(samples, fit_patch_kernel(samples, 1))->means(unseen), ways(unseen));
+  };
+  EXPECT_GT(rank_with(feature), 0.99);
+  EXPECT_GT(rank_with(feature), rank_with({}) + 0.03);
 }
 
 TEST(PatchProcess, CovarianceSaysWhatOneMoreSampleWouldLeave) {

@@ -1,0 +1,113 @@
+#include "explore/mechanics.hpp"
+
+#include <cmath>
+#include <mutex>
+#include <unordered_map>
+
+#include "base/parallel.hpp"
+#include "tester/unit_cell.hpp"
+
+namespace nacre::explore {
+namespace {
+
+/// Natural logarithms of what the unit cell of a pattern says in both testers.
+struct CellLogs {
+  double modulus = 0.0;
+  /// In the toughness tester: the modulus, then the loads of the blocks.
+  std::array<double, 1 + tester::kCellBlocks * tester::kCellBlocks> fracture{};
+};
+
+CellLogs cell_logs(const pattern::Pattern& pattern, const material::ParameterSet& parameters) {
+  CellLogs logs;
+  if (const auto cell = tester::pull_unit_cell(pattern, parameters, tester::AssemblyTarget::modulus))
+    logs.modulus = std::log(cell->modulus_pa);
+  const auto cell = tester::pull_unit_cell(pattern, parameters, tester::AssemblyTarget::toughness);
+  if (!cell) return logs;
+  logs.fracture[0] = std::log(cell->modulus_pa);
+  for (std::size_t block = 0; block < cell->load.size(); ++block)
+    logs.fracture[1 + block] = std::log(cell->load[block]);
+  return logs;
+}
+
+/// Cells of one model. Thread-safe; what is answered does not depend on what is remembered.
+class CellMemory {
+ public:
+  explicit CellMemory(const material::ParameterSet& parameters) : parameters_(parameters) {}
+  const material::ParameterSet& parameters() const { return parameters_; }
+
+  std::vector<CellLogs> cells_of(std::span<const pattern::Pattern> patterns, int threads) {
+    std::vector<CellLogs> logs(patterns.size());
+    parallel_for(
+        static_cast<int>(patterns.size()),
+        [&](int i) {
+          const auto index = static_cast<std::size_t>(i);
+          logs[index] = cell_of(patterns[index]);
+        },
+        threads);
+    return logs;
+  }
+
+ private:
+  CellLogs cell_of(const pattern::Pattern& pattern) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = known_.find(pattern.bits()); found != known_.end()) return found->second;
+    }
+    const CellLogs logs = cell_logs(pattern, parameters_);
+    const std::lock_guard lock(mutex_);
+    constexpr std::size_t kMost = 300'000;  // 50 MB
+    if (known_.size() >= kMost) known_.clear();
+    return known_[pattern.bits()] = logs;
+  }
+
+  material::ParameterSet parameters_;
+  std::mutex mutex_;
+  std::unordered_map<std::uint64_t, CellLogs> known_;
+};
+
+/// An agent asks question after question about one model, each by itself.
+std::shared_ptr<CellMemory> memory_of(const material::ParameterSet& parameters) {
+  static std::mutex mutex;
+  static std::shared_ptr<CellMemory> last;
+  const std::lock_guard lock(mutex);
+  if (!last || last->parameters() != parameters) last = std::make_shared<CellMemory>(parameters);
+  return last;
+}
+
+ModulusOf modulus_by_tester(const material::ParameterSet& parameters, tester::Fidelity fidelity, int threads) {
+  return [=](std::span<const pattern::Pattern> patterns) {
+    std::vector<std::optional<double>> moduli(patterns.size());
+    parallel_for(
+        static_cast<int>(patterns.size()),
+        [&](int i) {
+          const auto index = static_cast<std::size_t>(i);
+          if (const auto result = tester::test_modulus({patterns[index], parameters, {}, fidelity}))
+            moduli[index] = result->modulus_pa;
+        },
+        threads);
+    return moduli;
+  };
+}
+
+}  // namespace
+
+Mechanics mechanics_by_tester(const material::ParameterSet& parameters, tester::Fidelity fidelity, int threads) {
+  Mechanics mechanics{.modulus_of = modulus_by_tester(parameters, fidelity, threads)};
+  const std::shared_ptr<CellMemory> memory = memory_of(parameters);
+  mechanics.cell_modulus = [=](std::span<const pattern::Pattern> patterns) {
+    Eigen::MatrixXd column(static_cast<Eigen::Index>(patterns.size()), 1);
+    Eigen::Index row = 0;
+    for (const CellLogs& logs : memory->cells_of(patterns, threads)) column(row++, 0) = logs.modulus;
+    return column;
+  };
+  mechanics.cell_loads = [=](std::span<const pattern::Pattern> patterns) {
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(patterns.size()), std::tuple_size_v<decltype(CellLogs::fracture)>);
+    Eigen::Index row = 0;
+    for (const CellLogs& logs : memory->cells_of(patterns, threads))
+      rows.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(logs.fracture.data(), rows.cols());
+    return rows;
+  };
+  return mechanics;
+}
+
+}  // namespace nacre::explore

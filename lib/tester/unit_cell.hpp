@@ -1,0 +1,31 @@
+#pragma once
+// What elasticity alone says of a pattern: a unit of an endless specimen, pulled. A hundredth of the cost of a modulus
+// test and a ten thousandth of that of a fracture test, so that a search can ask it of every pattern that it visits.
+
+#include <array>
+
+#include "base/result.hpp"
+#include "material/parameters.hpp"
+#include "pattern/layout.hpp"
+#include "tester/assembly.hpp"
+
+namespace nacre::tester {
+
+/// Blocks along one side of the quarter of a unit.
+inline constexpr int kCellBlocks = 4;
+
+struct UnitCell {
+  double modulus_pa = 0.0;
+  /// Strain energy density over the threshold, at a strain of 1 of the linear solution, mean over each block of the
+  /// quarter, row by row from the centre line of the specimen's unit upwards, in elements: how near to failing a block
+  /// is when others fail.
+  std::array<double, kCellBlocks * kCellBlocks> load{};
+};
+
+/// The quarter between mirror lines of the grid of assemble(), with the constants of `target`, sides free to contract.
+/// The parameters must be usable. Where the model is not symmetric (no effect of the library on a pattern is not), the
+/// cell is that of its lower left quarter. Error: a part without stiffness.
+Result<UnitCell> pull_unit_cell(const pattern::Pattern& pattern, const material::ParameterSet& parameters,
+                                AssemblyTarget target);
+
+}  // namespace nacre::tester
