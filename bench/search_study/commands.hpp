@@ -19,8 +19,8 @@ struct Options {
   std::string known;                             ///< gamut.csv of the same parameters to start from; empty: none
   std::string former;                            ///< gamut.csv that `learned` learns from too; empty: none
   explore::SearchSettings search;
-  bool believed_modulus = false;  ///< `learned` is not told the modulus of its finalists,
-  bool no_cells = false;          ///< nor what elasticity says of unit cells
+  bool believed_modulus = false;  ///< `learned` is not told the modulus of its finalists
+  std::string cells = "both";     ///< what predictors know of unit cells: both, modulus, loads, none
   std::uint64_t first_seed = 1;
   int seeds = 1;
   double minutes = 1e6;

@@ -69,7 +69,8 @@ explore::Mechanics mechanics_of(const Options& options) {
     };
   }
   if (options.believed_modulus) mechanics.modulus_of = {};
-  if (options.no_cells) mechanics.cell_modulus = mechanics.cell_loads = {};
+  if (options.cells == "loads" || options.cells == "none") mechanics.cell_modulus = {};
+  if (options.cells == "modulus" || options.cells == "none") mechanics.cell_loads = {};
   return mechanics;
 }
 

@@ -44,7 +44,9 @@ void add_learning(CLI::App& command, Options& options) {
   command.add_option("--barred-candidates", learned.barred_candidates)->capture_default_str();
   command.add_flag("--believed-modulus", options.believed_modulus,
                    "the modulus of finalists is believed like their toughness, not computed");
-  command.add_flag("--no-cells", options.no_cells, "predictors do not know what elasticity says of unit cells");
+  command.add_option("--cells", options.cells, "what predictors know of unit cells in elastic equilibrium")
+      ->check(CLI::IsMember({"both", "modulus", "loads", "none"}))
+      ->capture_default_str();
   command.add_option("--former", options.former, "gamut.csv of other parameters or another fidelity, learnt from too")
       ->check(CLI::ExistingFile);
   command.add_flag_function(

@@ -19,10 +19,14 @@ std::string identity_of(const SearchSettings& settings, const std::string& model
   const LearnedSettings& learned = settings.learned;
   const std::string samples = content_hash(to_csv(settings.known) + to_csv(settings.former));
   const bool learns = settings.algorithm == "learned";
+  const Mechanics& known = settings.mechanics;
+  const std::string cells = known.cell_modulus && known.cell_loads ? " cells=elastic"
+                            : known.cell_modulus                   ? " cells=modulus"
+                            : known.cell_loads                     ? " cells=loads"
+                                                                   : "";
   return fmt::format("batches of {} seed={} population={} batch={} samples={} learned={}{}{}{}", settings.algorithm,
                      settings.seed, settings.population, settings.batch, samples, learns ? to_text(learned) : "-",
-                     learns && settings.mechanics.modulus_of ? " modulus=exact" : "",
-                     learns && settings.mechanics.cell_loads ? " cells=elastic" : "",
+                     learns && known.modulus_of ? " modulus=exact" : "", learns ? cells : "",
                      model.empty() ? "" : " model=" + model);
 }
 

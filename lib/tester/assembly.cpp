@@ -27,9 +27,9 @@ void set_element(fem::Grid& grid, std::size_t e, const material::Constants& cons
   grid.threshold_j_per_m3[e] = constants.threshold_j_per_m3 * refinement;
 }
 
-fem::Grid empty_grid(int units_x, int units_y, int refinement) {
-  fem::Grid grid{.columns = kElementsPerUnit * units_x * refinement,
-                 .rows = kElementsPerUnit * units_y * refinement,
+fem::Grid empty_grid(int columns, int rows, int refinement) {
+  fem::Grid grid{.columns = columns,
+                 .rows = rows,
                  .element_size_m = thesis::kElementSize / refinement,
                  .phase = {},
                  .young_pa = {},
@@ -162,19 +162,26 @@ material::LawExtensions laws_for(const material::Extensions& extensions, Assembl
   return target == AssemblyTarget::toughness ? material::law_extensions(extensions) : material::LawExtensions{};
 }
 
+material::Phases phases_for(const material::ParameterSet& parameters, AssemblyTarget target) {
+  return target == AssemblyTarget::modulus ? material::phases_of(parameters.modulus)
+                                           : material::phases_of(parameters.toughness);
+}
+
+/// Element (0, 0) of the grid is element (first, first) of a unit, and so on over the unit's edges.
 void assign_layout(fem::Grid& grid, const pattern::Layout& layout, const material::Phases& phases,
                    const material::Extensions& extensions, const material::LawExtensions& laws,
-                   const TestConditions& conditions, int refinement) {
+                   const TestConditions& conditions, int refinement, int first) {
   const bool turned = conditions.orientation_deg == 90.0;
   const LaidDown& made = laid_down(layout, extensions, refinement);
   const double printer_anisotropy = material::extension_value(extensions, "interface_anisotropy");
   const double anisotropy = turned ? -printer_anisotropy : printer_anisotropy;
   const double confinement = material::plane_strain_share(extensions, conditions.thickness_mm);
   const int side = kElementsPerUnit * refinement;
+  const auto of_unit = [&](int i) { return (i + first + side) % side; };
   MadeOf element;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      collect(made, refinement, row % side, column % side, element);
+      collect(made, refinement, of_unit(row), of_unit(column), element);
       material::Constants constants = mean_constants(phases, element.rigid_fractions);
       const double factor = anisotropy_factor(element.share_x, element.share_y, anisotropy);
       constants.young_pa *= factor;
@@ -193,13 +200,21 @@ material::Constants coupon_constants(const material::Phases& phases, const patte
                             material::plane_strain_share(extensions, conditions.thickness_mm));
 }
 
+fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,
+                                AssemblyTarget target, int first, int count) {
+  assert(first >= -kElementsPerUnit && count >= 1);
+  fem::Grid grid = empty_grid(count, count, 1);
+  assign_layout(grid, layout, phases_for(parameters, target), parameters.extensions, {}, {}, 1, first);
+  return grid;
+}
+
 fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& parameters,
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y, int refinement) {
   assert(units_x >= 1 && units_y >= 1 && refinement >= 1);
   assert(conditions.orientation_deg == 0.0 || conditions.orientation_deg == 90.0);
-  const material::Phases phases = target == AssemblyTarget::modulus ? material::phases_of(parameters.modulus)
-                                                                    : material::phases_of(parameters.toughness);
-  fem::Grid grid = empty_grid(units_x, units_y, refinement);
+  const material::Phases phases = phases_for(parameters, target);
+  const int side = kElementsPerUnit * refinement;
+  fem::Grid grid = empty_grid(side * units_x, side * units_y, refinement);
   material::LawExtensions laws = laws_for(parameters.extensions, target);
   if (design.mixture() != nullptr) laws.shrinkage = 0.0;  // it shrinks freely, and its measures are taken afterwards
   grid.laws.overstress = laws.overstress;
@@ -207,7 +222,7 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
   grid.laws.softening = laws.softening;
   grid.laws.tension_only = laws.tension_only;
   if (const pattern::Layout* layout = design.layout()) {
-    assign_layout(grid, *layout, phases, parameters.extensions, laws, conditions, refinement);
+    assign_layout(grid, *layout, phases, parameters.extensions, laws, conditions, refinement, 0);
   } else {
     const double rigid_fraction = design.mixture()->rigid_fraction;
     const material::Constants constants =

@@ -23,6 +23,12 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
                    const TestConditions& conditions, AssemblyTarget target, int units_x, int units_y,
                    int refinement = 1);
 
+/// A square part of an endless specimen of a layout at usual conditions: count x count elements from element (first,
+/// first) of a unit on, first >= -kElementsPerUnit; elastic constants and thresholds alone. Same numbers as in
+/// assemble().
+fem::Grid assemble_elastic_part(const pattern::Layout& layout, const material::ParameterSet& parameters,
+                                AssemblyTarget target, int first, int count);
+
 /// Constants of a homogeneous coupon, with the extensions that act on them.
 material::Constants coupon_constants(const material::Phases& phases, const pattern::Mixture& mixture,
                                      const material::Extensions& extensions, const TestConditions& conditions);
