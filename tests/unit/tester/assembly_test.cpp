@@ -237,5 +237,25 @@ TEST(DropletMixing, LeavesUniformRegionsAlone) {
   for (const double young : grid.young_pa) EXPECT_NEAR(young / kDefaults.toughness.e_vw_pa, 1.0, 1e-12);
 }
 
+/// Over the edges of the unit, and with everything that acts on a layout.
+TEST(Assembly, APartHasTheNumbersOfTheWhole) {
+  material::ParameterSet parameters = kDefaults;
+  parameters.extensions = {{"droplet_mixing", {0.6}}, {"rigid_overprint", {0.2}}, {"interface_anisotropy", {0.3}}};
+  const pattern::Layout layout = lopsided_layout();
+  const Grid whole = assemble(layout, parameters, {}, AssemblyTarget::toughness, 1, 1);
+  constexpr int kFirst = -3, kCount = 47;
+  const Grid part = assemble_elastic_part(layout, parameters, AssemblyTarget::toughness, kFirst, kCount);
+  for (int row = 0; row < kCount; ++row)
+    for (int column = 0; column < kCount; ++column) {
+      const auto wrapped = [](int i) { return (i + kFirst + kElementsPerUnit) % kElementsPerUnit; };
+      const auto at = static_cast<std::size_t>(part.index(row, column));
+      const auto of = static_cast<std::size_t>(whole.index(wrapped(row), wrapped(column)));
+      ASSERT_EQ(part.young_pa[at], whole.young_pa[of]) << row << ", " << column;
+      ASSERT_EQ(part.poisson[at], whole.poisson[of]);
+      ASSERT_EQ(part.threshold_j_per_m3[at], whole.threshold_j_per_m3[of]);
+      ASSERT_EQ(part.phase[at], whole.phase[of]);
+    }
+}
+
 }  // namespace
 }  // namespace nacre::tester
