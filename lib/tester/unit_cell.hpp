@@ -17,14 +17,13 @@ inline constexpr int kCellBlocks = 4;
 struct UnitCell {
   double modulus_pa = 0.0;
   /// Strain energy density over the threshold, at a strain of 1 of the linear solution, mean over each block of the
-  /// quarter, row by row from the centre line of the specimen's unit upwards, in elements: how near to failing a block
-  /// is when others fail.
+  /// quarter: how near to failing a block is when others fail. Row by row along the pull, from the edge of the unit to
+  /// its middle.
   std::array<double, kCellBlocks * kCellBlocks> load{};
 };
 
-/// The quarter between mirror lines of the grid of assemble(), with the constants of `target`, sides free to contract.
-/// The parameters must be usable. Where the model is not symmetric (no effect of the library on a pattern is not), the
-/// cell is that of its lower left quarter. Error: a part without stiffness.
+/// The quarter between mirror lines of the grid of assemble() at usual conditions, with the constants of `target`,
+/// sides free to contract. The parameters must be usable. Error: a part without stiffness.
 Result<UnitCell> pull_unit_cell(const pattern::Pattern& pattern, const material::ParameterSet& parameters,
                                 AssemblyTarget target);
 

@@ -6,17 +6,12 @@
 
 #include "base/statistics.hpp"
 #include "explore/predictors.hpp"
-#include "pattern/random_pattern.hpp"
+#include "../pattern/random_patterns.hpp"
 
 namespace nacre::explore {
 namespace {
 
-std::vector<pattern::Pattern> random_patterns(int count, std::uint64_t seed) {
-  RandomStream random(seed, "test");
-  std::vector<pattern::Pattern> patterns;
-  for (int i = 0; i < count; ++i) patterns.push_back(pattern::random_pattern(random));
-  return patterns;
-}
+using pattern::random_patterns;
 
 TEST(Mechanics, UnitCellsForetellTheModuliOfPatternsThatNobodySimulated) {
   const material::ParameterSet parameters = material::default_parameters();

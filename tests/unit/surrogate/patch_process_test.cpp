@@ -10,17 +10,12 @@
 
 #include "base/random.hpp"
 #include "base/statistics.hpp"
-#include "pattern/random_pattern.hpp"
+#include "../pattern/random_patterns.hpp"
 
 namespace nacre::surrogate {
 namespace {
 
-std::vector<pattern::Pattern> random_patterns(int count, std::uint64_t seed) {
-  RandomStream random(seed, "test");
-  std::vector<pattern::Pattern> patterns;
-  for (int i = 0; i < count; ++i) patterns.push_back(pattern::random_pattern(random));
-  return patterns;
-}
+using pattern::random_patterns;
 
 /// Rewards what a crack would: soft corners between rigid neighbours, here and there; a function of neighbourhoods.
 double local_quantity(const pattern::Pattern& pattern) {
