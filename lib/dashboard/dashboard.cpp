@@ -219,10 +219,7 @@ Json Dashboard::simulation_state(const Breaking& breaking) {
     return {{"state", "ready"}, {"source", "run"}};
   const Background::State state = made(breaking);
   Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
-  if (state.result) {
-    const auto modulus = unpacked(*state.result).modulus_pa;
-    json["modulus_pa"] = modulus ? Json(*modulus) : Json(nullptr);
-  }
+  if (state.result) json["modulus_pa"] = json_or_null(unpacked(*state.result).modulus_pa);
   if (!state.problem.empty()) json["problem"] = state.problem;
   return json;
 }

@@ -7,8 +7,6 @@
 namespace nacre::dashboard {
 namespace {
 
-Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json specimen_json(const store::MeasuredSpecimen& specimen) {
   const measurement::SpecimenRecord& r = specimen.record;
   tester::TestConditions usual;
@@ -19,8 +17,8 @@ Json specimen_json(const store::MeasuredSpecimen& specimen) {
           {"orientation_deg", r.conditions.orientation_deg},
           {"standard", game::answers(r.conditions, usual)},
           {"batch", r.batch},
-          {"modulus_pa", optional_json(r.modulus_pa ? r.modulus_pa : measurement::modulus_of(r))},
-          {"toughness_pa", optional_json(r.toughness_pa ? r.toughness_pa : measurement::toughness_of(r))},
+          {"modulus_pa", json_or_null(r.modulus_pa ? r.modulus_pa : measurement::modulus_of(r))},
+          {"toughness_pa", json_or_null(r.toughness_pa ? r.toughness_pa : measurement::toughness_of(r))},
           {"valid", r.valid},
           {"note", r.note},
           {"curve", curve_json(r.curve)}};
@@ -79,10 +77,7 @@ Json design_json(const store::RunRecord& run, const pattern::Design& design) {
                {"proposals", proposals}, {"simulated", simulated},
                {"cracks", cracks},       {"specimens", specimens}};
   const auto symmetric = design.layout() == nullptr ? std::nullopt : pattern::Pattern::from_layout(*design.layout());
-  if (symmetric) {
-    const auto violation = pattern::violation(*symmetric);
-    json["violation"] = violation ? Json(*violation) : Json(nullptr);
-  }
+  if (symmetric) json["violation"] = json_or_null(pattern::violation(*symmetric));
   return json;
 }
 

@@ -8,8 +8,7 @@ namespace nacre::dashboard {
 namespace {
 
 Json values_json(const game::DesignValues& values) {
-  return {{"modulus_pa", values.modulus_pa ? Json(*values.modulus_pa) : Json(nullptr)},
-          {"toughness_pa", values.toughness_pa ? Json(*values.toughness_pa) : Json(nullptr)}};
+  return {{"modulus_pa", json_or_null(values.modulus_pa)}, {"toughness_pa", json_or_null(values.toughness_pa)}};
 }
 
 Json design_json(const game::FamilyDesign& design, const store::RecordedFamily& family) {

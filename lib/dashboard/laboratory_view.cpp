@@ -6,8 +6,6 @@
 namespace nacre::dashboard {
 namespace {
 
-Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json specimens_json(const game::MeasurementBook& book) {
   Json specimens = Json::array();
   for (const measurement::SpecimenRecord& r : book.specimens()) {
@@ -18,9 +16,9 @@ Json specimens_json(const game::MeasurementBook& book) {
          {"test", tester::to_string(r.test)},
          {"orientation_deg", r.conditions.orientation_deg},
          {"batch", r.batch},
-         {"modulus_pa", optional_json(r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa)},
+         {"modulus_pa", json_or_null(r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa)},
          {"toughness_pa",
-          optional_json(r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa)},
+          json_or_null(r.test == tester::TestKind::toughness ? measurement::toughness_of(r) : r.toughness_pa)},
          {"points", r.curve.size()},
          {"valid", r.valid},
          {"note", r.note},

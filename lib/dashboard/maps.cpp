@@ -213,10 +213,9 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
   const auto pattern = families::barycentre(sources, amounts, families::Cut::amount);
   if (!pattern)
     return Json{{"pattern", nullptr}, {"violation", "there is no soft material to move between these patterns"}};
-  const auto violation = pattern::violation(*pattern);
   return Json{{"pattern", pattern->key()},
               {"rigid_fraction", pattern->rigid_fraction()},
-              {"violation", violation ? Json(*violation) : Json(nullptr)}};
+              {"violation", json_or_null(pattern::violation(*pattern))}};
 }
 
 }  // namespace nacre::dashboard

@@ -11,6 +11,12 @@ namespace nacre::dashboard {
 
 using Json = nlohmann::ordered_json;
 
+/// A value, or null where there is none.
+template <typename Value>
+Json json_or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
 /// Strains and stresses as two arrays, at most 400 points; null for an empty curve.
 Json curve_json(const tester::Curve& curve);
 

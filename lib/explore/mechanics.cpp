@@ -10,6 +10,20 @@
 namespace nacre::explore {
 namespace {
 
+/// What `ask` says of each pattern, in their order.
+template <typename Ask>
+auto of_each(std::span<const pattern::Pattern> patterns, int threads, const Ask& ask) {
+  std::vector<decltype(ask(patterns[0]))> answers(patterns.size());
+  parallel_for(
+      static_cast<int>(patterns.size()),
+      [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        answers[index] = ask(patterns[index]);
+      },
+      threads);
+  return answers;
+}
+
 /// Natural logarithms of what the unit cell of a pattern says in both testers.
 struct CellLogs {
   double modulus = 0.0;
@@ -36,15 +50,7 @@ class CellMemory {
   const material::ParameterSet& parameters() const { return parameters_; }
 
   std::vector<CellLogs> cells_of(std::span<const pattern::Pattern> patterns, int threads) {
-    std::vector<CellLogs> logs(patterns.size());
-    parallel_for(
-        static_cast<int>(patterns.size()),
-        [&](int i) {
-          const auto index = static_cast<std::size_t>(i);
-          logs[index] = cell_of(patterns[index]);
-        },
-        threads);
-    return logs;
+    return of_each(patterns, threads, [this](const pattern::Pattern& pattern) { return cell_of(pattern); });
   }
 
  private:
@@ -76,16 +82,11 @@ std::shared_ptr<CellMemory> memory_of(const material::ParameterSet& parameters) 
 
 ModulusOf modulus_by_tester(const material::ParameterSet& parameters, tester::Fidelity fidelity, int threads) {
   return [=](std::span<const pattern::Pattern> patterns) {
-    std::vector<std::optional<double>> moduli(patterns.size());
-    parallel_for(
-        static_cast<int>(patterns.size()),
-        [&](int i) {
-          const auto index = static_cast<std::size_t>(i);
-          if (const auto result = tester::test_modulus({patterns[index], parameters, {}, fidelity}))
-            moduli[index] = result->modulus_pa;
-        },
-        threads);
-    return moduli;
+    return of_each(patterns, threads, [&](const pattern::Pattern& pattern) -> std::optional<double> {
+      const auto result = tester::test_modulus({pattern, parameters, {}, fidelity});
+      if (!result) return std::nullopt;
+      return result->modulus_pa;
+    });
   };
 }
 
