@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/files.hpp"
 #include "base/processor_time.hpp"
 #include "base/result.hpp"
 #include "explore/mechanics.hpp"
@@ -26,9 +27,26 @@ std::optional<tester::Fidelity> fidelity_named(const std::string& name) {
   return *fidelity;
 }
 
+/// Throws InputError where the folder holds evaluations of another model under the name of this set.
+void check_set(const Options& options, const material::ParameterSet& parameters) {
+  if (options.params.empty() != (options.set == Options{}.set))
+    throw InputError::format("--set {}: expected a name of its own for --params FILE, and `{}` without", options.set,
+                             Options{}.set);
+  std::filesystem::create_directories(options.work);
+  const std::filesystem::path file = fmt::format("{}/parameters-{}.toml", options.work, options.set);
+  const std::string text = material::to_toml(parameters);
+  if (!std::filesystem::exists(file)) write_file_atomically(file, text);
+  if (read_file(file) != text)
+    throw InputError::format("{}: is the model of --set {}, expected the same one or another name", file.string(),
+                             options.set);
+}
+
 material::ParameterSet parameters_of(const Options& options) {
   const material::ParameterSet built_in = material::default_parameters();
-  return options.params.empty() ? built_in : material::read_parameters(options.params, built_in);
+  const material::ParameterSet parameters =
+      options.params.empty() ? built_in : material::read_parameters(options.params, built_in);
+  check_set(options, parameters);
+  return parameters;
 }
 
 }  // namespace

@@ -159,6 +159,15 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+std::string other_separator(const CsvRow& heading) {
+  if (heading.cells.size() != 1) return "";
+  for (const auto& [separator, name] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
+    if (heading.cells.front().text.find(separator) != std::string::npos)
+      return std::string("; it is separated by ") + name + ", expected commas, and decimal points";
+  }
+  return "";
+}
+
 Result<double> number_from_text(std::string_view text) {
   std::string_view digits = trimmed(text);
   if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);

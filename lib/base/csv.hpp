@@ -66,6 +66,9 @@ class CsvReader {
   std::size_t rows_ = 0;
 };
 
+/// What a heading says whose columns are not separated by commas, as the end of an error; empty where they are.
+std::string other_separator(const CsvRow& heading);
+
 /// A finite number with a decimal point, surrounding blanks allowed, whatever the locale. The error says what was
 /// expected.
 Result<double> number_from_text(std::string_view text);

@@ -16,6 +16,9 @@ std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_
 /// The path with its folder's name at the end, also where it was written `RUN/`.
 std::filesystem::path without_last_slash(const std::filesystem::path& path);
 
+/// The path as a word of a shell command: in single quotes where it needs them.
+std::string shell_word(const std::filesystem::path& path);
+
 /// Makes a folder and those above it; one that exists already is fine. Throws InputError naming it and the reason.
 void make_folder(const std::filesystem::path& folder);
 

@@ -73,8 +73,8 @@ class NamedTable {
     for (std::size_t index = 0; index < header.cells.size(); ++index) columns_.emplace(header.cells[index].text, index);
     for (const std::string& name : required) {
       if (!columns_.contains(name)) {
-        throw InputError::format("{}:{}: column {} is missing; expected {}", source_, header.line, name,
-                                 fmt::join(required, ", "));
+        throw InputError::format("{}:{}: column {} is missing; expected {}{}", source_, header.line, name,
+                                 fmt::join(required, ", "), other_separator(header));
       }
     }
   }

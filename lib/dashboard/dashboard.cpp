@@ -316,10 +316,11 @@ Response Dashboard::report(const Request&) {
               {"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
 }
 
-Response Dashboard::answered(Answer answer) {
+Response Dashboard::answered(Answer answer, const std::vector<std::string>& doubts) {
   laboratory_fresh_until_us_ = 0;
   const int status = answer == Answer::unanswered ? 504 : answer == Answer::conflicting ? 409 : 200;
   Json json = {{"answer", to_string(answer)}};
+  if (!doubts.empty()) json["doubts"] = doubts;
   if (answer == Answer::unanswered)
     json["error"] = "not every node answered: does the game play? Handing it in again is safe.";
   if (answer == Answer::conflicting)
@@ -330,7 +331,7 @@ Response Dashboard::answered(Answer answer) {
 Response Dashboard::enter(const Request& request) {
   const auto specimen = or_refuse(specimen_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  return answered(desk_.enter(specimen));
+  return answered(desk_.enter(specimen), desk_.doubts_about(specimen));
 }
 
 Response Dashboard::judge(const Request& request) {

@@ -76,7 +76,7 @@ class Dashboard {
   bool is_by_game(const Breaking& breaking);
   Background::State made(const Breaking& breaking);
   Json simulation_state(const Breaking& breaking);
-  Response answered(Answer answer);
+  Response answered(Answer answer, const std::vector<std::string>& doubts = {});
 
   Settings settings_;
   Desk& desk_;

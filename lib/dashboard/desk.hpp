@@ -66,6 +66,8 @@ class Desk {
   virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
   /// Nodes that have spoken within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
+  /// What a person should look at again in a specimen that was handed in, as sentences.
+  virtual std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) = 0;
   // Handing in: waits for the validation agent for some seconds.
   virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Answer judge(const Judgement& judgement) = 0;

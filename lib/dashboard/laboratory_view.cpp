@@ -38,6 +38,8 @@ Json group_json(const measurement::ReplicateGroup& group) {
   return {{"design", group.design.name()},
           {"test", tester::to_string(group.test)},
           {"orientation_deg", group.conditions.orientation_deg},
+          {"strain_rate_per_s", group.conditions.strain_rate_per_s},
+          {"thickness_mm", group.conditions.thickness_mm},
           {"state", to_string(group.state)},
           {"tested", group.tested},
           {"valid", group.valid},
@@ -103,7 +105,8 @@ Json newest_proposal_json(const std::optional<wire::Proposal>& proposal) {
 
 Json laboratory_json(const Laboratory& laboratory) {
   Json groups = Json::array();
-  for (const auto& group : measurement::review_replicates(laboratory.facts.book.specimens()))
+  for (const auto& group :
+       measurement::review_replicates(laboratory.facts.book.specimens(), game::consistency_settings(laboratory.facts)))
     groups.push_back(group_json(group));
   return {{"proposal", newest_proposal_json(laboratory.newest_proposal)},
           {"designs", states_json(laboratory.facts)},

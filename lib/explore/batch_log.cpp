@@ -41,6 +41,8 @@ std::vector<pattern::Pattern> batch_from(const std::string& line, const std::fil
       throw InputError::format("{}: line {}: \"{}\", expected the key of a pattern", path.string(), number, key);
     batch.push_back(*pattern);
   }
+  if (batch.empty())
+    throw InputError::format("{}: line {}: is empty, expected the keys of a batch", path.string(), number);
   return batch;
 }
 

@@ -13,7 +13,7 @@ enum class Variation {
   single_pixel_rolled_back  ///< baseline 2: a single pixel that makes the child infeasible or old is taken back
 };
 
-/// A search ends when a batch cannot be filled by this many proposed mutants (3.2.5).
+/// A batch is handed out as far as so many proposed mutants fill it; a search ends when they bring nothing (3.2.5).
 inline constexpr int kMaximumProposals = 300000;
 
 /// NSGA-II without crossover: parents by binary tournament on rank, then crowding; `batch` offspring a generation, none

@@ -45,14 +45,15 @@ std::vector<Evaluated> barred_patterns(const Question& question, int count) {
   return unseen(std::move(patterns), question);
 }
 
-/// The next batch of patterns with bars that a search begins with, a whole one; none once it has asked for enough.
+/// The next patterns with bars that a search begins with, at most a batch; none once it has asked for enough.
 std::vector<pattern::Pattern> barred_start(const Question& question) {
   const SearchSettings& settings = question.settings;
   const int asked = static_cast<int>(question.evaluated.size() + question.lost.size());
-  if (asked >= settings.population + settings.learned.barred_start || !settings.former.empty()) return {};
+  const int count = std::min(question.count, settings.population + settings.learned.barred_start - asked);
+  if (count <= 0 || !settings.former.empty()) return {};
   constexpr int kSpare = 10;  // some are alike or known
   std::vector<pattern::Pattern> start = patterns_of(barred_patterns(question, kSpare * question.count));
-  start.resize(std::min(start.size(), static_cast<std::size_t>(question.count)));
+  start.resize(std::min(start.size(), static_cast<std::size_t>(count)));
   return start;
 }
 

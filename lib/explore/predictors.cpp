@@ -17,7 +17,8 @@ namespace {
 using surrogate::Predictor;
 
 /// Samples decide on kernels, and networks are trained in full on them, anew only when they have become this many times
-/// more: what fewer say is a good start until then, and equal searches do it at equal places.
+/// more: what fewer say is a good start until then, and equal searches do it at equal places. (Toughness lies under a
+/// floor that every sample moves a little: its kernel is looked for in every batch, some 0.1 s.)
 constexpr double kKernelGrowth = 1.3;
 constexpr std::size_t kFirstKernelSamples = 20;
 /// Patterns with the logarithms of their properties. A property that is not positive counts as `kLeast` of a unit.

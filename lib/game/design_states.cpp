@@ -100,6 +100,14 @@ bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design) {
                      [&](const Order& order) { return order.design == design && answers(order.conditions, {}); });
 }
 
+measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts) {
+  measurement::ConsistencySettings settings;
+  if (facts.replicates > 0) settings.fewest_tested = facts.replicates;
+  settings.fewest_consistent =
+      facts.enough_valid > 0 ? facts.enough_valid : std::min(settings.fewest_consistent, settings.fewest_tested);
+  return settings;
+}
+
 std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
   std::map<std::string, DesignState> states;
   const auto state_of = [&](const pattern::Design& design) -> DesignState& {

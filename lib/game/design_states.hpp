@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "game/measurement_book.hpp"
+#include "measurement/consistency.hpp"
 
 namespace nacre::game {
 
@@ -52,8 +53,13 @@ struct LaboratoryFacts {
   std::vector<Order> orders;
   std::vector<PrintedSpecimen> printed;
   MeasurementBook book;
+  int replicates = 0;    ///< of the scenario
   int enough_valid = 0;  ///< of the scenario
 };
+
+/// When replicates are enough: as many as the game orders, of which `enough_valid` agree, or the thesis' three where
+/// the scenario says nothing, or all of fewer.
+measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts);
 
 /// One design and its specimens, all tests together.
 struct DesignState {

@@ -220,6 +220,28 @@ ReplicateGroup review_group(const Members& members, const ConsistencySettings& s
   return group;
 }
 
+using Groups = std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members>;
+
+/// Under nominal conditions, by name, each once.
+std::vector<SpecimenRecord> nominal_by_name(const std::vector<SpecimenRecord>& specimens) {
+  std::vector<SpecimenRecord> nominal = at_nominal_conditions(specimens);
+  std::sort(nominal.begin(), nominal.end(), [](const auto& a, const auto& b) { return a.specimen < b.specimen; });
+  nominal.erase(std::unique(nominal.begin(), nominal.end(),
+                            [](const auto& a, const auto& b) { return a.specimen == b.specimen; }),
+                nominal.end());
+  return nominal;
+}
+
+Groups groups_of(const std::vector<SpecimenRecord>& nominal) {
+  Groups groups;
+  for (const SpecimenRecord& specimen : nominal) {
+    const tester::TestConditions& c = specimen.conditions;
+    groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm}].push_back(
+        &specimen);
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::string_view to_string(GroupState state) {
@@ -228,20 +250,37 @@ std::string_view to_string(GroupState state) {
 
 std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>& specimens,
                                               const ConsistencySettings& settings) {
-  std::vector<SpecimenRecord> nominal = at_nominal_conditions(specimens);
-  std::sort(nominal.begin(), nominal.end(), [](const auto& a, const auto& b) { return a.specimen < b.specimen; });
-  nominal.erase(std::unique(nominal.begin(), nominal.end(),
-                            [](const auto& a, const auto& b) { return a.specimen == b.specimen; }),
-                nominal.end());
-  std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members> groups;
-  for (const SpecimenRecord& specimen : nominal) {
-    const tester::TestConditions& c = specimen.conditions;
-    groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm}].push_back(
-        &specimen);
-  }
+  const std::vector<SpecimenRecord> nominal = nominal_by_name(specimens);
   std::vector<ReplicateGroup> reviewed;
-  for (const auto& entry : groups) reviewed.push_back(review_group(entry.second, settings));
+  for (const auto& [key, members] : groups_of(nominal)) reviewed.push_back(review_group(members, settings));
   return reviewed;
+}
+
+std::vector<std::string> doubts_of_units(const std::vector<SpecimenRecord>& specimens) {
+  constexpr double kFar = 8.0;
+  const std::vector<SpecimenRecord> nominal = nominal_by_name(specimens);
+  std::vector<std::string> doubts;
+  for (const auto& [key, members] : groups_of(nominal)) {
+    const auto is_held = [](const SpecimenRecord* member) {
+      return member->valid && value_of(*member) > 0.0 && !implausible_value(*member);
+    };
+    std::vector<double> logs;
+    for (const SpecimenRecord* member : members) {
+      if (is_held(member)) logs.push_back(std::log(value_of(*member)));
+    }
+    if (logs.size() < 2) continue;
+    // Of two nobody can say which: each is held against the other.
+    const double far = std::log(kFar) / (logs.size() == 2 ? 2.0 : 1.0), middle = median(logs);
+    for (const SpecimenRecord* member : members) {
+      const double value = value_of(*member);
+      if (!is_held(member) || std::abs(std::log(value) - middle) <= far) continue;
+      doubts.push_back(
+          fmt::format("specimen {}: its {} is {:.3g} times the middle of the {} replicates of {}: is a unit wrong?",
+                      member->specimen, tester::to_string(member->test), value / std::exp(middle), logs.size(),
+                      member->design.name()));
+    }
+  }
+  return doubts;
 }
 
 }  // namespace nacre::measurement

@@ -1,14 +1,17 @@
 #include "measurement/import.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include "base/files.hpp"
 #include "measurement/conditions.hpp"
+#include "measurement/consistency.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "thesis/constants.hpp"
@@ -174,8 +177,13 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   // Of a modulus test that is unloaded the area is what noise leaves of it; its sign linear_part() has seen.
   if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
-  ImportedSpecimen imported{
-      .record = row.record, .file = shown_file, .line = row.line, .maker = from.maker, .test = *test};
+  ImportedSpecimen imported{.record = row.record,
+                            .file = shown_file,
+                            .line = row.line,
+                            .maker = from.maker,
+                            .extension_column = from.extension_column,
+                            .gauge_mm = row.gauge_mm,
+                            .test = *test};
   const auto rate = strain_rate(from.time_s, curve);
   if (rate && !row.rate_is_given) imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
   if (!rate && !row.rate_is_given && !from.time_s.empty()) {
@@ -199,6 +207,44 @@ std::string doubt_of_size(const SheetRow& row) {
   if (!far_off(row.width_mm, width_mm) && !far_off(row.record.conditions.thickness_mm, thickness_mm)) return "";
   return fmt::format("{} x {} mm in the gauge, nominal {} x {} mm: are width_mm and thickness_mm right?", row.width_mm,
                      row.record.conditions.thickness_mm, width_mm, thickness_mm);
+}
+
+/// A doubt about whether the extension belongs to the gauge, without the specimen's name; or nothing. A bar's narrow
+/// section holds any extensometer's gauge, the travel of its grips belongs to a longer one (ASTM D638, type I).
+std::string doubt_of_gauge(const TesterRecord& from, const SheetRow& row) {
+  constexpr double kNarrowSectionMm = 57.0;
+  const std::string also = from.other_extensions.empty()
+                               ? ""
+                               : fmt::format(" (the file also has `{}`)", fmt::join(from.other_extensions, "`, `"));
+  const bool same_name = std::count(from.other_extensions.begin(), from.other_extensions.end(), from.extension_column);
+  if (same_name)
+    return fmt::format("`{}` stands twice in the file, the first was taken: expected names that differ",
+                       from.extension_column);
+  if (row.record.test == tester::TestKind::toughness) return "";
+  const bool short_gauge = row.gauge_mm <= kNarrowSectionMm;
+  const bool of_grips = from.gauge == Gauge::grips || !from.other_extensions.empty();
+  if (short_gauge && from.gauge != Gauge::extensometer && of_grips)
+    return fmt::format(
+        "gauge_mm {} is an extensometer's, but the extension is that of `{}`{}: expected extension_column with the "
+        "name of its column, or the gauge of the grips' travel (104.9 for a bar of ASTM D638, type I)",
+        row.gauge_mm, from.extension_column, also);
+  if (!short_gauge && from.gauge == Gauge::extensometer)
+    return fmt::format("gauge_mm {} is longer than a bar's narrow section, but the extension is that of `{}`{}",
+                       row.gauge_mm, from.extension_column, also);
+  return "";
+}
+
+/// Warns once of what several specimens have in common.
+void collect_gauge_doubts(const std::map<std::string, std::vector<std::string>>& specimens_by_doubt,
+                          std::vector<std::string>& warnings) {
+  constexpr std::size_t kMostNamed = 5;
+  for (const auto& [doubt, specimens] : specimens_by_doubt) {
+    const std::size_t named = std::min(kMostNamed, specimens.size());
+    warnings.push_back(
+        fmt::format("{} {}{}: {}", specimens.size() == 1 ? "specimen" : "specimens",
+                    fmt::join(std::span(specimens).first(named), ", "),
+                    specimens.size() > named ? fmt::format(" and {} more", specimens.size() - named) : "", doubt));
+  }
 }
 
 /// A doubt about how fast a specimen was pulled, or nothing.
@@ -257,11 +303,22 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
 
 }  // namespace
 
+std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRecord> others) {
+  const auto twin = std::find_if(others.begin(), others.end(), [&](const SpecimenRecord& other) {
+    return other.specimen != one.specimen && other.curve == one.curve;
+  });
+  if (twin == others.end()) return "";
+  return fmt::format("specimen {}: its readings are those of {}, to the last digit: is it one test under two names?",
+                     one.specimen, twin->specimen);
+}
+
 Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_file, const ImportSettings& settings) {
   SpecimenSheet sheet = read_specimen_sheet(sheet_file);
   Import import{.specimens = {}, .rejected = std::move(sheet.rejected), .warnings = std::move(sheet.warnings)};
   Exports exports(files, sheet_file.parent_path());
   std::set<std::string> warned;
+  std::vector<SpecimenRecord> records;
+  std::map<std::string, std::vector<std::string>> gauge_doubts;  ///< specimens by doubt
   for (const SheetRow& row : sheet.rows) {
     auto record = exports.record_of(row, sheet_file.string());
     if (!record) {
@@ -277,8 +334,15 @@ Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_
       continue;
     }
     collect_doubts(*imported, row, import.warnings);
+    if (const std::string doubt = doubt_of_gauge(*record, row); !doubt.empty())
+      gauge_doubts[doubt].push_back(row.record.specimen);
+    if (const std::string doubt = doubt_of_twins(imported->record, records); !doubt.empty())
+      import.warnings.push_back(doubt);
+    records.push_back(imported->record);
     import.specimens.push_back(std::move(*imported));
   }
+  collect_gauge_doubts(gauge_doubts, import.warnings);
+  for (const std::string& doubt : doubts_of_units(records)) import.warnings.push_back(doubt);
   for (const std::string& name : exports.unused())
     import.warnings.push_back(fmt::format("{}: no specimen of the sheet names this export; it is not used", name));
   return import;

@@ -2,6 +2,7 @@
 // Raw exports of a testing machine and a sheet of specimens -> measured specimens.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct ImportedSpecimen {
   std::string file;
   int line = 0;  ///< of the sheet
   std::string maker;
+  std::string extension_column;  ///< its heading; empty where there is none
+  double gauge_mm = 0.0;         ///< that the extension was held to belong to
   ReducedTest test;
 };
 
@@ -36,6 +39,9 @@ struct ImportSettings {
 /// InputError when the sheet itself cannot be used.
 Import import_exports(const std::vector<std::filesystem::path>& files, const std::filesystem::path& sheet,
                       const ImportSettings& settings = {});
+
+/// A sentence where one of the others has the same curve, to the last digit: no two tests do. Else empty.
+std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRecord> others);
 
 /// Writes what came of `sheet` into the measurement set `folder`: a new one, or one that gains specimens. What the set
 /// holds stays: a specimen that it knows by the same test keeps the judgement that the set has of it (`import` then

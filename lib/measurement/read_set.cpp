@@ -10,6 +10,7 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "measurement/consistency.hpp"
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
 #include "measurement/set_columns.hpp"
@@ -51,13 +52,14 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
   return heading;
 }
 
-void require_columns(const Heading& heading, const std::string& table, int line, bool planned) {
+void require_columns(const Heading& heading, const CsvRow& row, const std::string& table, bool planned) {
+  const int line = row.line;
   for (const Column required : {kSpecimen, kPattern, kTest}) {
     if (heading.position[required] == kAbsent) {
       throw InputError::format(
           "{}:{}: column `{}` is missing, expected a heading with at least specimen, pattern, test and "
-          "one of modulus_pa, toughness_pa, curve (all: {})",
-          table, line, kColumns[required], fmt::join(kColumns, ","));
+          "one of modulus_pa, toughness_pa, curve (all: {}){}",
+          table, line, kColumns[required], fmt::join(kColumns, ","), other_separator(row));
     }
   }
   if (planned) return;
@@ -133,11 +135,13 @@ class SetBuilder {
       if (!reader.next(row)) throw InputError::format("{}: is empty, expected a heading and rows", table_);
     } while (row.blank());
     const Heading heading = read_heading(row, table_, set_.warnings);
-    require_columns(heading, table_, row.line, demand_ == Demand::planned);
+    require_columns(heading, row, table_, demand_ == Demand::planned);
     while (reader.next(row)) {
       if (!row.blank()) add(heading, row);
     }
     if (set_.specimens.empty()) throw nothing_usable();
+    for (const std::string& doubt : doubts_of_units(set_.specimens))
+      set_.warnings.push_back(fmt::format("{}: {}", table_, doubt));
     return std::move(set_);
   }
 

@@ -32,7 +32,8 @@ Result<CurveColumns> find_columns(const CsvRow& header, const std::string& shown
     *found = i;
   }
   if (!strain || !stress) {
-    return fail("{}:{}: expected a heading with the columns `strain,stress_pa`", shown_name, header.line);
+    return fail("{}:{}: expected a heading with the columns `strain,stress_pa`{}", shown_name, header.line,
+                other_separator(header));
   }
   return CurveColumns{*strain, *stress};
 }

@@ -143,7 +143,9 @@ class RowParser {
   pattern::Design design() {
     const std::string name = text(kPattern);
     if (name.empty()) {
-      reject(kPattern, "is empty, expected a pattern file, a key, rigid, soft, interface or mix:F");
+      reject(kPattern,
+             "is empty, expected a pattern file, a key, a coupon (rigid, soft, interface, mix:F, checkerboard:P, "
+             "laminate:x|y:R:S)");
       return {};
     }
     const Result<pattern::Design> named = pattern::design_from_word(name);

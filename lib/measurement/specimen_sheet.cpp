@@ -170,7 +170,9 @@ class SheetReader {
     const std::string name = text("pattern");
     if (const auto named = pattern::design_from_name(name)) return *named;
     if (name.empty()) {
-      reject("pattern", "is empty, expected a pattern file, a key, rigid, soft, interface or mix:F");
+      reject("pattern",
+             "is empty, expected a pattern file, a key, a coupon (rigid, soft, interface, mix:F, checkerboard:P, "
+             "laminate:x|y:R:S)");
       return {};
     }
     std::error_code unreadable;  // a name may be too long to be a file's
@@ -180,8 +182,10 @@ class SheetReader {
     if (std::filesystem::exists(status) &&
         !std::filesystem::is_regular_file(status)) {  // a terminal or a pipe would wait for ever
       reject("pattern",
-             fmt::format("`{}` is no regular file, expected a pattern file, a key, rigid, soft, interface or mix:F",
-                         name));
+             fmt::format(
+                 "`{}` is no regular file, expected a pattern file, a key, or a coupon (rigid, soft, interface, mix:F, "
+                 "checkerboard:P, laminate:x|y:R:S)",
+                 name));
       return {};
     }
     try {

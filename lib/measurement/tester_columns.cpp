@@ -120,6 +120,12 @@ constexpr std::array kWords = {
     Word{Quantity::time, "t", 2},
 };
 
+/// Words of names that say where an extension was recorded; any other name may mean both.
+constexpr std::array<std::string_view, 8> kGripWords = {"crosshead", "travel", "traverse",    "traversenweg",
+                                                        "weg",       "stroke", "standardweg", "standard travel"};
+constexpr std::array<std::string_view, 3> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
+                                                                "feindehnung"};
+
 /// Names that hold a word of the list and mean something else.
 constexpr std::array<std::string_view, 18> kOthers = {"strain", "stress", "dehnung", "spannung", "rate",  "date",
                                                       "speed",  "cell",   "count",   "maximum",  "max",   "zeitstempel",
@@ -132,6 +138,12 @@ bool holds_word(std::string_view text, std::string_view word) {
     if ((at == 0 || !is_letter(at - 1)) && !is_letter(end)) return true;
   }
   return false;
+}
+
+Gauge gauge_of(std::string_view name) {
+  const auto is_held = [&](std::string_view word) { return holds_word(name, word); };
+  if (std::any_of(kExtensometerWords.begin(), kExtensometerWords.end(), is_held)) return Gauge::extensometer;
+  return std::any_of(kGripWords.begin(), kGripWords.end(), is_held) ? Gauge::grips : Gauge::unknown;
 }
 
 std::string bare_unit(std::string_view unit) {
@@ -204,7 +216,7 @@ std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
 }
 
 ColumnName recognise_column(std::string_view heading) {
-  ColumnName column{.shown = std::string(heading), .quantity = {}, .rank = 0, .unit = {}};
+  ColumnName column{.shown = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
   std::string name = plain_words(heading);
   if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); })) return column;
   const std::string unit = take_unit(name);
@@ -220,6 +232,7 @@ ColumnName recognise_column(std::string_view heading) {
     column.quantity = word.quantity;
     column.rank = word.rank;
   }
+  if (column.quantity == Quantity::extension) column.gauge = gauge_of(name);
   return column;
 }
 

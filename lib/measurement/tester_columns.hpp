@@ -18,12 +18,16 @@ std::string_view expected_units(Quantity quantity);
 /// Factor from a unit, as written in a heading, to s, mm or N; nothing when the quantity has no such unit.
 std::optional<double> unit_factor(Quantity quantity, std::string_view unit);
 
+/// Over which length a column of extension was recorded, as far as its name tells.
+enum class Gauge { unknown, grips, extensometer };
+
 /// A heading taken apart.
 struct ColumnName {
   std::string shown;  ///< as it stands in the file
   std::optional<Quantity> quantity;
   int rank = 0;      ///< among columns of one quantity the smallest rank is taken
   std::string unit;  ///< as written with the name; empty when it is not
+  Gauge gauge = Gauge::unknown;
 };
 
 /// Recognises `Load (N)`, `Standardkraft [N]`, `Kraft in N`, `Force / kN`, `force_n`, `Axial Displacement`.

@@ -35,7 +35,7 @@ struct Layout {
 Layout layout_of(const Cells& cells, const ColumnChoice& choice) {
   Layout layout;
   for (const std::string& cell : cells)
-    layout.names.push_back(looks_like_number(cell) ? ColumnName{cell, {}, 0, {}} : recognise_column(cell));
+    layout.names.push_back(looks_like_number(cell) ? ColumnName{cell, {}, 0, {}, {}} : recognise_column(cell));
   layout.column[0] = best_column(layout.names, Quantity::time);
   layout.column[1] = best_column(layout.names, Quantity::extension, choice.extension);
   layout.column[2] = best_column(layout.names, Quantity::force, choice.force);
@@ -263,6 +263,16 @@ class ExportReader {
                        [](const auto& cell) { return looks_like_number(cell); });
   }
 
+  void name_extension(const Layout& layout, TesterRecord& record) const {
+    const std::size_t taken = layout.column[place_of(Quantity::extension)];
+    record.extension_column = layout.names[taken].shown;
+    record.gauge = layout.names[taken].gauge;
+    for (std::size_t i = 0; i < layout.names.size() && choice_.extension.empty(); ++i) {
+      if (i != taken && layout.names[i].quantity == Quantity::extension)
+        record.other_extensions.push_back(layout.names[i].shown);
+    }
+  }
+
   void take_rows(const Layout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
                  const std::vector<std::string>& warnings) {
     for (const auto& [index, row] : rows) {
@@ -280,7 +290,11 @@ class ExportReader {
                           .force_n = {},
                           .line = {},
                           .header = header_,
+                          .extension_column = {},
+                          .gauge = Gauge::unknown,
+                          .other_extensions = {},
                           .warnings = warnings});
+      name_extension(layout, records_.back());
     }
     TesterRecord& record = records_.back();
     for (const auto& [index, row] : rows) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "measurement/tester_columns.hpp"
 
 namespace nacre::measurement {
 
@@ -31,6 +32,9 @@ struct TesterRecord {
   std::vector<double> force_n;
   std::vector<int> line;                      ///< of the file
   std::map<std::string, std::string> header;  ///< `date`, `operator`, `machine`, where the file says so
+  std::string extension_column;               ///< heading of the one taken; empty where there is no heading
+  Gauge gauge = Gauge::unknown;               ///< of that column
+  std::vector<std::string> other_extensions;  ///< headings of those passed over, though nobody asked for another
   std::vector<std::string> warnings;
 };
 

@@ -43,6 +43,8 @@ std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const st
       continue;
     }
     import.known += repeated;
+    if (const std::string doubt = doubt_of_twins(one.record, set.specimens); !repeated && !doubt.empty())
+      import.warnings.push_back(doubt);
     if (repeated) {
       one.record.valid = known->valid;
       one.record.note = known->note;

@@ -51,8 +51,8 @@ class BatchOptimizer {
 /// that ends or finds nothing new gives way to the next, from the best point so far with half the step. NLopt calls
 /// back instead of being asked, so each ask() runs the search anew on the values recorded so far until it wants an
 /// unknown point; the rest of the batch is what it would want next if that point were as good as its nearest neighbour.
-/// The whole budget is used and no point is asked for twice. Failed evaluations count, and are worse than all others to
-/// the search. Throws InputError for settings out of range.
+/// The whole budget is used and no point is asked for twice. Failed evaluations count, and are worse to the search than
+/// all others known at that time. Throws InputError for settings out of range.
 std::unique_ptr<BatchOptimizer> make_nlopt_optimizer(const BatchOptimizerSettings& settings);
 
 /// Batch Bayesian optimisation: a Gaussian process (Matern-5/2, one length scale per dimension, learnt noise beside the

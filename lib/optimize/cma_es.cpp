@@ -66,10 +66,12 @@ class CmaEs final : public RecordedOptimizer {
     if (begun_ && static_cast<int>(drawn_.size()) == strategy_.population) adapt();
   }
 
-  /// From the best point known.
+  /// From the best point known, or the best guess while none is.
   void begin() {
     begun_ = true;
-    mean_ = best() ? to_vector(best()->point) : VectorXd::Constant(dimension(), 0.5);
+    mean_ = best()                     ? to_vector(best()->point)
+            : settings_.starts.empty() ? VectorXd::Constant(dimension(), 0.5)
+                                       : to_vector(settings_.starts.front());
     step_ = kFirstStep;
     covariance_ = axes_ = MatrixXd::Identity(dimension(), dimension());
     scales_ = VectorXd::Ones(dimension());

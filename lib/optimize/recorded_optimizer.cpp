@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 namespace nacre::optimize {
 
@@ -85,17 +86,18 @@ void BatchOptimizer::resume(const std::vector<Evaluation>& told) {
   }
 }
 
-std::vector<double> RecordedOptimizer::values() const {
-  double worst = 0.0;
-  bool any = false;
-  for (const Evaluation& evaluation : evaluations_) {
+std::vector<double> RecordedOptimizer::values(std::size_t count) const {
+  const std::span known = std::span(evaluations_).first(std::min(count, evaluations_.size()));
+  double worst = -HUGE_VAL, least = HUGE_VAL;
+  for (const Evaluation& evaluation : known) {
     if (!evaluation.value) continue;
-    worst = any ? std::max(worst, *evaluation.value) : *evaluation.value;
-    any = true;
+    worst = std::max(worst, *evaluation.value);
+    least = std::min(least, *evaluation.value);
   }
-  const double spread = any ? worst - *best_->value : 0.0;
+  if (worst < least) worst = least = 0.0;  // all failed
+  const double spread = worst - least;
   std::vector<double> result;
-  for (const Evaluation& evaluation : evaluations_) result.push_back(evaluation.value.value_or(worst + 0.1 * spread));
+  for (const Evaluation& evaluation : known) result.push_back(evaluation.value.value_or(worst + 0.1 * spread));
   return result;
 }
 

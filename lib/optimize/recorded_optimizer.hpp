@@ -1,6 +1,8 @@
 #pragma once
 // What the optimisers that are asked batch by batch keep: their settings, everything told, and the best of it.
 
+#include <limits>
+
 #include "optimize/batch_optimizer.hpp"
 
 namespace nacre::optimize {
@@ -27,8 +29,8 @@ class RecordedOptimizer : public BatchOptimizer {
   /// Takes up what an earlier search was told without asking for it again.
   void restore(const std::vector<Evaluation>& told);
   int told_count() const { return static_cast<int>(evaluations_.size()); }
-  /// Values of all evaluations; a failure counts as somewhat worse than the worst success.
-  std::vector<double> values() const;
+  /// Values of the first `count` evaluations; a failure counts as somewhat worse than the worst success among them.
+  std::vector<double> values(std::size_t count = std::numeric_limits<std::size_t>::max()) const;
 
   BatchOptimizerSettings settings_;
   std::vector<Evaluation> evaluations_;

@@ -14,6 +14,7 @@
 
 #include <fmt/ranges.h>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "nacre/run_t.hpp"
@@ -331,7 +332,7 @@ void Launch::sum_up(bool is_complete) {
   fmt::print("run: {}\n", run_.path().string());
   if (!is_complete) {
     fmt::print("the game is not over: `nacre launch --resume {}` goes on with it\n",
-               fs::proximate(run_.path()).string());
+               shell_word(fs::proximate(run_.path())));
   }
   std::fflush(stdout);
 }

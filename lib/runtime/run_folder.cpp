@@ -154,7 +154,7 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
     if (!name.empty()) {
       throw InputError::format(
           "{}: exists already: expected a new name, or `nacre launch --resume {}` to go on with it",
-          (logs / name).string(), (logs / name).string());
+          (logs / name).string(), shell_word(logs / name));
     }
     chosen = fmt::format("{}-{}", base, i);
   }

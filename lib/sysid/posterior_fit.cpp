@@ -225,8 +225,8 @@ class PosteriorFit final : public RecordedFit {
     return feature_slopes(emulator_, trials_[best_].point, data_.measured.size(), /*poisson_searched=*/false);
   }
 
-  /// Points of the normal distribution that the data leave around `centre`, in opposite pairs, within the trust region
-  /// and the cube.
+  /// Points of the normal distribution that the data leave around `centre`, in opposite pairs, within the largest
+  /// trust region and the cube.
   std::vector<Point> draws(const Point& centre, int count, RandomStream random) const {
     const Eigen::LLT<Eigen::MatrixXd> factor(posterior_.posterior_covariance(slopes()));
     std::vector<Point> points;

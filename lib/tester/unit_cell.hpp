@@ -1,6 +1,7 @@
 #pragma once
-// What elasticity alone says of a pattern: a unit of an endless specimen, pulled. A hundredth of the cost of a modulus
-// test and a ten thousandth of that of a fracture test, so that a search can ask it of every pattern that it visits.
+// What elasticity alone says of a pattern: a unit of an endless specimen, pulled. A tenth of the cost of a modulus
+// test and a two thousandth of that of a fracture test at `preview`, so that a search can ask it of every pattern that
+// it visits.
 
 #include <array>
 

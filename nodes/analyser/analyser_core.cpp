@@ -10,6 +10,7 @@
 #include "base/hash.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "game/model.hpp"
+#include "game/starting_point.hpp"
 #include "wire/channels.hpp"
 
 namespace nacre::analyser {
@@ -291,8 +292,7 @@ runtime::Status AnalyserCore::status() const {
 }
 
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
-  const material::ParameterRanges ranges =
-      scenario.ranges_file.empty() ? material::thesis_ranges() : material::read_ranges(scenario.ranges_file);
+  const material::ParameterRanges ranges = game::ranges_of(scenario);
   const diagnosis::ModulusFloor floor =
       scenario.numerics_floor_file.empty()
           ? diagnosis::ModulusFloor{}

@@ -178,8 +178,8 @@ void list_designs(const RunAccess& run, const wire::Proposal& proposal) {
   for (const auto& design : proposal.designs) {
     const auto known = stages.find(design.design.name());
     const auto stage = known == stages.end() ? game::DesignStage::pending : known->second;
-    fmt::print("{}  {:9} E {:.4f} GPa  T {:.4f} MPa  {}\n", design.design.name(), game::to_string(stage),
-               1e-9 * design.modulus_pa, 1e-6 * design.toughness_pa, design.reason);
+    fmt::print("{}  {:9} E {} GPa  T {} MPa  {}\n", design.design.name(), game::to_string(stage),
+               shown(1e-9 * design.modulus_pa), shown(1e-6 * design.toughness_pa), design.reason);
   }
 }
 

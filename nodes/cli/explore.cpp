@@ -13,8 +13,8 @@
 #include "base/result.hpp"
 #include "command.hpp"
 #include "explore/batch_log.hpp"
-#include "explore/mechanics.hpp"
 #include "explore/gamut_csv.hpp"
+#include "explore/mechanics.hpp"
 #include "explore/search.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
@@ -67,7 +67,10 @@ explore::SearchSettings search_settings(const Options& options) {
   if (!options.former.empty() && options.algorithm != "learned")
     throw InputError::format("--former: `{}` learns nothing from former samples, expected --algorithm learned",
                              options.algorithm);
-  if (!options.former.empty()) settings.former = explore::read_gamut_csv(options.former);
+  if (options.former.empty()) return settings;
+  settings.former = explore::read_gamut_csv(options.former);
+  if (settings.former.empty())
+    throw InputError::format("{}: holds no samples, expected some to learn from", options.former);
   return settings;
 }
 
@@ -77,7 +80,7 @@ int explore_gamut(const Options& options) {
   explore::SearchSettings settings = search_settings(options);
   settings.mechanics = explore::mechanics_by_tester(parameters, fidelity, 0);
   const auto search = explore::make_search(settings);
-  prepare_output_file(options.out);
+  prepare_output_file(options.out, {options.cache, options.params, options.former});
   std::unique_ptr<store::SimulationCache> cache;
   std::optional<explore::BatchLog> log;
   if (!options.cache.empty()) {

@@ -32,6 +32,8 @@ nlohmann::ordered_json to_json(const measurement::ImportedSpecimen& one) {
           {"peak_stress_pa", one.test.peak_stress_pa},
           {"failure_strain", one.test.failure_strain},
           {"toe_strain", one.test.toe_strain},
+          {"extension_column", one.extension_column},
+          {"gauge_mm", one.gauge_mm},
           {"strain_rate_per_s", record.conditions.strain_rate_per_s},
           {"separated", one.test.separated},
           {"points", one.test.curve.size()},
@@ -48,8 +50,8 @@ nlohmann::ordered_json to_json(const measurement::ImportFault& fault) {
 void print_import(const measurement::Import& import, const Options& options) {
   if (!options.json) {
     for (const auto& one : import.specimens) {
-      fmt::print("{:16} {:20} E {:9.4f} GPa  T {:8.4f} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
-                 one.record.specimen, one.maker, 1e-9 * one.test.modulus_pa, 1e-6 * one.test.toughness_pa,
+      fmt::print("{:16} {:20} E {:>9} GPa  T {:>8} MPa  peak {:7.3f} MPa  failure at {:6.2f} %  toe {:5.3f} %{}\n",
+                 one.record.specimen, one.maker, shown(1e-9 * one.test.modulus_pa), shown(1e-6 * one.test.toughness_pa),
                  1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
                  one.record.valid ? "" : "  NOT VALID");
     }

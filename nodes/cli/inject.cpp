@@ -9,13 +9,12 @@
 
 #include "base/result.hpp"
 #include "command.hpp"
-#include "game/measurement_book.hpp"
-#include "laboratory_view.hpp"
 #include "measurement/measurement.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"
 #include "runtime/interrupts.hpp"
+#include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 #include "wire/header.hpp"
 
@@ -112,13 +111,6 @@ Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet&
   return offered;
 }
 
-/// Names specimens that leave the orders of their designs open.
-void warn_about_conditions(const RunAccess& run, const measurement::MeasurementSet& set) {
-  const std::vector<game::Order> orders = view_laboratory(run).facts.orders;
-  for (const measurement::SpecimenRecord& specimen : set.specimens)
-    if (const auto reason = game::beside_orders(specimen, orders)) warn(*reason);
-}
-
 /// Sends a set and waits for the answers of those that listen.
 Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, const Options& options) {
   const auto endpoint = speak(run, "inject");
@@ -148,7 +140,7 @@ int inject(const Options& options) {
   const RunAccess run = open_run(options.run);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
-  warn_about_conditions(run, set);
+  for (const std::string& doubt : doubts_about(run, set.specimens)) warn(doubt);
   const Delivery delivery = send(run, set, options);
   print_delivery(delivery, options.json);
   if (delivery.unanswered > 0) say_unanswered(delivery.unanswered_by, options.timeout_s);

@@ -10,6 +10,7 @@
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
+#include "specimen_messages.hpp"
 #include "wire/codec.hpp"
 
 namespace nacre::cli {
@@ -102,6 +103,7 @@ void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
 LaboratoryView view_laboratory(const RunAccess& run) {
   LaboratoryView view;
   game::LaboratoryFacts& facts = view.facts;
+  facts.replicates = run.scenario.validation.replicates;
   facts.enough_valid = run.scenario.validation.enough_valid;
   const auto take_proposal = [&](const wire::Proposal& proposal) {
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
@@ -113,7 +115,7 @@ LaboratoryView view_laboratory(const RunAccess& run) {
   };
   const auto take_order = [&](const wire::TestOrder& order) { facts.orders.push_back(order_of(order)); };
   const auto take_measurement = [&](const wire::Measurement& one) {
-    if (one.fidelity == run.scenario.fidelity) facts.book.enter(one.record, one.order_id);
+    if (one.fidelity == run.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
   };
   read_validation_agent(
       run,

@@ -5,7 +5,9 @@
 #include "analyser/analyser_core.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "game/reference_tables.hpp"
 #include "game/scenario.hpp"
+#include "game/starting_point.hpp"
 #include "output.hpp"
 #include "replay_laboratory.hpp"
 #include "runtime/interrupts.hpp"
@@ -40,6 +42,21 @@ void warn_about_inks(const game::Scenario& scenario) {
         "([modulus], [toughness])");
 }
 
+/// Values of the user's own that no ink explains, but a mistaken unit.
+void warn_about_units(const game::Scenario& scenario) {
+  if (!scenario.ranges_file.empty()) cli::warn_about_units(scenario.ranges_file, game::ranges_of(scenario));
+  if (!scenario.model_file.empty())
+    cli::warn_about_units(scenario.model_file, game::starting_model(scenario), game::ranges_of(scenario));
+  if (scenario.base_materials_file.empty()) return;
+  for (const measurement::Replicates& material : game::read_base_materials(scenario.base_materials_file)) {
+    if (measurement::kUsualModulusPa.hold(material.modulus_pa) && measurement::kToughnessPa.hold(material.toughness_pa))
+      continue;
+    warn(fmt::format("{}: {}: E {:g} GPa, T {:g} MPa: no usual material, is the unit right?",
+                     scenario.base_materials_file, material.design.name(), 1e-9 * material.modulus_pa,
+                     1e-6 * material.toughness_pa));
+  }
+}
+
 int play(const runtime::LaunchOptions& options) {
   if (options.scenario.empty() == options.resume.empty()) {
     throw InputError("nacre launch: expected either a SCENARIO.toml or --resume RUN");
@@ -60,6 +77,7 @@ int play(const runtime::LaunchOptions& options) {
     const game::Scenario scenario = game::read_scenario(options.scenario);
     check_inputs(scenario);
     warn_about_inks(scenario);
+    warn_about_units(scenario);
   }
   return runtime::launch(options);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -15,21 +16,27 @@ namespace {
 
 using material::FitTarget;
 
+/// A factor that no ink explains, but a unit does.
+constexpr double kFarOff = 100.0;
+
 template <class Vector>
 void warn_about_units(const std::string& file, std::string_view table, const Vector& values,
                       std::span<const material::ParameterRange> base,
                       std::span<const material::ParameterRange> microstructures) {
-  constexpr double kFar = 100.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double minimum = std::min(base[i].minimum, microstructures[i].minimum),
                  maximum = std::max(base[i].maximum, microstructures[i].maximum);
-    if (values[i] >= minimum / kFar && values[i] <= maximum * kFar) continue;
+    if (values[i] >= minimum / kFarOff && values[i] <= maximum * kFarOff) continue;
     warn(fmt::format("{}: {}.{} = {:g} lies far outside {:g} to {:g}, where it is fitted: is the unit right?", file,
                      table, base[i].name, values[i], minimum, maximum));
   }
 }
 
 }  // namespace
+
+std::string shown(double value) {
+  return std::abs(value) < 0.01 ? fmt::format("{:.3g}", value) : fmt::format("{:.4f}", value);
+}
 
 void print_json(const nlohmann::ordered_json& document) {
   fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -73,11 +80,32 @@ material::ParameterSet parameters_from_option(const std::string& file, const mat
                                               const material::ParameterRanges& ranges) {
   if (file.empty()) return start;
   const material::ParameterSet set = material::read_parameters(file, start);
+  warn_about_units(file, set, ranges);
+  return set;
+}
+
+void warn_about_units(const std::string& file, const material::ParameterSet& set,
+                      const material::ParameterRanges& ranges) {
   warn_about_units(file, "modulus", to_vector(set.modulus), ranges.modulus(FitTarget::base),
                    ranges.modulus(FitTarget::microstructures));
   warn_about_units(file, "toughness", to_vector(set.toughness), ranges.toughness(FitTarget::base),
                    ranges.toughness(FitTarget::microstructures));
-  return set;
+}
+
+void warn_about_units(const std::string& file, const material::ParameterRanges& ranges) {
+  const material::ParameterRanges& usual = material::thesis_ranges();
+  const auto compare = [&](std::string_view table, std::span<const material::ParameterRange> own,
+                           std::span<const material::ParameterRange> other) {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (own[i].maximum >= other[i].minimum / kFarOff && own[i].minimum <= other[i].maximum * kFarOff) continue;
+      warn(fmt::format("{}: {}.{} from {:g} to {:g} lies far outside the thesis' {:g} to {:g}: is the unit right?",
+                       file, table, own[i].name, own[i].minimum, own[i].maximum, other[i].minimum, other[i].maximum));
+    }
+  };
+  for (const FitTarget target : {FitTarget::base, FitTarget::microstructures}) {
+    compare("modulus", ranges.modulus(target), usual.modulus(target));
+    compare("toughness", ranges.toughness(target), usual.toughness(target));
+  }
 }
 
 material::ParameterRanges ranges_from_option(const std::string& file) {

@@ -45,6 +45,14 @@ void check_standard_output();
 material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start,
                                               const material::ParameterRanges& ranges = material::thesis_ranges());
 
+/// A figure with four decimals, or with three digits where these would leave little of it.
+std::string shown(double value);
+
+/// Warns of values, or ranges, that lie a hundred times outside those of `ranges`, or the thesis'.
+void warn_about_units(const std::string& file, const material::ParameterSet& set,
+                      const material::ParameterRanges& ranges);
+void warn_about_units(const std::string& file, const material::ParameterRanges& ranges);
+
 /// The ranges in the file given, those of the thesis where none is given. Throws InputError.
 material::ParameterRanges ranges_from_option(const std::string& file);
 

@@ -30,6 +30,17 @@ void prepare_output_file(const std::string& file) {
   ::unlink(aside.c_str());
 }
 
+void prepare_output_file(const std::string& file, std::initializer_list<std::string> others) {
+  for (const std::string& other : others) {
+    std::error_code different;
+    const bool is_same = fs::absolute(file).lexically_normal() == fs::absolute(other).lexically_normal() ||
+                         fs::equivalent(file, other, different);
+    if (!other.empty() && is_same)
+      throw InputError::format("{}: is read by the same command, expected the name of another file to write", file);
+  }
+  prepare_output_file(file);
+}
+
 void prepare_output_folder(const std::string& folder) { prepare_output_file((fs::path(folder) / "nacre").string()); }
 
 }  // namespace nacre::cli

@@ -1,6 +1,7 @@
 #pragma once
 // Where results go is tried before the work is done whose results they are.
 
+#include <initializer_list>
 #include <string>
 
 namespace nacre::cli {
@@ -8,6 +9,8 @@ namespace nacre::cli {
 /// Makes the folders above `file` and proves that it can be written, leaving one that is there as it is. Throws
 /// InputError naming the path and the system's reason; also for a folder, a device, a pipe.
 void prepare_output_file(const std::string& file);
+/// The same for a command that also reads `others` (empty: not given): none of them may be written over.
+void prepare_output_file(const std::string& file, std::initializer_list<std::string> others);
 
 /// Makes `folder` with its parents and proves that files can be made in it. Throws InputError.
 void prepare_output_folder(const std::string& folder);

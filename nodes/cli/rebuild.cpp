@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analyser/run_tables.hpp"
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "output.hpp"
@@ -92,7 +93,7 @@ int backup(const BackupOptions& options) {
                 {"simulations", has_cache}});
   } else {
     fmt::print("{}: {} files, {:.1f} MB; `nacre launch --resume {}` plays on from here\n", to.string(), copy.files,
-               1e-6 * static_cast<double>(copy.bytes), to.string());
+               1e-6 * static_cast<double>(copy.bytes), shell_word(to));
   }
   return 0;
 }

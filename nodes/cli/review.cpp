@@ -8,6 +8,7 @@
 #include "base/result.hpp"
 #include "command.hpp"
 #include "laboratory_view.hpp"
+#include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
 #include "measurement/set_table.hpp"
 #include "nacre/review_t.hpp"
@@ -57,7 +58,8 @@ std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& ju
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
                                      [&](const auto& each) { return each.specimen == judgement.specimen; });
   if (specimen == specimens.end()) {
-    warn(fmt::format("{}: the validation agent has no specimen of this name yet", judgement.specimen));
+    throw InputError::format("{}: not in {}: expected the name of one of its {} specimens", judgement.specimen,
+                             options.run, specimens.size());
   }
   if (judgement.valid) {
     if (const auto reason = book.against_validity(judgement.specimen)) throw InputError(*reason);
@@ -127,16 +129,24 @@ int judge(const Options& options, const std::vector<Judgement>& judgements) {
   return reviewed.size() == judgements.size() ? 0 : 1;
 }
 
-/// Those of the run, where nothing is rejected, or of the set.
-measurement::MeasurementSet specimens_to_review(const Options& options) {
+/// Specimens to hold against each other, and how many of them are enough.
+struct Material {
   measurement::MeasurementSet set;
+  measurement::ConsistencySettings settings;
+};
+
+/// Those of the run, where nothing is rejected and the scenario says how many, or of the set.
+Material material_to_review(const Options& options) {
+  Material material;
   if (options.set.empty()) {
-    set.specimens = view_laboratory(open_run(options.run)).facts.book.specimens();
+    const game::LaboratoryFacts facts = view_laboratory(open_run(options.run)).facts;
+    material.set.specimens = facts.book.specimens();
+    material.settings = game::consistency_settings(facts);
   } else {
-    set = measurement::read_measurement_set(options.set);
-    warn_about(set, options.set);
+    material.set = measurement::read_measurement_set(options.set);
+    warn_about(material.set, options.set);
   }
-  return set;
+  return material;
 }
 
 nlohmann::ordered_json to_json(const ReplicateGroup& group) {
@@ -150,6 +160,8 @@ nlohmann::ordered_json to_json(const ReplicateGroup& group) {
   return {{"pattern", group.design.name()},
           {"test", std::string(tester::to_string(group.test))},
           {"orientation_deg", group.conditions.orientation_deg},
+          {"strain_rate_per_s", group.conditions.strain_rate_per_s},
+          {"thickness_mm", group.conditions.thickness_mm},
           {"state", std::string(to_string(group.state))},
           {"tested", group.tested},
           {"valid", group.valid},
@@ -162,20 +174,29 @@ nlohmann::ordered_json to_json(const ReplicateGroup& group) {
           {"representative", group.representative}};
 }
 
+/// What sets a group apart from the standard test of its design; empty for that one.
+std::string unusual_conditions(const tester::TestConditions& conditions) {
+  tester::TestConditions usual;
+  usual.orientation_deg = conditions.orientation_deg;
+  const std::string turned = conditions.orientation_deg == 90.0 ? " turned" : "";
+  if (measurement::same_conditions(conditions, usual)) return turned;
+  return fmt::format("{} at {:.3g} /s, {:.3g} mm thick", turned, conditions.strain_rate_per_s, conditions.thickness_mm);
+}
+
 void print_group(const ReplicateGroup& group) {
   const bool is_modulus = group.test == tester::TestKind::modulus;
-  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {:.4f} {} +- {:.1f} %{}\n", group.design.name(),
-             tester::to_string(group.test), group.conditions.orientation_deg == 90.0 ? " turned" : "",
-             to_string(group.state), group.tested.size(), group.valid.size(),
+  fmt::print("{} {}{}: {} ({} tested, {} valid{})  {} {} {} +- {:.1f} %{}\n", group.design.name(),
+             tester::to_string(group.test), unusual_conditions(group.conditions), to_string(group.state),
+             group.tested.size(), group.valid.size(),
              group.wanted > 0 ? fmt::format(", {} more wanted", group.wanted) : "", is_modulus ? "E" : "T",
-             group.mean_pa * (is_modulus ? 1e-9 : 1e-6), is_modulus ? "GPa" : "MPa", 100.0 * group.scatter,
+             shown(group.mean_pa * (is_modulus ? 1e-9 : 1e-6)), is_modulus ? "GPa" : "MPa", 100.0 * group.scatter,
              group.representative.empty() ? "" : fmt::format("  represented by {}", group.representative));
   for (const auto& outlier : group.proposed) {
     for (const auto& reason : outlier.reasons)
       fmt::print("    {} looks out of line: {}\n", outlier.specimen, reason.text);
   }
   if (!group.proposed.empty()) {
-    fmt::print("    without: {:.4f} {} +- {:.1f} %\n", group.mean_without_pa * (is_modulus ? 1e-9 : 1e-6),
+    fmt::print("    without: {} {} +- {:.1f} %\n", shown(group.mean_without_pa * (is_modulus ? 1e-9 : 1e-6)),
                is_modulus ? "GPa" : "MPa", 100.0 * group.scatter_without);
   }
 }
@@ -219,8 +240,8 @@ int review(const Options& options) {
     return judge(options, {{options.specimen, options.valid, options.why}});
   }
   if (options.valid || options.invalid) throw InputError("nacre review: expected a specimen to judge");
-  const measurement::MeasurementSet set = specimens_to_review(options);
-  const std::vector<ReplicateGroup> groups = measurement::review_replicates(set.specimens);
+  const auto [set, settings] = material_to_review(options);
+  const std::vector<ReplicateGroup> groups = measurement::review_replicates(set.specimens, settings);
   if (!options.accept) {
     const std::vector<measurement::HistoryEffect> history = measurement::history_effects(set.specimens);
     options.json ? print_review_json(groups, history, set.rejected) : print_review(groups, history);
@@ -228,8 +249,11 @@ int review(const Options& options) {
   }
   std::vector<Judgement> judgements;
   for (const ReplicateGroup& group : groups) {
-    for (const auto& outlier : group.proposed)
-      judgements.push_back({outlier.specimen, false, outlier.reasons.front().text});
+    for (const auto& outlier : group.proposed) {
+      const std::string& reason = outlier.reasons.front().text;
+      judgements.push_back(
+          {outlier.specimen, false, options.why.empty() ? reason : fmt::format("{}: {}", options.why, reason)});
+    }
   }
   if (judgements.empty()) remark("no specimen looks out of line");
   return judge(options, judgements);

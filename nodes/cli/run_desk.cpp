@@ -1,11 +1,14 @@
 #include "run_desk.hpp"
 
+#include <algorithm>
+
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "laboratory_view.hpp"
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
+#include "specimen_doubts.hpp"
 #include "specimen_messages.hpp"
 #include "wire/codec.hpp"
 #include "wire/convert.hpp"
@@ -70,6 +73,10 @@ Answer RunDesk::hand_in(const runtime::Message& message) {
   return deliver(now(), "dashboard", message, kPatience_s) == 0 ? Answer::accepted : Answer::unanswered;
 }
 
+std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
+  return cli::doubts_about(run_, {&specimen, 1});
+}
+
 Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
   const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
   const auto known = hashes_by_specimen(run_);
@@ -81,7 +88,12 @@ Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
 }
 
 std::optional<std::string> RunDesk::against(const dashboard::Judgement& judgement) {
-  return judgement.valid ? view_laboratory(run_).facts.book.against_validity(judgement.specimen) : std::nullopt;
+  const game::MeasurementBook book = view_laboratory(run_).facts.book;
+  const auto specimens = book.specimens();
+  if (std::none_of(specimens.begin(), specimens.end(),
+                   [&](const auto& each) { return each.specimen == judgement.specimen; }))
+    return fmt::format("{}: expected the name of one of the run's {} specimens", judgement.specimen, specimens.size());
+  return judgement.valid ? book.against_validity(judgement.specimen) : std::nullopt;
 }
 
 Answer RunDesk::judge(const dashboard::Judgement& judgement) {

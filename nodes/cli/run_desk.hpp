@@ -15,6 +15,7 @@ class RunDesk : public dashboard::Desk {
   std::optional<material::ParameterSet> family_model(const std::string& family) override;
   std::optional<diagnosis_t> diagnosis(int round) override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
+  std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
   dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
   dashboard::Answer judge(const dashboard::Judgement& judgement) override;
   dashboard::Answer decide(const dashboard::Decision& decision) override;

@@ -56,10 +56,13 @@ int select_samples(const Options& options) {
     if (options.json) continue;
     // As in the reason, bins count from 1; what fills up has none.
     const std::string bin = one.bin < 0 ? "-" : std::to_string(one.bin + 1);
-    fmt::print("{}  E {:.4f} GPa  T {:.4f} MPa  bin {:>2}  {}\n", one.pattern.key(), 1e-9 * one.predicted.modulus_pa,
-               1e-6 * one.predicted.toughness_pa, bin, one.reason);
+    fmt::print("{}  E {} GPa  T {} MPa  bin {:>2}  {}\n", one.pattern.key(), shown(1e-9 * one.predicted.modulus_pa),
+               shown(1e-6 * one.predicted.toughness_pa), bin, one.reason);
   }
   if (options.json) print_json(document);
+  if (!selected.empty() && selected.size() < static_cast<std::size_t>(options.count))
+    remark(fmt::format("{} of {} designs: no other sample of the gamut is worth a measurement", selected.size(),
+                       options.count));
   if (selected.empty()) remark("nothing to select: no sample of the gamut lies above the benchmark lines");
   return selected.empty() ? 1 : 0;
 }

@@ -181,11 +181,10 @@ void print_table(const std::vector<Specimen>& specimens) {
       fmt::print("{:<24} {}\n", name, failure);
       continue;
     }
-    fmt::print("{:<24} {:>10}", name,
-               specimen.modulus ? fmt::format("{:.4f}", 1e-9 * (*specimen.modulus)->modulus_pa) : "");
+    fmt::print("{:<24} {:>10}", name, specimen.modulus ? shown(1e-9 * (*specimen.modulus)->modulus_pa) : "");
     if (specimen.toughness) {
       const tester::ToughnessResult& result = **specimen.toughness;
-      fmt::print(" {:>10.4f} {:>10.3f} {:>10.4f}  {} after {} steps", 1e-6 * result.toughness_pa,
+      fmt::print(" {:>10} {:>10.3f} {:>10.4f}  {} after {} steps", shown(1e-6 * result.toughness_pa),
                  1e-6 * result.peak_stress_pa, result.failure_strain, tester::to_string(result.end), result.steps);
     }
     fmt::print("\n");

@@ -1,6 +1,8 @@
 #include "specimen_messages.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,10 +28,12 @@ tester::Curve thinned(const tester::Curve& curve, std::size_t most) {
   return thin;
 }
 
-/// The specimen's history that a message has no field for, for its note: `[date: ...; operator: ...]`.
+/// What a message has no field for stands in its note: `[date: ...; operator: ...]`, in this order.
+constexpr std::array kHistory = {"date", "operator", "machine", "path"};
+
 std::string history_of(const measurement::SpecimenRecord& specimen) {
   std::string history;
-  for (const char* name : {"date", "operator", "machine", "path"}) {
+  for (const char* name : kHistory) {
     const auto cell = specimen.other_columns.find(name);
     if (cell != specimen.other_columns.end())
       history += fmt::format("{}{}: {}", history.empty() ? "[" : "; ", name, cell->second);
@@ -62,6 +66,24 @@ void take(std::map<std::string, std::string>& hashes, const std::string& payload
 }
 
 }  // namespace
+
+measurement::SpecimenRecord with_history_of_note(measurement::SpecimenRecord specimen) {
+  const std::string_view note = specimen.note;
+  if (!note.ends_with(']')) return specimen;
+  std::size_t end = note.size() - 1;
+  // From the last one to the first: each ends where the next begins.
+  for (auto name = kHistory.rbegin(); name != kHistory.rend(); ++name) {
+    for (const char* opening : {"[", "; "}) {
+      const std::string mark = fmt::format("{}{}: ", opening, *name);
+      const std::size_t begin = note.substr(0, end).rfind(mark);
+      if (begin == std::string_view::npos) continue;
+      specimen.other_columns.try_emplace(*name, note.substr(begin + mark.size(), end - begin - mark.size()));
+      end = begin;
+      break;
+    }
+  }
+  return specimen;
+}
 
 runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity) {
   wire::Measurement measurement;

@@ -14,6 +14,9 @@ namespace nacre::cli {
 /// MEASUREMENT of a specimen that nacre did not order by name; long curves thinned, history in the note.
 runtime::Message measurement_message(const measurement::SpecimenRecord& specimen, tester::Fidelity fidelity);
 
+/// The specimen of a message with what its note says of its history in the columns that it came from, too.
+measurement::SpecimenRecord with_history_of_note(measurement::SpecimenRecord specimen);
+
 /// Content hashes of the measurements that the nodes which keep them have, by specimen; the first one of a name counts.
 /// Empty of a node whose journal is not on this machine.
 struct HeldMeasurements {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "game/reference_tables.hpp"
+#include "game/starting_point.hpp"
 
 namespace nacre::validation_agent {
 
@@ -237,9 +238,8 @@ std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   if (!scenario.base_materials_file.empty())
     start.base_materials = game::read_base_materials(scenario.base_materials_file);
   if (!scenario.benchmark_file.empty()) start.benchmark = game::read_benchmark_line(scenario.benchmark_file);
-  if (!scenario.ranges_file.empty()) start.ranges = material::read_ranges(scenario.ranges_file);
-  start.model = material::brought_inside(start.model, start.ranges);
-  if (!scenario.model_file.empty()) start.model = material::read_parameters(scenario.model_file, start.model);
+  start.ranges = game::ranges_of(scenario);
+  start.model = game::starting_model(scenario);
   start.floor = scenario.numerics_floor_file.empty()
                     ? sysid::NumericsFloor::none()
                     : sysid::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
+#include "material/parameters.hpp"
 #include "program_test.hpp"
 #include "runtime/run_folder.hpp"
 
@@ -169,6 +170,10 @@ TEST_F(CommandLine, WhereResultsGoIsTriedBeforeTheWork) {
                        path("new/folder/g.csv")})
                 .status,
             0);
+  const std::string parameters = this->file("own.toml", material::to_toml(material::default_parameters()));
+  expect_refused(run_nacre({"explore", "--params", parameters, "--budget", "100000", "--out", parameters}),
+                 {"own.toml: is read by the same command"});
+  expect_refused(run_nacre({"explore", "--cache", "c.db", "--budget", "100000", "--out", "./c.db"}), {"c.db: is read"});
 }
 
 TEST_F(CommandLine, AStandardErrorThatTakesNothingEndsItInOrder) {

@@ -50,8 +50,10 @@ class InjectedGame : public testing::Test {
 TEST_F(InjectedGame, GoesOnWithWhatAPersonMeasuresAndTakesEverySpecimenOnce) {
   launch("injected");
   person_->wait_for("orders of round 1", [&] { return person_->orders().size() == 2 * 6; });
-  const std::vector<SpecimenRecord> whole = person_->measured_in_laboratory();
+  std::vector<SpecimenRecord> whole = person_->measured_in_laboratory();
   ASSERT_EQ(whole.size(), 2U * 2U * 6U);
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    whole[i].other_columns = {{"date", i % 2 ? "2026-03-13" : "2026-03-12"}, {"path", "along [the] notch; then up"}};
   EXPECT_EQ(person_->inject("part", {whole[2], whole[0]})["accepted"], 2);
   SpecimenRecord changed = whole[0];
   changed.batch += "-9";
@@ -66,6 +68,10 @@ TEST_F(InjectedGame, GoesOnWithWhatAPersonMeasuresAndTakesEverySpecimenOnce) {
   const auto delivery = person_->inject("whole", whole);
   EXPECT_EQ(delivery["repeated"], 2) << delivery;
   EXPECT_EQ(delivery["accepted"], whole.size() - 2) << delivery;
+  person_->decide({"review", "no-such-specimen", "--invalid", "--why", "a slip"}, 2);
+  EXPECT_THAT(run_nacre({"review", "--run", person_->run().string(), "--json"}).out,
+              AllOf(HasSubstr("2026-03-13"), HasSubstr(R"("state": "complete")")))
+      << "two replicates are what this game orders, and notes keep the days";
   person_->play_to_end();
   EXPECT_EQ(measurements_taken(person_->run()).size(), whole.size() + 1);
   EXPECT_EQ(person_->rounds().size(), 2U);
@@ -83,10 +89,14 @@ TEST_F(InjectedGame, InjectSaysWhenNobodyAnswers) {
   specimen.specimen = "S-1";
   specimen.design = pattern::Mixture{0.5};
   specimen.modulus_pa = 1e9;
-  measurement::write_measurement_set(set, {specimen});
+  SpecimenRecord in_another_unit = specimen;
+  in_another_unit.specimen = "S-2";
+  in_another_unit.modulus_pa = 1e6;  // kPa
+  measurement::write_measurement_set(set, {specimen, in_another_unit});
   const Outcome outcome = run_nacre({"inject", set.string(), "--run", person_->run().string(), "--timeout-s", "1"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("did not answer"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("did not answer"), HasSubstr("specimen S-2 of mix:0.5"),
+                                 HasSubstr("is a unit wrong"), Not(HasSubstr("specimen S-1 of"))));
 }
 
 TEST_F(InjectedGame, InjectSaysWhichNodeHasNotGotTheSpecimensAndASecondTimeBringsThem) {

@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import { post, problemOf } from "./api";
 import type { Said } from "./parts";
 
-type Answer = { answer: string };
+type Answer = { answer: string; doubts?: string[] };
 
 /** Hands something in and says what came of it. `refresh` never throws. */
 export function useHandIn(
@@ -17,9 +17,10 @@ export function useHandIn(
     setBusy(true);
     setSaid({ kind: "busy", text: meanwhile });
     try {
-      const { answer } = await post<Answer>(path, body);
+      const { answer, doubts = [] } = await post<Answer>(path, body);
       await refresh(); // where the page cannot read it yet, that is said beside it: it has been taken all the same
-      setSaid({ kind: "good", text: answer === "repeated" ? "The run has this already." : done });
+      const taken = answer === "repeated" ? "The run has this already." : done;
+      setSaid({ kind: doubts.length ? "bad" : "good", text: [taken, ...doubts].join(" ") });
       return true;
     } catch (error) {
       setSaid({ kind: "bad", text: problemOf(error) });

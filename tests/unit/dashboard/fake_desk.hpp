@@ -22,6 +22,7 @@ class FakeDesk : public Desk {
   }
   std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
+  std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
   Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
   Answer judge(const Judgement& judgement) override { return judgements.push_back(judgement), answer; }
   std::optional<std::string> against(const Judgement&) override { return reason_against; }
@@ -37,6 +38,7 @@ class FakeDesk : public Desk {
   std::vector<NodeReport> reports;
   Answer answer = Answer::accepted;
   std::optional<std::string> reason_against;
+  std::vector<std::string> doubts;
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<Judgement> judgements;
   std::vector<Decision> decisions;

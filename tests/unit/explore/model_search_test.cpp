@@ -87,7 +87,7 @@ std::vector<int> barred_by_batch(const SearchSettings& chosen) {
 TEST(Learned, PatternsWithBarsFollowTheRandomOnes) {
   SearchSettings chosen = settings("learned", 6, 55);
   chosen.learned.barred_start = 25;
-  EXPECT_THAT(barred_by_batch(chosen), ::testing::ElementsAre(0, 0, 10, 10, 10, ::testing::_));
+  EXPECT_THAT(barred_by_batch(chosen), ::testing::ElementsAre(0, 0, 10, 10, 5, ::testing::_));
   chosen.learned.barred_candidates = 0;
   RandomStream random(8, "test");
   for (int i = 0; i < 30; ++i) {
@@ -298,6 +298,15 @@ TEST(BatchLog, RefusesTheBatchesOfAnotherModel) {
   BatchLog(path, settings("nsga2", 1, 40), "stiff");
   EXPECT_NO_THROW(BatchLog(path, settings("nsga2", 1, 40), "stiff"));
   EXPECT_THROW(BatchLog(path, settings("nsga2", 1, 40), "soft"), InputError);
+  std::filesystem::remove(path);
+}
+
+TEST(BatchLog, ALineWithoutPatternsIsNotTakenForTheEnd) {
+  const std::string path = ::testing::TempDir() + "/nacre_blank_batch.txt";
+  std::filesystem::remove(path);
+  BatchLog(path, settings("nsga2", 1, 40));
+  std::ofstream(path, std::ios::app) << "\n";
+  EXPECT_THROW(BatchLog(path, settings("nsga2", 1, 40)), InputError);
   std::filesystem::remove(path);
 }
 

@@ -59,6 +59,20 @@ TEST(DesignStates, ADesignGoesFromPendingToMeasured) {
   EXPECT_EQ(state.decided_by, "lab");
 }
 
+TEST(DesignStates, ReplicatesAreEnoughWhenTheGameSaysSo) {
+  LaboratoryFacts facts;
+  const auto settings = [&](int replicates, int enough_valid) {
+    facts.replicates = replicates;
+    facts.enough_valid = enough_valid;
+    const measurement::ConsistencySettings chosen = consistency_settings(facts);
+    return std::pair(chosen.fewest_tested, chosen.fewest_consistent);
+  };
+  EXPECT_EQ(settings(0, 0), std::pair(4, 3)) << "the thesis";
+  EXPECT_EQ(settings(2, 0), std::pair(2, 2));
+  EXPECT_EQ(settings(5, 0), std::pair(5, 3));
+  EXPECT_EQ(settings(5, 4), std::pair(5, 4));
+}
+
 TEST(DesignStates, WhatWasMeasuredWasPrinted) {
   LaboratoryFacts facts;
   facts.orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};

@@ -51,6 +51,20 @@ std::vector<SpecimenRecord> agreeing() {
           notched("A4", 20.2e6, 0.030)};
 }
 
+TEST(Replicates, ValuesThatAUnitExplainsAreDoubted) {
+  std::vector<SpecimenRecord> specimens = agreeing();
+  EXPECT_THAT(doubts_of_units(specimens), IsEmpty());
+  specimens.push_back(notched("percent", 20e6, 3.0));
+  specimens.push_back(notched("tough", 40e6, 0.09));
+  const auto doubts = doubts_of_units(specimens);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_THAT(doubts[0], HasSubstr("specimen percent: its toughness is 96.7 times the middle of the 6"));
+  specimens.back().valid = specimens[4].valid = false;
+  EXPECT_THAT(doubts_of_units(specimens), IsEmpty()) << "what does not count is not doubted";
+  EXPECT_EQ(doubts_of_units({notched("A", 20e6, 0.03), notched("kPa", 20e3, 0.03)}).size(), 2U)
+      << "of two nobody can say which";
+}
+
 TEST(Replicates, FourThatAgreeAreComplete) {
   const auto groups = review_replicates(agreeing());
   ASSERT_EQ(groups.size(), 1U);

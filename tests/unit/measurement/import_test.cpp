@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const fs::path kExports = fs::path(NACRE_SOURCE_DIR) / "tests/unit/measurement/data/exports";
 
@@ -207,6 +208,49 @@ TEST_F(ImportedSet, TheModulusOfABarComesFromTheColumnThatTheSheetNames) {
   const Import absent = import(heading + "bar.csv,B1,rigid,modulus,13,3.2,50,Laser\n");
   ASSERT_EQ(absent.rejected.size(), 1U);
   EXPECT_THAT(absent.rejected[0].reason, AllOf(HasSubstr("no column `Laser`"), HasSubstr("Extensometer")));
+}
+
+TEST_F(ImportedSet, AnExtensionThatDoesNotBelongToTheGaugeIsSaid) {
+  const auto doubts = [&](const std::string& columns, const std::string& row) {
+    std::string text = columns + "\n";
+    for (int i = 0; i <= 200; ++i) text += fmt::format("{},{},{},{}\n", i, 0.015 * i, 0.005 * i, 8 * i);
+    write("bar.csv", text);
+    std::string all;
+    for (const std::string& warning :
+         import("file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,extension_column\nbar.csv,B1,rigid," + row)
+             .warnings)
+      all += warning + "\n";
+    return all;
+  };
+  const std::string both = "Time (s),Crosshead (mm),Extensometer (mm),Load (N)";
+  EXPECT_THAT(doubts(both, "modulus,13,3.2,50,\n"),
+              AllOf(HasSubstr("specimen B1: gauge_mm 50 is an extensometer's, but the extension is that of `Crosshead"),
+                    HasSubstr("the file also has `Extensometer (mm)`"), HasSubstr("expected extension_column")));
+  EXPECT_EQ(doubts(both, "modulus,13,3.2,50,Extensometer\n"), "");
+  EXPECT_EQ(doubts(both, "modulus,13,3.2,104.9,\n"), "");
+  EXPECT_THAT(doubts(both, "toughness,52,3.2,54,\n"), Not(HasSubstr("gauge_mm")))
+      << "a notched specimen is strained by its grips";
+  EXPECT_THAT(doubts(both, "modulus,13,3.2,104.9,Extensometer\n"), HasSubstr("longer than a bar's narrow section"));
+  EXPECT_THAT(doubts("Time (s),Extension (mm),Extension (mm),Load (N)", "modulus,13,3.2,104.9,\n"),
+              HasSubstr("`Extension (mm)` stands twice"));
+  EXPECT_EQ(doubts("Time (s),Extension (mm),Temperature (C),Load (N)", "modulus,13,3.2,50,\n"), "")
+      << "a name that may mean either";
+}
+
+TEST_F(ImportedSet, OneTestUnderTwoNamesIsDoubted) {
+  for (const char* name : {"a.csv", "copy.csv"}) fs::copy_file(kExports / "clean/plain.csv", folder_ / name);
+  const std::string heading = "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\n";
+  const Import at_once = import(heading + "a.csv,A1,rigid,52,3.2,54\ncopy.csv,A2,rigid,52,3.2,54\n");
+  ASSERT_EQ(at_once.warnings.size(), 1U);
+  EXPECT_THAT(at_once.warnings[0], HasSubstr("specimen A2: its readings are those of A1, to the last digit"));
+  Import first = import(heading + "a.csv,A1,rigid,52,3.2,54\n"), later = import(heading + "a.csv,A2,rigid,52,3.2,54\n");
+  write_import(folder_ / "set", "sheet.csv", first);
+  write_import(folder_ / "set", "sheet.csv", later);
+  ASSERT_EQ(later.warnings.size(), 1U);
+  EXPECT_THAT(later.warnings[0], HasSubstr("specimen A2: its readings are those of A1"));
+  Import again = import(heading + "a.csv,A2,rigid,52,3.2,54\n");
+  write_import(folder_ / "set", "sheet.csv", again);
+  EXPECT_TRUE(again.warnings.empty()) << "said once";
 }
 
 TEST_F(ImportedSet, ExportsAreFoundByNameAndUnusedOnesAreSaid) {

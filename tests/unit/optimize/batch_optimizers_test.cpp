@@ -93,6 +93,25 @@ TEST_P(EveryAlgorithm, ResumesAsIfItHadNeverStopped) {
   EXPECT_EQ(second->best()->value, whole->best()->value);
 }
 
+TEST_P(EveryAlgorithm, ResumesThroughFailures) {
+  const auto whole = make_optimizer(GetParam(), settings(3, 60));
+  std::vector<Evaluation> told;
+  for (int step = 0; step < 20; ++step) {
+    const auto resumed = make_optimizer(GetParam(), settings(3, 60));
+    resumed->resume(told);
+    const std::vector<Point> points = whole->ask();
+    ASSERT_EQ(resumed->ask(), points) << "after " << told.size() << " evaluations";
+    std::vector<std::optional<double>> values;
+    for (const Point& point : points) {
+      // Failures, and worse values after them, which move what a failure counts as.
+      const bool fails = told.size() % 4 == 1;
+      values.push_back(fails ? std::nullopt : std::optional(bowl(point) * (1.0 + static_cast<double>(told.size()))));
+      told.push_back({point, values.back()});
+    }
+    whole->tell(values);
+  }
+}
+
 TEST_P(EveryAlgorithm, SurvivesFailures) {
   const auto optimizer = make_optimizer(GetParam(), settings(3, 40));
   const std::vector<Evaluation> told = run(*optimizer, 40, 4);
@@ -151,6 +170,16 @@ TEST(Resume, RefusesTheHistoryOfOtherStarts) {
   other.starts = {{0.1, 0.2, 0.3}};
   const std::vector<Evaluation> told = run(*make_optimizer(Algorithm::bayesian, other), 9);
   EXPECT_THROW(make_optimizer(Algorithm::bayesian, settings(3, 20))->resume(told), InputError);
+}
+
+TEST(CmaEs, BeginsAtTheBestGuessThoughTheBatchIsLarger) {
+  BatchOptimizerSettings large = settings(3, 60);
+  large.batch = 12;
+  large.starts = {{0.95, 0.95, 0.95}};
+  const std::vector<Point> points = make_optimizer(Algorithm::cma_es, large)->ask();
+  double mean = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) mean += points[i][0] / static_cast<double>(points.size() - 1);
+  EXPECT_GT(mean, 0.7) << "the middle of the cube is 0.5";
 }
 
 TEST(CmaEs, ConvergesOnARotatedIllConditionedBowl) {

@@ -1,0 +1,42 @@
+#include "game/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include "measurement/reduction.hpp"
+
+namespace nacre::game {
+namespace {
+
+/// No model that is worth playing with is further off.
+constexpr double kFar = 8.0;
+/// A notch takes a good part of a specimen's stiffness away.
+constexpr double kFarWithNotch = 20.0;
+
+/// What the specimen says of its stiffness; nothing where it says none.
+std::optional<double> shown_modulus(const measurement::SpecimenRecord& specimen) {
+  if (specimen.test == tester::TestKind::modulus) return measurement::modulus_of(specimen);
+  const auto beginning = measurement::linear_part(specimen.curve);
+  if (!beginning) return std::nullopt;
+  return beginning->slope_pa;
+}
+
+}  // namespace
+
+std::optional<std::string> doubt_of_unit(const measurement::SpecimenRecord& specimen,
+                                         const material::ParameterSet& model, tester::Fidelity fidelity) {
+  if (!specimen.valid) return std::nullopt;
+  const auto shown_pa = shown_modulus(specimen);
+  if (!shown_pa) return std::nullopt;
+  const auto simulated = tester::test_modulus({specimen.design, model, specimen.conditions, fidelity});
+  if (!simulated) return std::nullopt;
+  const bool is_notched = specimen.test == tester::TestKind::toughness;
+  const double ratio = *shown_pa / simulated->modulus_pa;
+  if (ratio < kFar && ratio > 1.0 / (is_notched ? kFarWithNotch : kFar)) return std::nullopt;
+  return fmt::format("specimen {} of {}, {} test: {} {:.3g} GPa, where the model has a modulus of {:.3g}: {}",
+                     specimen.specimen, specimen.design.name(), tester::to_string(specimen.test),
+                     is_notched || !specimen.modulus_pa ? "its curve begins with a slope of" : "its modulus is",
+                     1e-9 * *shown_pa, 1e-9 * simulated->modulus_pa,
+                     "is a unit wrong (stress in Pa, strain as a ratio, size in mm)?");
+}
+
+}  // namespace nacre::game

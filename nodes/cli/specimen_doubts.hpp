@@ -1,0 +1,17 @@
+#pragma once
+// What a person should look at again before a specimen counts in a game.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measurement/measurement.hpp"
+#include "run_access.hpp"
+
+namespace nacre::cli {
+
+/// Sentences: specimens that leave the orders of their designs open, and values that the run's model cannot explain but
+/// by a mistaken unit.
+std::vector<std::string> doubts_about(const RunAccess& run, std::span<const measurement::SpecimenRecord> specimens);
+
+}  // namespace nacre::cli
