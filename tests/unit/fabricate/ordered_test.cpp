@@ -51,10 +51,11 @@ class OrderedTest : public testing::Test {
 };
 
 /// What an extensometer of 50 mm and the load cell record of a bar of 2 GPa, without a clock.
-std::string export_without_time(const tester::Loading& loading) {
+/// Of a coupon of that modulus.
+std::string export_without_time(const tester::Loading& loading, double modulus_mpa) {
   std::string text = "extension_mm,force_n\n";
   for (const double strain : tester::strain_path(loading, 2e-4))
-    text += fmt::format("{},{}\n", 50.0 * strain, 2e3 * strain * 13.0 * 3.2);
+    text += fmt::format("{},{}\n", 50.0 * strain, modulus_mpa * strain * 13.0 * 3.2);
   return text;
 }
 
@@ -117,8 +118,9 @@ TEST_F(OrderedTest, OrdersOfOneDesignTestAndOrientationStayApart) {
 TEST_F(OrderedTest, ComesBackThroughTheImportAsItWasOrdered) {
   const Wanted ordered = coupon("r2/interface/tensile/discrimination-1");
   const Job job = job_of({ordered});
+  double modulus_mpa = 2000.0;
   for (const Placed& specimen : job.specimens)
-    write_file_atomically(folder_ / (specimen.label + ".csv"), export_without_time(ordered.loading));
+    write_file_atomically(folder_ / (specimen.label + ".csv"), export_without_time(ordered.loading, modulus_mpa++));
   const auto import = measurement::import_exports({}, write_table(job));
   for (const auto& fault : import.rejected) ADD_FAILURE() << to_string(fault);
   EXPECT_THAT(import.warnings, IsEmpty());
