@@ -29,6 +29,7 @@ namespace {
 
 constexpr const char* kMulticastGroup = "239.255.76.67";
 constexpr const char* kSelfTestChannel = "LCM_SELF_TEST";  // published by the library itself
+constexpr std::size_t kMostSentences = 100;                // told apart per kind of problem
 
 /// Channel names are regular expressions to LCM.
 std::string escaped(const std::string& channel) {
@@ -109,8 +110,8 @@ struct Bus::State {
   std::unique_ptr<lcm::LCM> lcm;
   FaultInjector faults;
   BusCounters counters;
-  std::map<std::string, std::int64_t> next_seq;  ///< own, per channel
-  std::map<std::string, std::int64_t> report_counts;
+  std::map<std::string, std::int64_t> next_seq;                              ///< own, per channel
+  std::map<std::string, std::map<std::string, std::int64_t>> report_counts;  ///< per kind of problem and sentence
   SequenceCounter sequences;
   std::deque<Datagram> waiting;
 
@@ -131,11 +132,16 @@ struct Bus::State {
     for (Datagram& arriving : faults.pass(std::move(datagram))) waiting.push_back(std::move(arriving));
   }
 
-  /// Once per kind of problem, then when its count is a power of two.
+  /// Each sentence once, then when its count is a power of two: whoever sends something else that is wrong hears of it.
+  /// Where a kind of problem has more sentences than anybody reads, the rest are counted together: a flood fills no
+  /// log.
   void report(const std::string& kind, const std::string& sentence) {
-    const std::int64_t count = ++report_counts[kind];
+    std::map<std::string, std::int64_t>& counts = report_counts[kind];
+    const bool is_told_apart = counts.contains(sentence) || counts.size() < kMostSentences;
+    const std::int64_t count = ++counts[is_told_apart ? sentence : ""];
     if (!options.report || !std::has_single_bit(static_cast<std::uint64_t>(count))) return;
-    options.report(LogLevel::warning, count == 1 ? sentence : fmt::format("{} ({} times so far)", sentence, count));
+    const char* what = is_told_apart ? "times" : "others like it";
+    options.report(LogLevel::warning, count == 1 ? sentence : fmt::format("{} ({} {} so far)", sentence, count, what));
   }
 
   /// The message, or nothing after counting why not.
@@ -149,8 +155,7 @@ struct Bus::State {
     const wire::Channel* channel = wire::find_channel(datagram.channel);
     if (!channel) {
       ++counters.foreign;
-      report("channel " + datagram.channel,
-             fmt::format("a message on the unknown channel {} dropped", datagram.channel));
+      report("channel", fmt::format("a message on the unknown channel {} dropped", datagram.channel));
       return std::nullopt;
     }
     if (wire::fingerprint_of(datagram.bytes) != channel->fingerprint) {
@@ -169,7 +174,7 @@ struct Bus::State {
     }
     if (!options.accept_any_run && blanked->header.run_id != options.run_id) {
       ++counters.foreign;
-      report("run " + blanked->header.run_id,
+      report("run " + datagram.channel,
              fmt::format("a message on {} of run \"{}\" from {} dropped: this is run \"{}\"", datagram.channel,
                          blanked->header.run_id, blanked->header.node, options.run_id));
       return std::nullopt;

@@ -82,6 +82,36 @@ TEST(Bus, ForeignDamagedAndInvalidMessagesAreCountedNamedOnceAndDropped) {
   EXPECT_THAT(memory.reports, testing::Contains(HasSubstr("specimen")));
 }
 
+TEST(Bus, EveryReasonAndSenderOfARefusedMessageIsNamed) {
+  MemoryBus memory;
+  const auto send = [&](const std::string& node, const std::string& payload) {
+    memory.bus->publish_raw("REVIEW", wire::stamp_header("REVIEW", payload, {1, node, 2, 3, "run-1"}));
+  };
+  review_t negative{};
+  negative.specimen = "S-1";
+  negative.revision = -1;
+  for (int i = 0; i < 3; ++i) send("a", review("").payload);
+  send("b", review("").payload);
+  send("a", wire::encode(negative));
+  EXPECT_TRUE(memory.receive_all().empty());
+  ASSERT_EQ(memory.reports.size(), 4u);
+  EXPECT_THAT(memory.reports[0], HasSubstr("from a dropped"));
+  EXPECT_THAT(memory.reports[1], HasSubstr("2 times so far"));
+  EXPECT_THAT(memory.reports[2], HasSubstr("from b dropped"));
+  EXPECT_THAT(memory.reports[3], HasSubstr("revision"));
+}
+
+TEST(Bus, AFloodOfDifferentProblemsFillsNoLogAndHidesNoOtherKind) {
+  MemoryBus memory;
+  for (int i = 0; i < 5000; ++i) memory.bus->publish_raw("CHANNEL_" + std::to_string(i), "bytes");
+  EXPECT_TRUE(memory.receive_all().empty());
+  EXPECT_LT(memory.reports.size(), 120u);
+  EXPECT_THAT(memory.reports.back(), HasSubstr("others like it so far"));
+  memory.bus->publish_raw("REVIEW", wire::stamp_header("REVIEW", review("").payload, {1, "b", 2, 3, "run-1"}));
+  EXPECT_TRUE(memory.receive_all().empty());
+  EXPECT_THAT(memory.reports.back(), HasSubstr("a message on REVIEW from b dropped"));
+}
+
 TEST(Bus, AMessageThatIsTooLongIsNotSent) {
   MemoryBus memory;
   EXPECT_FALSE(memory.bus->publish({"REVIEW", std::string(60'001, 'x')}));
