@@ -172,6 +172,9 @@ struct Bus::State {
              fmt::format("a message on {} dropped: {}", datagram.channel, blanked.error().message));
       return std::nullopt;
     }
+    // Whatever is dropped below has arrived: it is not lost.
+    sequences.count(datagram.channel, blanked->header);
+    counters.lost = sequences.lost();
     if (!options.accept_any_run && blanked->header.run_id != options.run_id) {
       ++counters.foreign;
       report("run " + datagram.channel,
@@ -179,8 +182,6 @@ struct Bus::State {
                          blanked->header.run_id, blanked->header.node, options.run_id));
       return std::nullopt;
     }
-    sequences.count(datagram.channel, blanked->header);
-    counters.lost = sequences.lost();
     if (const Result<void> sound = channel->validate(blanked->payload); !sound) {
       ++counters.invalid;
       report("invalid " + datagram.channel, fmt::format("a message on {} from {} dropped: {}", datagram.channel,

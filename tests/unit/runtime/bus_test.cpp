@@ -101,6 +101,17 @@ TEST(Bus, EveryReasonAndSenderOfARefusedMessageIsNamed) {
   EXPECT_THAT(memory.reports[3], HasSubstr("revision"));
 }
 
+TEST(Bus, WhatIsDroppedForItsRunIsNotLost) {
+  MemoryBus memory;
+  for (const std::int64_t seq : {1, 2, 3, 4}) {
+    const std::string run = seq % 2 == 0 ? "run-2" : "run-1";
+    memory.bus->publish_raw("REVIEW", wire::stamp_header("REVIEW", review("S-1").payload, {1, "b", 2, seq, run}));
+  }
+  EXPECT_EQ(memory.receive_all().size(), 2u);
+  EXPECT_EQ(memory.bus->counters().foreign, 2);
+  EXPECT_EQ(memory.bus->counters().lost, 0);
+}
+
 TEST(Bus, AFloodOfDifferentProblemsFillsNoLogAndHidesNoOtherKind) {
   MemoryBus memory;
   for (int i = 0; i < 5000; ++i) memory.bus->publish_raw("CHANNEL_" + std::to_string(i), "bytes");
