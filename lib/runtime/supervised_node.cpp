@@ -136,14 +136,16 @@ std::string SupervisedNode::take_end(const ProcessEnd& end, Clock::time_point no
 
 /// After a death, or a start that did not succeed.
 std::string SupervisedNode::restart_or_fail(const std::string& how, Clock::time_point now) {
-  if (!budget_.take(now)) {
+  const std::optional<Clock::duration> wait = budget_.take(now);
+  if (!wait) {
     state_ = State::failed;
     return fmt::format("{} died too often ({}){}; it is not started again; all it printed: {}", name(), how,
                        last_words(), settings_.log_file.string());
   }
   state_ = State::restarting;
-  restart_at_ = now + budget_.delay();
-  return fmt::format("{} died ({}){}; it is started again", name(), how, last_words());
+  restart_at_ = now + *wait;
+  return fmt::format("{} died ({}){}; it is started again in {:g} s", name(), how, last_words(),
+                     std::chrono::duration<double>(*wait).count());
 }
 
 std::string SupervisedNode::last_words() const {

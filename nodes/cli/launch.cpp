@@ -117,6 +117,15 @@ void add_launch(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 65535));
   command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: beside nacre");
   add_seed(command, options->seed, "Seed instead of the scenario's");
+  command
+      .add_option_function<double>(
+          "--restart-s",
+          [options](double wait_s) {
+            options->restarts.first_wait =
+                std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(wait_s));
+          },
+          "Seconds until a node that died is started again, the first time in a row; default: 0.5")
+      ->check(CLI::Range(0.001, 30.0));
   command.add_option("--elsewhere", options->elsewhere,
                      "Node that another machine starts (hosts = \"lan\"); repeatable");
   command.add_option("--only", options->only,

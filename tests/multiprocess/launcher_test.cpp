@@ -90,12 +90,14 @@ TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
   misbehave("analyser:crash=2");
   const Outcome outcome = run_nacre(arguments());
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("analyser died (killed by SIGABRT"), HasSubstr("analyser started again")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("analyser died (killed by SIGABRT"), HasSubstr("it is started again in 0.5 s"),
+                    HasSubstr("it is started again in 1 s"), HasSubstr("analyser started again")));
 }
 
 TEST_F(Launcher, NodeThatDiesTooOftenEndsTheRunWithItsName) {
   misbehave("analyser:crash=1000");
-  const Outcome outcome = run_nacre(arguments());
+  const Outcome outcome = run_nacre(arguments({scenario(), "--run", "game", "--restart-s", "0.01"}));
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("analyser died too often"), HasSubstr("--resume")));
 }
@@ -111,7 +113,7 @@ TEST_F(Launcher, NodeThatRefusesItsInputIsNotStartedAgain) {
 TEST_F(Launcher, ProgramThatVanishesEndsTheRunInOrder) {
   misbehave("validation_agent:endless");
   std::string said;
-  const auto process = start();
+  const auto process = start({scenario(), "--run", "game", "--restart-s", "0.01"});
   ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
   const std::vector<int> analyser = processes_with("nacre_analyser --run-dir " + run().string());
   ASSERT_EQ(analyser.size(), 1U);
@@ -126,7 +128,7 @@ TEST_F(Launcher, ProgramThatVanishesEndsTheRunInOrder) {
 TEST_F(Launcher, RecorderThatDiesTooOftenDoesNotEndTheGame) {
   misbehave("validation_agent:endless");
   std::string said;
-  const auto process = start();
+  const auto process = start({scenario(), "--run", "game", "--restart-s", "0.01"});
   ASSERT_TRUE(wait_until_said(*process, "the game begins", said)) << said;
   const auto recorder = [&] { return processes_with("record --log " + run().string()); };
   while (said.find("recorder died too often") == std::string::npos) {

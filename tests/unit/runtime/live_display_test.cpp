@@ -111,14 +111,35 @@ TEST(LiveDisplay, FilesGetANodesLineAtMostEveryTenSeconds) {
   EXPECT_EQ(screen.taken(), "") << "nothing changed";
 }
 
-TEST(RestartBudget, AllowsSoManyDeathsPerWindowAndForgetsOldOnes) {
-  RestartBudget budget({.most = 2, .window = seconds(60), .delay = seconds(1)});
-  const RestartBudget::Clock::time_point start{};
-  EXPECT_TRUE(budget.take(start));
-  EXPECT_TRUE(budget.take(start + seconds(10)));
-  EXPECT_FALSE(budget.take(start + seconds(59)));
-  EXPECT_TRUE(budget.take(start + seconds(60))) << "the first one is a minute old";
-  EXPECT_FALSE(budget.take(start + seconds(61)));
+TEST(RestartBudget, WaitsTwiceAsLongEachTime) {
+  RestartBudget budget({.most = 5, .first_wait = seconds(1), .longest_wait = seconds(6), .settled_after = seconds(60)});
+  RestartBudget::Clock::time_point now{};
+  for (const int wait_s : {1, 2, 4, 6, 6}) {
+    const auto wait = budget.take(now);
+    ASSERT_TRUE(wait);
+    EXPECT_EQ(*wait, seconds(wait_s));
+    now += *wait;
+  }
+  EXPECT_FALSE(budget.take(now));
+}
+
+TEST(RestartBudget, OutlastsADiskThatIsFullForAMinuteAndGivesUpWithinThree) {
+  RestartBudget budget({});
+  const RestartBudget::Clock::time_point first_death{};
+  RestartBudget::Clock::time_point now = first_death;
+  while (const auto wait = budget.take(now)) now += *wait;
+  EXPECT_GT(now - first_death, seconds(75));
+  EXPECT_LT(now - first_death, seconds(180));
+}
+
+TEST(RestartBudget, ANodeThatHasLivedForAWhileHasANewOne) {
+  RestartBudget budget(
+      {.most = 2, .first_wait = seconds(1), .longest_wait = seconds(30), .settled_after = seconds(60)});
+  RestartBudget::Clock::time_point now{};
+  for (int death = 0; death < 10; ++death, now += seconds(61)) EXPECT_EQ(budget.take(now), seconds(1)) << death;
+  now -= seconds(30);  // it lived half as long
+  EXPECT_EQ(budget.take(now), seconds(2));
+  EXPECT_FALSE(budget.take(now + seconds(2)));
 }
 
 }  // namespace

@@ -21,11 +21,10 @@ class MortalNode : public testing::Test {
  protected:
   void SetUp() override {
     write_program();
-    node_ = std::make_unique<SupervisedNode>(
-        SupervisedNode::Settings{.name = "node",
-                                 .command = {program_.string()},
-                                 .log_file = folder_.path() / "output.log",
-                                 .restarts = {.most = 3, .window = std::chrono::hours(1), .delay = {}}});
+    node_ = std::make_unique<SupervisedNode>(SupervisedNode::Settings{.name = "node",
+                                                                      .command = {program_.string()},
+                                                                      .log_file = folder_.path() / "output.log",
+                                                                      .restarts = {.most = 3, .first_wait = {}}});
     node_->start();
   }
   void write_program() const {
