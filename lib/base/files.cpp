@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/no_space.hpp"
 #include "base/result.hpp"
 
 namespace nacre {
@@ -71,7 +72,7 @@ std::string shell_word(const std::filesystem::path& path) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
-  if (problem) throw InputError::format("{}: cannot be made: {}", folder.string(), problem.message());
+  if (problem) refuse_write(fmt::format("{}: cannot be made: {}", folder.string(), problem.message()), problem.value());
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
@@ -80,7 +81,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   const std::filesystem::path aside = fmt::format("{}.{}-{}.part", path.string(), ::getpid(), ++files);
   const auto give_up = [&](int reason) {
     ::unlink(aside.c_str());
-    throw InputError::format("{}: cannot be written: {}", path.string(), std::strerror(reason));
+    refuse_write(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)), reason);
   };
   {
     const Descriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};

@@ -19,11 +19,12 @@ std::filesystem::path without_last_slash(const std::filesystem::path& path);
 /// The path as a word of a shell command: in single quotes where it needs them.
 std::string shell_word(const std::filesystem::path& path);
 
-/// Makes a folder and those above it; one that exists already is fine. Throws InputError naming it and the reason.
+/// Makes a folder and those above it; one that exists already is fine. Throws InputError naming it and the reason,
+/// NoSpace where that is a full disk.
 void make_folder(const std::filesystem::path& folder);
 
 /// Writes aside, syncs to disk, renames: a reader sees the old or the new content, never a part, and a full disk loses
-/// nothing. Throws InputError naming the file and the system's reason.
+/// nothing. Throws InputError naming the file and the system's reason, NoSpace where that is a full disk.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace nacre

@@ -10,7 +10,9 @@
 #include <fstream>
 #include <utility>
 
+#include "base/files.hpp"
 #include "base/hash.hpp"
+#include "base/no_space.hpp"
 #include "runtime/log_file.hpp"
 
 namespace nacre::runtime {
@@ -32,7 +34,10 @@ constexpr std::size_t kHashSize = 32;
 int lock_folder(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "lock";
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (fd < 0) throw InputError::format("{}: cannot be opened: {}", path.string(), std::strerror(errno));
+  if (fd < 0) {
+    const int reason = errno;
+    refuse_write(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(reason)), reason);
+  }
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
     char owner[32] = {};
     const ssize_t length = ::read(fd, owner, sizeof owner - 1);
@@ -125,9 +130,7 @@ std::string boot_of_machine() {
 
 std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std::int64_t now_utime,
                                        const std::string& boot) {
-  std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
-  if (problem) throw InputError::format("{}: cannot be created: {}", folder.string(), problem.message());
+  make_folder(folder);
   std::unique_ptr<Journal> journal(new Journal());
   journal->lock_fd_ = lock_folder(folder);
   journal->path_ = folder / "journal.lcm";
@@ -136,15 +139,17 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   journal->identity_ = found.identity;
   journal->writer_ = std::make_unique<LogWriter>(journal->path_, found.records);
   journal->bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(journal->path_));
+  const auto expect_written = [&](const Result<void>& written) {
+    if (!written) refuse_write(written.error().message, journal->writer_->reason());
+  };
   // What the process before wrote may not be on disk yet, and this one will call it known.
-  if (const auto on_disk = journal->writer_->sync(); !on_disk) throw InputError(on_disk.error().message);
+  expect_written(journal->writer_->sync());
   if (journal->identity_ == 0 || !journal->warning_.empty() || found.boot != boot) {
     // What a torn tail held may have been acknowledged (a disk that lies, a machine that failed): begin a new identity.
     // So may what a machine lost that went down: most records are not on disk when they are acknowledged, and the rest
     // may end with a whole one.
     journal->identity_ = now_utime;
-    const auto written = journal->append(now_utime, kJournalChannel, pack({std::to_string(now_utime), boot}), true);
-    if (!written) throw InputError(written.error().message);
+    expect_written(journal->append(now_utime, kJournalChannel, pack({std::to_string(now_utime), boot}), true));
     sync_folder(folder);
   }
   return journal;

@@ -35,7 +35,8 @@ std::string boot_of_machine();
 /// A node's journal, opened for going on: locked against a second process, torn tail cut off.
 class Journal {
  public:
-  /// Opens FOLDER/journal.lcm. Throws InputError: locked by another process, damaged in the middle, not writable.
+  /// Opens FOLDER/journal.lcm. Throws InputError: locked by another process, damaged in the middle, not writable;
+  /// NoSpace on a full disk.
   /// `boot`: since when what is written is in the machine's memory at least.
   static std::unique_ptr<Journal> open(const std::filesystem::path& folder, std::int64_t now_utime,
                                        const std::string& boot = boot_of_machine());

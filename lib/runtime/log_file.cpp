@@ -11,6 +11,8 @@
 
 #include <lcm/lcm.h>
 
+#include "base/no_space.hpp"
+
 namespace nacre::runtime {
 namespace {
 
@@ -116,19 +118,21 @@ LogEnd LogReader::end() const { return {state_->position, state_->size() - state
 struct LogWriter::State {
   std::filesystem::path path;
   lcm_eventlog_t* log = nullptr;
-  bool broken = false;
+  int reason = 0;  ///< why it broke
 
-  Result<void> broke(int reason) {
-    broken = true;
-    return fail("{}: cannot be written: {}", path.string(), std::strerror(reason));
+  Result<void> broke(int why) {
+    reason = why;
+    return fail("{}: cannot be written: {}", path.string(), std::strerror(why));
   }
 };
 
 LogWriter::LogWriter(const std::filesystem::path& path, std::int64_t next_number) : state_(std::make_unique<State>()) {
   state_->path = path;
   state_->log = lcm_eventlog_create(path.c_str(), "a");
-  if (!state_->log)
-    throw InputError::format("{}: cannot be opened for writing: {}", path.string(), std::strerror(errno));
+  if (!state_->log) {
+    const int reason = errno;
+    refuse_write(fmt::format("{}: cannot be opened for writing: {}", path.string(), std::strerror(reason)), reason);
+  }
   state_->log->eventcount = next_number;  // the library would start again at 0
 }
 
@@ -137,7 +141,7 @@ LogWriter::~LogWriter() {
 }
 
 Result<void> LogWriter::append(std::int64_t utime, std::string_view channel, std::string_view data) {
-  if (state_->broken) return fail("{}: not written after an earlier failure", state_->path.string());
+  if (state_->reason != 0) return fail("{}: not written after an earlier failure", state_->path.string());
   std::string name(channel);
   lcm_eventlog_event_t event{};
   event.timestamp = utime;
@@ -153,6 +157,8 @@ Result<void> LogWriter::flush() {
   if (std::fflush(state_->log->f) != 0) return state_->broke(errno);
   return {};
 }
+
+int LogWriter::reason() const { return state_->reason; }
 
 Result<void> LogWriter::sync() {
   const Result<void> flushed = flush();

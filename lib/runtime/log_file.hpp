@@ -48,7 +48,7 @@ class LogReader {
 /// Writes an LCM log.
 class LogWriter {
  public:
-  /// Appends to `path` (created when absent), numbering from `next_number`. Throws InputError.
+  /// Appends to `path` (created when absent), numbering from `next_number`. Throws InputError, NoSpace on a full disk.
   LogWriter(const std::filesystem::path& path, std::int64_t next_number = 0);
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
@@ -60,6 +60,8 @@ class LogWriter {
   Result<void> flush();
   /// Waits until the disk has it: it survives the machine.
   Result<void> sync();
+  /// The errno of what failed; 0 when nothing has.
+  int reason() const;
 
  private:
   struct State;

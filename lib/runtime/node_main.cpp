@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/files.hpp"
+#include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_shell.hpp"
@@ -47,6 +48,9 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
     NodeProgram program = make(options, scenario);
     if (options.threads == 0) options.threads = program.default_threads;
     return run_node(std::move(options), std::move(program.core), std::move(program.work), program.executor);
+  } catch (const NoSpace& problem) {  // a death like any other: there may be room at the next start
+    std::cerr << node << ": " << problem.what() << '\n';
+    return 1;
   } catch (const InputError& problem) {
     std::cerr << node << ": " << problem.what() << '\n';
     return 2;

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/fold.hpp"
@@ -389,6 +390,9 @@ int run_node(NodeOptions options, std::unique_ptr<NodeCore> core, std::map<std::
       log.write(LogLevel::info, fmt::format("{} of run {} listens", options.node, options.run_id));
       shell.run();
       log.write(LogLevel::info, "stopped in order");
+    } catch (const NoSpace& problem) {
+      log.write(LogLevel::error, problem.what());
+      status = 1;
     } catch (const InputError& problem) {
       log.write(LogLevel::error, problem.what());
       status = 2;

@@ -42,7 +42,7 @@ struct NodeOptions {
 void turn_write_signals_into_errors();
 
 /// Runs the node until SIGINT or SIGTERM. Journal and text log stand in RUN_DIR/nodes/NODE. Returns the exit status: 0
-/// stopped in order, 1 something failed while running (disk full, an output that breaks the rules), 2 bad input
+/// stopped in order, 1 something failed that may pass (disk full, an output that breaks the rules), 2 bad input
 /// (journal damaged or in use, a core that no longer reproduces its journal, no multicast). The sentence goes to
 /// standard error and the text log. Long work is done by `executor`, which is made once the journal is locked, so that
 /// a second process of the node is refused before it has one; without it, by `work` on threads of this process.
@@ -58,7 +58,8 @@ struct NodeProgram {
 };
 using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scenario&)>;
 
-/// A node's whole main: command line, scenario, core, run_node. InputError becomes a sentence and exit status 2.
+/// A node's whole main: command line, scenario, core, run_node. InputError becomes a sentence and exit status 2, a
+/// full disk one and 1.
 /// `add_options` may add options of the node's own.
 int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
               const std::function<void(CLI::App&)>& add_options = {});

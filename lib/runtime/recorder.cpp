@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/no_space.hpp"
 #include "runtime/log_file.hpp"
 #include "runtime/sequence.hpp"
 
@@ -123,6 +124,9 @@ int run_recorder(const RecorderOptions& options, const std::function<bool()>& is
     say(LogLevel::info,
         fmt::format("recorded {} messages, {} bytes, {} lost", counters.messages, counters.bytes, counters.lost));
     return 0;
+  } catch (const NoSpace& problem) {
+    say(LogLevel::error, problem.what());
+    return 1;
   } catch (const InputError& problem) {
     say(LogLevel::error, problem.what());
     return 2;

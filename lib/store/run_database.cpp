@@ -1,11 +1,13 @@
 #include "store/run_database.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
 
 #include <set>
 #include <string>
 #include <vector>
 
+#include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "store/database_care.hpp"
 #include "store/run_schema.hpp"
@@ -18,6 +20,15 @@ namespace {
   throw InputError::format(
       "{} cannot be used: {}. It is made from the analyser's journal: `nacre rebuild` makes it anew", path.string(),
       reason);
+}
+
+/// SQLite calls it an I/O error where the -shm file beside the database finds no room.
+[[noreturn]] void refuse(const std::filesystem::path& path, const SQLite::Exception& error) {
+  constexpr int kPrimary = 0xff;  // of a code that may be extended
+  const int code = error.getErrorCode() & kPrimary;
+  if (code != SQLITE_FULL && code != SQLITE_IOERR) refuse(path, std::string(error.what()));
+  throw NoSpace(fmt::format("{} cannot be written: {}. Make room on its disk; the analyser's journal holds all of it",
+                            path.string(), error.what()));
 }
 
 /// Binds values in order and runs the statement.
@@ -267,7 +278,7 @@ RunDatabase::RunDatabase(const std::filesystem::path& path) : path_(path) {
     database_->exec(kFamilySchema);
     database_->exec(fmt::format(kCrackSchema, "family_crack", "number"));
   } catch (const SQLite::Exception& error) {
-    refuse(path_, error.what());
+    refuse(path_, error);
   }
 }
 
@@ -280,7 +291,7 @@ void RunDatabase::project(const std::string& channel, const std::string& payload
     keep_payload(*database_, channel, payload);
     transaction.commit();
   } catch (const SQLite::Exception& error) {
-    refuse(path_, error.what());
+    refuse(path_, error);
   }
 }
 
@@ -289,7 +300,7 @@ void RunDatabase::checkpoint() {
   try {
     database_->exec("PRAGMA wal_checkpoint(TRUNCATE)");
   } catch (const SQLite::Exception& error) {
-    refuse(path_, error.what());
+    refuse(path_, error);
   }
 }
 

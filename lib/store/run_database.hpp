@@ -15,7 +15,8 @@ namespace nacre::store {
 
 class RunDatabase {
  public:
-  /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it.
+  /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it; here and
+  /// below NoSpace on a full disk.
   explicit RunDatabase(const std::filesystem::path& path);
   ~RunDatabase();
 

@@ -32,11 +32,7 @@ std::optional<std::string> read_if_there(const fs::path& path) {
 
 }  // namespace
 
-Spool::Spool(fs::path folder) : folder_(std::move(folder)) {
-  std::error_code problem;
-  fs::create_directories(folder_, problem);
-  if (problem) throw InputError::format("{}: cannot be made: {}", folder_.string(), problem.message());
-}
+Spool::Spool(fs::path folder) : folder_(std::move(folder)) { make_folder(folder_); }
 
 void Spool::put(const std::string& batch, const std::string& bytes) const {
   if (!fs::exists(question(batch))) write_file_atomically(question(batch), bytes);

@@ -8,9 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "analyser/run_tables.hpp"
+#include "base/files.hpp"
+#include "game/scenario.hpp"
 #include "played_game.hpp"
+#include "processes.hpp"
 #include "program_test.hpp"
 #include "runtime/run_copy.hpp"
+#include "runtime/run_folder.hpp"
 #include "short_game.hpp"
 #include "store/database_care.hpp"
 #include "store/run_schema.hpp"
@@ -18,6 +22,8 @@
 
 namespace nacre {
 namespace {
+
+using testing::AnyOf;
 
 constexpr double kPatienceS = 240.0;
 /// The whole content of a database as SQL.
@@ -160,6 +166,31 @@ TEST_F(Durability, AWholeDatabaseIsLeftAlone) {
   }
   EXPECT_TRUE(is_silent);
   EXPECT_EQ(fs::last_write_time(copy_ / "run.db"), written);
+}
+
+// Exit status 1: the launcher starts it again, and by then there may be room.
+TEST(FullDisk, AtTheirFirstStartNoNodeTakesItForBadInput) {
+  const fs::path folder = fresh_folder("full_disk"), disk = folder / "disk", errors = folder / "errors";
+  fs::create_directories(disk);
+  if (!test::isolated() ||
+      test::Process({"mount", "-t", "tmpfs", "-o", "size=512k", "nacre-test", disk.string()}, errors).wait(5) != 0)
+    GTEST_SKIP() << "no file system can be mounted here";
+  std::ofstream(folder / "full.toml") << short_game("full", 1);
+  const fs::path run =
+      runtime::RunFolder::create(disk / "logs", "game", game::read_scenario(folder / "full.toml")).path();
+  std::ofstream ballast(disk / "ballast");
+  while (ballast << std::string(4096, 'x') << std::flush) continue;
+  for (const std::string& node : kGameNodes) {
+    test::Process process(
+        {program("nacre_" + node), "--run-dir", run.string(), "--port", std::to_string(test::test_port())},
+        folder / node);
+    EXPECT_EQ(process.wait(20.0), 1) << node;
+    EXPECT_THAT(read_file(folder / node), AnyOf(HasSubstr("No space left on device"), HasSubstr("disk is full"),
+                                                HasSubstr("Make room on its disk")))
+        << node;
+  }
+  ballast.close();
+  EXPECT_EQ(test::Process({"umount", disk.string()}, errors).wait(5), 0);
 }
 
 }  // namespace

@@ -376,6 +376,26 @@ TEST(Shell, AFullFileSystemStopsTheNodeAndItResumesWhenThereIsRoom) {
   EXPECT_EQ(Process({"umount", where}, problems).wait(5), 0);
 }
 
+TEST(Shell, AFileSystemThatIsFullAtTheFirstStartIsNoBadInput) {
+  const TemporaryFolder folder;
+  const auto problems = folder.path() / "mount.err";
+  EchoGame game;
+  const std::string where = game.node_dir("proposal_agent");
+  std::filesystem::create_directories(where);
+  if (!test::isolated() ||
+      Process({"mount", "-t", "tmpfs", "-o", "size=1m", "nacre-test", where}, problems).wait(5) != 0)
+    GTEST_SKIP() << "no file system can be mounted here";
+  std::ofstream(where + "/ballast") << std::string(1 << 20, 'x');
+  game.start("proposal_agent");
+  EXPECT_EQ(game.process("proposal_agent").wait(5), 1);
+  EXPECT_THAT(game.errors("proposal_agent"), HasSubstr("No space left on device"));
+  std::filesystem::remove(where + "/ballast");
+  game.start("proposal_agent");
+  EXPECT_TRUE(game.watch(10, [&] { return game.status("proposal_agent").ready != 0; }));
+  game.kill("proposal_agent");
+  EXPECT_EQ(Process({"umount", where}, problems).wait(5), 0);
+}
+
 TEST(Shell, DamageInTheMiddleOfTheJournalIsRefusedWithItsPlace) {
   EchoGame game;
   game.start_all();
