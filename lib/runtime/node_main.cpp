@@ -9,14 +9,27 @@
 #include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_shell.hpp"
+#include "runtime/run_folder.hpp"
 #include "runtime/version.hpp"
 
 namespace nacre::runtime {
+namespace {
+
+/// A folder that a mistyped name would make, and a run that nobody else plays, would be waited in for ever.
+void expect_run(NodeOptions& options) {
+  const std::string run_id = read_manifest(options.run_dir).run_id;
+  if (options.run_id.empty()) options.run_id = run_id;
+  if (options.run_id == run_id) return;
+  throw InputError::format("--run-id {}: expected {}, which {} names", options.run_id, run_id,
+                           (options.run_dir / "manifest.json").string());
+}
+
+}  // namespace
 
 void add_node_options(CLI::App& app, NodeOptions& options) {
   app.add_option("--run-dir", options.run_dir, "folder of the run, logs/RUN")->required();
   app.add_option("--scenario", options.scenario_file, "scenario (default: scenario.toml of the run)");
-  app.add_option("--run-id", options.run_id, "name of the run (default: name of its folder)");
+  app.add_option("--run-id", options.run_id, "name of the run, as its manifest says");
   app.add_option("--port", options.port, "UDP port of the run's bus")->required()->check(CLI::Range(1, 65535));
   app.add_option("--threads", options.threads, "threads for long work")->check(CLI::Range(0, 4096));
   app.add_option("--epoch", options.epoch, "start of this process in microseconds since 1970 (default: now)");
@@ -41,6 +54,7 @@ int node_main(int argc, char** argv, const std::string& node, const MakeNode& ma
   }
   try {
     options.run_dir = without_last_slash(std::filesystem::absolute(options.run_dir).lexically_normal());
+    expect_run(options);
     if (options.scenario_file.empty()) options.scenario_file = options.run_dir / "scenario.toml";
     const game::Scenario scenario = game::read_scenario(options.scenario_file);
     options.participants = scenario.nodes();

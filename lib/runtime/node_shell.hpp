@@ -26,7 +26,7 @@ struct NodeOptions {
   std::string node;                     ///< name of the node, e.g. validation_agent
   std::filesystem::path run_dir;        ///< --run-dir: logs/RUN
   std::filesystem::path scenario_file;  ///< --scenario; default RUN_DIR/scenario.toml
-  std::string run_id;                   ///< --run-id; default the last part of run_dir
+  std::string run_id;                   ///< --run-id; default the manifest's, without one the last part of run_dir
   int port = 0;                         ///< --port of the run's bus
   int threads = 0;                      ///< --threads for long work; 0 all allowed cores
   std::int64_t epoch = 0;               ///< --epoch; 0: now
@@ -58,9 +58,8 @@ struct NodeProgram {
 };
 using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scenario&)>;
 
-/// A node's whole main: command line, scenario, core, run_node. InputError becomes a sentence and exit status 2, a
-/// full disk one and 1.
-/// `add_options` may add options of the node's own.
+/// A node's whole main: command line, the run's folder, scenario, core, run_node. InputError becomes a sentence and
+/// exit status 2, a full disk one and 1. `add_options` may add options of the node's own.
 int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
               const std::function<void(CLI::App&)>& add_options = {});
 

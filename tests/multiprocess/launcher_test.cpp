@@ -110,6 +110,22 @@ TEST_F(Launcher, NodeThatRefusesItsInputIsNotStartedAgain) {
               AllOf(HasSubstr("proposal_agent cannot work (exit status 2)"), Not(HasSubstr("started again"))));
 }
 
+TEST_F(Launcher, ANodeIsNotStartedInAFolderThatIsNoRunNorForAnotherRun) {
+  ASSERT_EQ(run_nacre(arguments()).status, 0);
+  const auto start_node = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), (folder_ / "bin" / "nacre_analyser").string());
+    options.insert(options.end(), {"--port", "7799"});
+    runtime::ChildProcess node(options);
+    std::string said;
+    EXPECT_EQ(wait_for_end(node, said, 10.0).exit_status, 2) << said;
+    return said;
+  };
+  const std::string mistyped = (logs() / "gane").string();
+  EXPECT_THAT(start_node({"--run-dir", mistyped}), AllOf(HasSubstr(mistyped), HasSubstr("expected manifest.json")));
+  EXPECT_FALSE(fs::exists(mistyped));
+  EXPECT_THAT(start_node({"--run-dir", run().string(), "--run-id", "gane"}), HasSubstr("--run-id gane: expected game"));
+}
+
 TEST_F(Launcher, ProgramThatVanishesEndsTheRunInOrder) {
   misbehave("validation_agent:endless");
   std::string said;

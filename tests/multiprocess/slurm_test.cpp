@@ -12,11 +12,13 @@
 #include <fmt/format.h>
 
 #include "base/files.hpp"
+#include "game/scenario.hpp"
 #include "loopback_slurm.hpp"
 #include "material/parameters.hpp"
 #include "played_game.hpp"
 #include "program_test.hpp"
 #include "runtime/journal.hpp"
+#include "runtime/run_folder.hpp"
 #include "short_game.hpp"
 #include "simulator_farm/question.hpp"
 #include "simulator_farm/simulate_work.hpp"
@@ -308,8 +310,9 @@ TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
 class NodeProgramTest : public testing::Test {
  protected:
   void SetUp() override {
-    run_ = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::ofstream(run_ / "scenario.toml") << short_game("node", 1);
+    const fs::path folder = fresh_folder(testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::ofstream(folder / "node.toml") << short_game("node", 1);
+    run_ = runtime::RunFolder::create(folder, "run", game::read_scenario(folder / "node.toml")).path();
     fs::create_directories(run_ / "bin");
     std::ofstream(run_ / "bin" / "sbatch") << "#!/bin/sh\nexit 0\n";
     fs::permissions(run_ / "bin" / "sbatch", fs::perms::owner_all);
