@@ -36,7 +36,8 @@ using State = SupervisedNode::State;
 
 RunFolder prepare_folder(const LaunchOptions& options, const std::optional<game::Scenario>& scenario) {
   if (!options.only.empty()) return RunFolder::visit(options.resume);
-  return scenario ? RunFolder::create(options.logs, options.run_name, *scenario) : RunFolder::resume(options.resume);
+  return scenario ? RunFolder::create(options.logs.value_or("logs"), options.run_name, *scenario)
+                  : RunFolder::resume(options.resume);
 }
 
 /// The scenario of a new run with what the command line replaces; nothing when a run is resumed.

@@ -12,14 +12,14 @@
 namespace nacre::runtime {
 
 struct LaunchOptions {
-  std::filesystem::path scenario;        ///< of a new run; empty when `resume` is given
-  std::filesystem::path resume;          ///< folder of a run to go on with
-  std::string run_name;                  ///< empty: date-time-scenario
-  std::filesystem::path logs = "logs";   ///< where runs are kept
-  std::optional<int> port;               ///< instead of the scenario's
-  std::optional<std::uint64_t> seed;     ///< instead of the scenario's
-  std::filesystem::path program_folder;  ///< of nacre_NODE; empty: beside this program
-  std::filesystem::path nacre;           ///< program whose `record` is the recorder; empty: this program
+  std::filesystem::path scenario;             ///< of a new run; empty when `resume` is given
+  std::filesystem::path resume;               ///< folder of a run to go on with
+  std::string run_name;                       ///< empty: date-time-scenario
+  std::optional<std::filesystem::path> logs;  ///< where a new run is kept; default logs
+  std::optional<int> port;                    ///< instead of the scenario's
+  std::optional<std::uint64_t> seed;          ///< instead of the scenario's
+  std::filesystem::path program_folder;       ///< of nacre_NODE; empty: beside this program
+  std::filesystem::path nacre;                ///< program whose `record` is the recorder; empty: this program
   RestartBudget::Settings restarts;
   std::vector<std::string> elsewhere;  ///< nodes of the run that another machine starts (hosts = "lan")
   std::vector<std::string> only;       ///< take part with these nodes in a run that another machine has launched

@@ -67,6 +67,9 @@ int play(const runtime::LaunchOptions& options) {
   if (!options.resume.empty() && !options.run_name.empty()) {
     throw InputError("nacre launch: --run names a new run; a resumed one keeps its folder");
   }
+  if (!options.resume.empty() && options.logs) {
+    throw InputError("nacre launch: --logs says where a new run is kept; a resumed one stays in its folder");
+  }
   if (!options.only.empty() && options.resume.empty()) {
     throw InputError("nacre launch: --only takes part in a run: expected --resume RUN, its folder or a copy of it");
   }
@@ -112,7 +115,7 @@ void add_launch(CLI::App& app, Action& action) {
   command.add_option("SCENARIO", options->scenario, "Scenario file (launch/README.md)");
   command.add_option("--resume", options->resume, "Folder of a run to go on with");
   command.add_option("--run", options->run_name, "Name of the run's folder; default: date-time-scenario");
-  command.add_option("--logs", options->logs, "Where runs are kept")->capture_default_str();
+  command.add_option("--logs", options->logs, "Where a new run is kept; default: logs");
   command.add_option("--port", options->port, "UDP port of the run instead of the scenario's; 0: any free one")
       ->check(CLI::Range(0, 65535));
   command.add_option("--programs", options->program_folder, "Folder of the nodes' programs; default: beside nacre");

@@ -142,6 +142,8 @@ TEST_F(CommandLine, WrongUsageIsRefused) {
   expect_refused(run_nacre({"simulte", "--help"}), {"simulte: no such command; is `simulate` meant?"});
   expect_refused(run_nacre({"launch"}), {"SCENARIO"});
   expect_refused(run_nacre({"launch", "--resume", path("game"), "--run", "other"}), {"--run", "keeps its folder"});
+  expect_refused(run_nacre({"launch", "--resume", path("game"), "--logs", path("other")}),
+                 {"--logs", "stays in its folder"});
 }
 
 TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {

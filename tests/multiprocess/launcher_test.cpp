@@ -50,8 +50,9 @@ class Launcher : public testing::Test {
   static void misbehave(const std::string& how) { ::setenv("NACRE_FAKE", how.c_str(), 1); }
 
   std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"launch", "--programs", (folder_ / "bin").string(), "--logs", logs().string()};
+    std::vector<std::string> all = {"launch", "--programs", (folder_ / "bin").string()};
     if (more.empty()) more = {scenario(), "--run", "game"};
+    if (more.front() != "--resume") all.insert(all.end(), {"--logs", logs().string()});
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
