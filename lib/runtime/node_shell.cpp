@@ -18,6 +18,7 @@
 #include "runtime/fold.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/questions.hpp"
+#include "runtime/recent_problem.hpp"
 #include "runtime/reliable.hpp"
 #include "runtime/text_log.hpp"
 #include "runtime/work_pool.hpp"
@@ -172,7 +173,7 @@ class NodeShell {
   }
 
   void problem(LogLevel level, const std::string& text) {
-    last_problem_ = text.substr(0, 500);
+    problem_.note(text, steady_us());
     log_.write(level, text);
   }
 
@@ -326,7 +327,7 @@ class NodeShell {
     message.owed = static_cast<std::int32_t>(inbox_.owed());
     message.journal_bytes = journal_->bytes();
     message.work = executor_->standing();
-    message.last_problem = last_problem_;
+    message.last_problem = problem_.shown(now);
     bus_->publish({"STATUS", wire::encode(message)});
   }
 
@@ -350,7 +351,7 @@ class NodeShell {
   std::unique_ptr<Executor> executor_;
   Questions questions_;
   Eta eta_;
-  std::string last_problem_;
+  RecentProblem problem_;
   bool heard_itself_ = false;
   std::int64_t next_status_ = 0;
   std::int64_t next_tick_ = 0;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "runtime/recent_problem.hpp"
 #include "runtime/restart_budget.hpp"
 #include "runtime/terminal.hpp"
 
@@ -109,6 +110,17 @@ TEST(LiveDisplay, FilesGetANodesLineAtMostEveryTenSeconds) {
   EXPECT_THAT(screen.taken(), AllOf(HasSubstr("60 %"), Not(HasSubstr("\x1b"))));
   display.show({view}, start + seconds(60));
   EXPECT_EQ(screen.taken(), "") << "nothing changed";
+}
+
+TEST(RecentProblem, IsShownForAMinuteAndANewOneForAnother) {
+  constexpr std::int64_t kSecondUs = 1'000'000;
+  RecentProblem problem;
+  EXPECT_EQ(problem.shown(0), "");
+  problem.note("a junk datagram", 5 * kSecondUs);
+  EXPECT_EQ(problem.shown(64 * kSecondUs), "a junk datagram");
+  EXPECT_EQ(problem.shown(65 * kSecondUs), "");
+  problem.note("another one", 70 * kSecondUs);
+  EXPECT_EQ(problem.shown(120 * kSecondUs), "another one");
 }
 
 TEST(RestartBudget, WaitsTwiceAsLongEachTime) {
