@@ -82,8 +82,12 @@ Found read_and_mend(const std::filesystem::path& path) {
   Found found;
   if (!std::filesystem::exists(path)) return found;
   LogReader reader(path);
-  for (; const auto record = reader.next(); ++found.records) {
-    if (record->channel == kJournalChannel) take_identity(path, *record, found);
+  try {
+    for (; const auto record = reader.next(); ++found.records) {
+      if (record->channel == kJournalChannel) take_identity(path, *record, found);
+    }
+  } catch (const InputError& damage) {
+    throw InputError::format("{}. {}", damage.what(), kRemedyForDamage);
   }
   const LogEnd end = reader.end();
   if (end.torn_bytes == 0) return found;

@@ -110,6 +110,8 @@ void expect_programs(const LaunchOptions& options, const game::Scenario& scenari
   }
 }
 
+bool has_failed(const std::unique_ptr<SupervisedNode>& node) { return node && node->state() == State::failed; }
+
 class Launch {
  public:
   Launch(const LaunchOptions& options, RunFolder run, std::unique_ptr<PortReservation> port)
@@ -136,6 +138,7 @@ class Launch {
   bool game_is_over();
   bool guests_part_is_over() const;
   std::string why_it_cannot_go_on() const;
+  bool awaits_mending() const;
   void stop(std::vector<SupervisedNode*> processes);
   void sum_up(bool is_complete);
   std::vector<SupervisedNode*> nodes() const;
@@ -299,14 +302,17 @@ bool Launch::game_is_over() {
 /// A sentence; empty while the game can go on. What the recorder writes is for people: once the game has begun it goes
 /// on without it.
 std::string Launch::why_it_cannot_go_on() const {
-  const auto failed = [](const auto& node) { return node->state() == State::failed; };
   const auto gone = [](const auto& node) { return node->state() == State::stopped || node->runs_elsewhere(); };
-  if (const auto node = std::find_if(nodes_.begin(), nodes_.end(), failed); node != nodes_.end())
+  if (const auto node = std::find_if(nodes_.begin(), nodes_.end(), has_failed); node != nodes_.end())
     return fmt::format("a node has failed for good ({})", (*node)->name());
-  if (!is_announced_ && recorder_ && recorder_->state() == State::failed)
-    return "the recorder has failed for good before the game began";
+  if (!is_announced_ && has_failed(recorder_)) return "the recorder has failed for good before the game began";
   if (std::all_of(nodes_.begin(), nodes_.end(), gone)) return "the nodes started here were all stopped by somebody";
   return "";
+}
+
+/// What ended it would end it again.
+bool Launch::awaits_mending() const {
+  return std::any_of(nodes_.begin(), nodes_.end(), has_failed) || (!is_announced_ && has_failed(recorder_));
 }
 
 /// SIGINT, five seconds, SIGTERM, five seconds, SIGKILL; a further Ctrl-C goes to the next signal at once.
@@ -327,13 +333,16 @@ void Launch::stop(std::vector<SupervisedNode*> processes) {
 }
 
 void Launch::sum_up(bool is_complete) {
-  for (const round_summary_t& round : read_rounds(run_.path())) fmt::print("{}\n", in_words(round));
+  try {
+    for (const round_summary_t& round : read_rounds(run_.path())) fmt::print("{}\n", in_words(round));
+  } catch (const InputError&) {  // a damaged journal, which its node has said
+  }
   const fs::path report = run_.path() / "report.html";
   if (fs::exists(report)) fmt::print("report: {}\n", report.string());
   fmt::print("run: {}\n", run_.path().string());
   if (!is_complete) {
-    fmt::print("the game is not over: `nacre launch --resume {}` goes on with it\n",
-               shell_word(fs::proximate(run_.path())));
+    fmt::print("the game is not over: `nacre launch --resume {}` goes on with it{}\n",
+               shell_word(fs::proximate(run_.path())), awaits_mending() ? ", once the cause above is mended" : "");
   }
   std::fflush(stdout);
 }

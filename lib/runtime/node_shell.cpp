@@ -152,8 +152,9 @@ class NodeShell {
     LogReader reader(journal_->path());
     while (const auto record = reader.next()) {
       if (const Result<void> agreed = fold.feed(*record); !agreed) {
-        throw InputError::format("{}: the journal cannot be resumed: {}", journal_->path().string(),
-                                 agreed.error().message);
+        throw InputError::format(
+            "{}: cannot be resumed: {}. If another version of nacre wrote it, use that one (manifest.json). {}",
+            journal_->path().string(), agreed.error().message, kRemedyForDamage);
       }
     }
     for (Compute& compute : fold.open_work()) executor_->start(std::move(compute));

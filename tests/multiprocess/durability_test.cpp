@@ -57,6 +57,8 @@ class Durability : public testing::Test {
     // A farm with a device keeps a cache of its own.
     store::SimulationCache(folder_ / "logs" / "simulations-cuda.db").insert("key", {});
     backup_ = run_nacre({"backup", "--run", game_->folder().string(), "--to", (folder_ / "backup").string(), "--json"});
+    std::error_code no_backup;  // which the tests say
+    fs::copy_file(journal_of(folder_ / "backup" / "game", "validation_agent"), folder_ / "early.lcm", no_backup);
     game_->play_to_end(kPatienceS);
   }
   static void TearDownTestSuite() { game_.reset(); }
@@ -92,6 +94,17 @@ TEST_F(Durability, ABackupOfAPlayingGamePlaysOnToTheSameEnd) {
   ASSERT_EQ(resumed.status(), 0) << resumed.said();
   EXPECT_THAT(differences(said_in_game(game_->folder()), said_in_game(run)), IsEmpty());
   EXPECT_EQ(content(run / "run.db"), content(game_->folder() / "run.db"));
+}
+
+TEST_F(Durability, AJournalOfABackupTakesThePlaceOfOneThatIsLost) {
+  const fs::path journal = journal_of(copy_, "validation_agent");
+  const auto whole = fs::file_size(journal);
+  fs::copy_file(folder_ / "early.lcm", journal, fs::copy_options::overwrite_existing);
+  ASSERT_LT(fs::file_size(journal), whole);
+  PlayedGame resumed(copy_);
+  ASSERT_TRUE(resumed.play_to_end(kPatienceS)) << resumed.said();
+  ASSERT_EQ(resumed.status(), 0) << resumed.said();
+  EXPECT_THAT(differences(said_in_game(game_->folder()), said_in_game(copy_)), IsEmpty());
 }
 
 TEST_F(Durability, ABackupNeedsANewFolder) {

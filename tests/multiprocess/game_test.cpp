@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/files.hpp"
 #include "base/random.hpp"
 #include "nacre/measurement_t.hpp"
 #include "nacre/parameters_t.hpp"
@@ -168,6 +169,34 @@ TEST_F(Game, EverythingKilledAtOnceIsResumedWithTheSameGame) {
   ASSERT_EQ(game->status(), 0) << game->said();
   expect_undisturbed_course(game->folder());
   expect_replays(game->folder());
+}
+
+/// Turns a byte in the middle of the journal.
+void damage(const fs::path& journal) {
+  std::string bytes = read_file(journal);
+  bytes[bytes.find("\xED\xA1\xDA\x01", bytes.size() / 2)] = 'x';
+  std::ofstream(journal, std::ios::binary) << bytes;
+}
+
+TEST_F(Game, AJournalThatIsDamagedIsMovedAwayAndTheGameIsTheSame) {
+  for (const std::string& node : kGameNodes) {
+    auto game = std::make_unique<PlayedGame>(short_game_, logs(), "damaged_" + node);
+    const fs::path run = game->folder(), journal = journal_of(run, node);
+    const auto half = journal_bytes(undisturbed_run(), node) / 2;
+    ASSERT_TRUE(game->play_until([&] { return journal_bytes(run, node) > half; }, kPatienceS)) << game->said();
+    game->kill_everything();
+    damage(journal);
+    game = std::make_unique<PlayedGame>(run);
+    game->play_to_end(kPatienceS);
+    EXPECT_EQ(game->status(), 1) << node;
+    EXPECT_THAT(game->said(), AllOf(HasSubstr(journal.string() + ": damaged at byte"), HasSubstr("Move it away"),
+                                    HasSubstr("goes on with it, once the cause above is mended")));
+    fs::rename(journal, journal.string() + ".damaged");
+    game = std::make_unique<PlayedGame>(run);
+    ASSERT_TRUE(game->play_to_end(kPatienceS)) << node << game->said();
+    ASSERT_EQ(game->status(), 0) << node << game->said();
+    expect_undisturbed_course(run);
+  }
 }
 
 /// The specimens of a round as the undisturbed game's laboratory measured them.

@@ -108,7 +108,8 @@ TEST_F(Launcher, NodeThatRefusesItsInputIsNotStartedAgain) {
   const Outcome outcome = run_nacre(arguments());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("proposal_agent cannot work (exit status 2)"), Not(HasSubstr("started again"))));
+              AllOf(HasSubstr("proposal_agent cannot work (exit status 2)"), Not(HasSubstr("started again")),
+                    HasSubstr("goes on with it, once the cause above is mended")));
 }
 
 TEST_F(Launcher, ANodeIsNotStartedInAFolderThatIsNoRunNorForAnotherRun) {
@@ -210,7 +211,8 @@ TEST_F(Launcher, InterruptedRunStopsInOrderAndIsResumed) {
     ::kill(process->pid(), SIGINT);
     const runtime::ProcessEnd end = wait_for_end(*process, said, 20.0);
     EXPECT_EQ(end.exit_status, 1) << end.in_words() << said;
-    EXPECT_THAT(said, AllOf(HasSubstr("stopping"), HasSubstr("validation_agent stopped (exit status 0)")));
+    EXPECT_THAT(said, AllOf(HasSubstr("stopping"), HasSubstr("validation_agent stopped (exit status 0)"),
+                            HasSubstr("goes on with it\n")));
     EXPECT_THAT(processes_with(folder_.string()), IsEmpty());
   }
   misbehave("");

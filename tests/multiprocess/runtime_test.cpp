@@ -406,7 +406,12 @@ TEST(Shell, DamageInTheMiddleOfTheJournalIsRefusedWithItsPlace) {
   std::ofstream(game.journal("proposal_agent"), std::ios::binary | std::ios::trunc) << bytes;
   game.start("proposal_agent");
   EXPECT_EQ(game.process("proposal_agent").wait(5), 2);
-  EXPECT_THAT(game.errors("proposal_agent"), HasSubstr("damaged at byte"));
+  const std::string journal = game.journal("proposal_agent").string();
+  EXPECT_THAT(game.errors("proposal_agent"), HasSubstr(journal + ": damaged at byte"));
+  EXPECT_THAT(game.errors("proposal_agent"), HasSubstr("Move it away"));
+  std::filesystem::rename(journal, journal + ".damaged");
+  game.start("proposal_agent");
+  EXPECT_TRUE(game.play()) << "as it says";
 }
 
 TEST(Shell, ASecondProcessOfTheSameNodeIsRefused) {
