@@ -1,8 +1,11 @@
 // nacre echo: messages as they pass, or as they stand in a log, one JSON line each.
 
+#include <chrono>
+#include <filesystem>
 #include <limits>
 #include <string>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "output.hpp"
@@ -90,8 +93,43 @@ std::optional<nlohmann::ordered_json> record_to_json(const runtime::LogRecord& r
   return line;
 }
 
+/// Reads a log and says where it is damaged: what stands behind that is read all the same.
+class ForgivingReader {
+ public:
+  explicit ForgivingReader(const std::string& log) : log_(log), reader_(log) {}
+
+  std::optional<runtime::LogRecord> next() {
+    while (true) {
+      try {
+        auto record = reader_.next();
+        if (!record) warn_of_torn_tail();
+        return record;
+      } catch (const InputError& damage) {
+        warn(damage.what());
+        is_damaged_ = true;
+        reader_.resync();
+      }
+    }
+  }
+  bool is_damaged() const { return is_damaged_; }
+
+ private:
+  void warn_of_torn_tail() const {
+    const runtime::LogEnd end = reader_.end();
+    if (end.torn_bytes == 0) return;
+    warn(fmt::format("{}: ends in a torn record, {} bytes from byte {}: it is being written, or was when that ended",
+                     log_, end.torn_bytes, end.sound_bytes));
+  }
+
+  const std::string& log_;
+  runtime::LogReader reader_;
+  bool is_damaged_ = false;
+};
+
 int echo_log(const Options& options) {
-  runtime::LogReader reader(options.log);
+  if (std::filesystem::is_directory(options.log))
+    throw InputError::format("{}: is a folder, expected a log: RUN/run.lcm, or a node's journal.lcm", options.log);
+  ForgivingReader reader(options.log);
   for (std::int64_t printed = 0; printed < options.count;) {
     const auto record = reader.next();
     if (!record) break;
@@ -100,17 +138,47 @@ int echo_log(const Options& options) {
     print_line(*line);
     ++printed;
   }
-  return 0;
+  return reader.is_damaged() ? 1 : 0;
 }
 
+/// Says once that nobody is heard: nodes of a run that plays say STATUS twice a second.
+class Silence {
+ public:
+  explicit Silence(const RunAccess& run) : log_(run.folder / "run.lcm") {}
+
+  void heard() { is_over_ = true; }
+  void look() {
+    constexpr auto kPatience = std::chrono::seconds(3);
+    if (is_over_ || Clock::now() - since_ < kPatience) return;
+    is_over_ = true;
+    remark(fmt::format("the run does not play; `nacre echo --log {}` reads what it said. Waiting for it (Ctrl-C ends)",
+                       shell_word(log_)));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path log_;
+  Clock::time_point since_ = Clock::now();
+  bool is_over_ = false;
+};
+
 int echo_bus(const Options& options) {
-  const auto bus = listen(open_run(options.run), options.channel.empty() ? std::vector<std::string>{}
-                                                                         : std::vector<std::string>{options.channel});
+  const RunAccess run = open_run(options.run);
+  const auto is_wanted = [&](const std::string& channel) {
+    return options.channel.empty() || channel == options.channel;
+  };
+  std::vector<std::string> channels;  // empty: all
+  if (!options.channel.empty()) channels = {options.channel};
+  if (!options.channel.empty() && options.channel != "STATUS") channels.emplace_back("STATUS");  // a sign of life
+  const auto bus = listen(run, channels);
   const runtime::Interrupts interrupts;
+  Silence silence(run);
   std::int64_t printed = 0;
   while (!interrupts.any() && printed < options.count) {
+    silence.look();
     bus->receive(100, [&](const runtime::Received& received) {
-      if (printed++ >= options.count) return;
+      silence.heard();
+      if (!is_wanted(received.message.channel) || printed++ >= options.count) return;
       nlohmann::ordered_json line = head(received.message.channel, received.header);
       line["message"] = to_json(received.message.channel, received.message.payload);
       print_line(line);

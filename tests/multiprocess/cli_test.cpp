@@ -9,8 +9,12 @@
 
 #include "base/files.hpp"
 #include "material/parameters.hpp"
+#include "nacre/review_t.hpp"
 #include "program_test.hpp"
+#include "runtime/log_file.hpp"
 #include "runtime/run_folder.hpp"
+#include "wire/codec.hpp"
+#include "wire/header.hpp"
 
 namespace nacre {
 namespace {
@@ -437,6 +441,50 @@ TEST_F(CommandLine, CommandsThatNeedARunSayWhatIsMissing) {
   }
   expect_refused(run_nacre({"inject", path("set"), "--run", path("norun")}), {"norun"});
   expect_refused(run_nacre({"echo", "NOISE"}), {"NOISE", "MEASUREMENT"});
+  expect_refused(run_nacre({"echo", "--log", folder_.string()}), {folder_.string(), "expected a log: RUN/run.lcm"});
+}
+
+/// Writes a log of three reviews; its bytes.
+std::string three_reviews(const fs::path& log) {
+  runtime::LogWriter writer(log);
+  for (const std::string name : {"first", "second", "third"}) {
+    review_t review{};
+    review.specimen = name;
+    EXPECT_TRUE(writer.append(1, "REVIEW", wire::stamp_header("REVIEW", wire::encode(review), {1, "a", 1, 1, "run"})));
+  }
+  EXPECT_TRUE(writer.flush());
+  return read_file(log);
+}
+
+TEST_F(CommandLine, EchoReadsOnBehindDamageAndNamesItsPlace) {
+  std::string bytes = three_reviews(path("run.lcm"));
+  bytes[bytes.find("\xED\xA1\xDA\x01", 1)] = 'x';
+  file("run.lcm", bytes);
+  const Outcome outcome = run_nacre({"echo", "REVIEW", "--log", path("run.lcm")});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("first"), Not(HasSubstr("second")), HasSubstr("third")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("damaged at byte"), HasSubstr("the next sound record starts at byte")));
+}
+
+TEST_F(CommandLine, EchoOfATornLogPrintsWhatIsWholeAndSaysSo) {
+  const std::string bytes = three_reviews(path("run.lcm"));
+  file("run.lcm", bytes.substr(0, bytes.size() - 3));
+  const Outcome outcome = run_nacre({"echo", "--log", path("run.lcm")});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("second"), Not(HasSubstr("third"))));
+  EXPECT_THAT(outcome.err, HasSubstr("ends in a torn record"));
+}
+
+TEST_F(CommandLine, EchoOfARunThatDoesNotPlaySaysSoAndWaitsForIt) {
+  auto run = runtime::RunFolder::create(folder_ / "logs", "unheard", scenario_without_files());
+  run.set_port(runtime::PortReservation(0).port());
+  runtime::ChildProcess echo({program("nacre"), "echo", "ROUND", "--run", run.path().string()});
+  std::string said;
+  EXPECT_TRUE(wait_until_said(echo, "the run does not play", said, 20.0)) << said;
+  EXPECT_THAT(said, HasSubstr("--log " + (run.path() / "run.lcm").string()));
+  EXPECT_FALSE(echo.poll_end()) << "it may begin to play";
+  echo.signal_group(SIGINT);
+  EXPECT_EQ(wait_for_end(echo, said).exit_status, 0) << said;
 }
 
 TEST_F(CommandLine, DoctorNamesEveryCheckWithAVerdict) {

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include "base/files.hpp"
@@ -316,6 +318,10 @@ TEST_F(Launcher, StatusListsEveryNodeOfTheRun) {
   for (const char* node : {"virtual_lab", "simulator_farm", "analyser", "proposal_agent", "validation_agent"}) {
     EXPECT_THAT(status.out, HasSubstr(std::string("\"node\": \"") + node)) << status.out;
   }
+  std::istringstream lines(run_nacre({"echo", "STATUS", "--count", "10", "--run", run().string()}).out);
+  std::set<std::string> heard;
+  for (std::string line; std::getline(lines, line);) EXPECT_TRUE(heard.insert(line).second) << "twice: " << line;
+  EXPECT_EQ(heard.size(), 10U);
   ::kill(process->pid(), SIGINT);
   wait_for_end(*process, said, 20.0);
   EXPECT_EQ(run_nacre({"status", "--run", run().string()}).status, 1) << "nobody speaks any more";
