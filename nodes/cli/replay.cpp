@@ -6,6 +6,8 @@
 
 #include "analyser/analyser_core.hpp"
 #include "analyser/works.hpp"
+#include "base/files.hpp"
+#include "base/hash.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "game/scenario.hpp"
@@ -15,6 +17,7 @@
 #include "replay_laboratory.hpp"
 #include "runtime/node_shell.hpp"
 #include "runtime/replay.hpp"
+#include "runtime/run_folder.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "store/simulation_cache.hpp"
@@ -91,12 +94,24 @@ void print_report(const runtime::ReplayReport& report, const Options& options) {
   if (!report.note.empty()) fmt::print("note: {}\n", report.note);
 }
 
+/// The scenario to replay with. What differs under another one than the run's is no fault of the program: warns then.
+game::Scenario read_scenario(const fs::path& folder, const Options& options) {
+  const fs::path file = options.scenario.empty() ? folder / "scenario.toml" : fs::path(options.scenario);
+  game::Scenario scenario = game::read_scenario(file);
+  if (!fs::exists(folder / "manifest.json")) return scenario;
+  if (content_hash(read_file(file)) != runtime::read_manifest(folder).scenario_hash)
+    warn(fmt::format("{}: not the scenario that the run was played with; what differs may come from that",
+                     file.string()));
+  return scenario;
+}
+
 int replay(const Options& options) {
   const fs::path path = options.run;
   const bool is_bus_log = fs::is_regular_file(path);
+  if (is_bus_log && path.filename() == "journal.lcm")
+    throw InputError::format("{}: is a node's journal, expected the run's folder or its run.lcm", path.string());
   const fs::path folder = is_bus_log ? path.parent_path() : path;
-  const game::Scenario scenario =
-      game::read_scenario(options.scenario.empty() ? folder / "scenario.toml" : fs::path(options.scenario));
+  const game::Scenario scenario = read_scenario(folder, options);
   const Scratch scratch;
   // A person may have left the grouping of the family stage there.
   const fs::path families = fs::path("families") / "families.toml";

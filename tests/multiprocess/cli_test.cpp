@@ -456,6 +456,12 @@ std::string three_reviews(const fs::path& log) {
   return read_file(log);
 }
 
+TEST_F(CommandLine, ReplayOfAJournalSaysWhatIsExpected) {
+  three_reviews(fs::path(file("nodes/analyser/node.log", "")).parent_path() / "journal.lcm");
+  expect_refused(run_nacre({"replay", path("nodes/analyser/journal.lcm"), "--node", "analyser"}),
+                 {"is a node's journal, expected the run's folder or its run.lcm"});
+}
+
 TEST_F(CommandLine, EchoReadsOnBehindDamageAndNamesItsPlace) {
   std::string bytes = three_reviews(path("run.lcm"));
   bytes[bytes.find("\xED\xA1\xDA\x01", 1)] = 'x';

@@ -171,6 +171,16 @@ TEST_F(Game, EverythingKilledAtOnceIsResumedWithTheSameGame) {
   expect_replays(game->folder());
 }
 
+TEST_F(Game, AReplayWithAnotherScenarioSaysSo) {
+  const fs::path other =
+      written(folder_ / "other.toml", short_game("short", 2) + "[laboratory]\nvirtual_lab = false\n");
+  const std::vector<std::string> command = {"replay", undisturbed_run().string(), "--node", "proposal_agent"};
+  EXPECT_THAT(run_nacre(command).err, IsEmpty());
+  std::vector<std::string> with_other = command;
+  with_other.insert(with_other.end(), {"--scenario", other.string()});
+  EXPECT_THAT(run_nacre(with_other).err, HasSubstr(other.string() + ": not the scenario that the run was played with"));
+}
+
 /// Turns a byte in the middle of the journal.
 void damage(const fs::path& journal) {
   std::string bytes = read_file(journal);
