@@ -16,7 +16,7 @@ class RestartBudget {
     int most = 8;  ///< restarts in a row
     Clock::duration first_wait = std::chrono::milliseconds(500);
     Clock::duration longest_wait = std::chrono::seconds(30);
-    Clock::duration settled_after = std::chrono::seconds(60);  ///< a life this long ends the row
+    Clock::duration settled_after = std::chrono::seconds(20);  ///< a life this long ends the row
   };
 
   explicit RestartBudget(const Settings& settings) : settings_(settings) {}
