@@ -218,9 +218,10 @@ std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
 ColumnName recognise_column(std::string_view heading) {
   ColumnName column{.shown = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
   std::string name = plain_words(heading);
-  if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); })) return column;
+  const bool is_other = std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); });
   const std::string unit = take_unit(name);
   if (!unit.empty()) column.unit = unit_as_written(heading);  // its case tells mega from milli
+  if (is_other) return column;
   int best = 100;
   std::size_t longest = 0;
   for (const Word& word : kWords) {

@@ -80,6 +80,10 @@ int explore_gamut(const Options& options) {
   explore::SearchSettings settings = search_settings(options);
   settings.mechanics = explore::mechanics_by_tester(parameters, fidelity, 0);
   const auto search = explore::make_search(settings);
+  const int unlearnt = settings.population + (settings.former.empty() ? settings.learned.barred_start : 0);
+  if (settings.algorithm == "learned" && settings.budget <= unlearnt)
+    remark(fmt::format("--budget {}: `learned` begins with {} patterns that nothing is learnt from", settings.budget,
+                       unlearnt));
   prepare_output_file(options.out, {options.cache, options.params, options.former});
   std::unique_ptr<store::SimulationCache> cache;
   std::optional<explore::BatchLog> log;

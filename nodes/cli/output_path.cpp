@@ -32,10 +32,10 @@ void prepare_output_file(const std::string& file) {
 
 void prepare_output_file(const std::string& file, std::initializer_list<std::string> others) {
   for (const std::string& other : others) {
-    std::error_code different;
-    const bool is_same = fs::absolute(file).lexically_normal() == fs::absolute(other).lexically_normal() ||
-                         fs::equivalent(file, other, different);
-    if (!other.empty() && is_same)
+    if (other.empty()) continue;
+    std::error_code no_such_file;
+    if (fs::absolute(file).lexically_normal() == fs::absolute(other).lexically_normal() ||
+        fs::equivalent(file, other, no_such_file))
       throw InputError::format("{}: is read by the same command, expected the name of another file to write", file);
   }
   prepare_output_file(file);

@@ -95,7 +95,7 @@ TEST_F(InjectedGame, InjectSaysWhenNobodyAnswers) {
   measurement::write_measurement_set(set, {specimen, in_another_unit});
   const Outcome outcome = run_nacre({"inject", set.string(), "--run", person_->run().string(), "--timeout-s", "1"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("did not answer"), HasSubstr("specimen S-2 of mix:0.5"),
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("did not answer"), HasSubstr("specimen S-2 of interface"),
                                  HasSubstr("is a unit wrong"), Not(HasSubstr("specimen S-1 of"))));
 }
 

@@ -132,6 +132,7 @@ TEST(Columns, ThatMeanSomethingElseAreLeftAlone) {
   for (const char* heading : {"Tensile strain (Extension) (mm/mm)", "Tensile stress (MPa)", "Maximum Load (N)",
                               "Load at Break (N)", "Extension at Break (mm)", "Test date", "Strain rate", "Specimen"})
     EXPECT_FALSE(recognise_column(heading).quantity) << heading;
+  EXPECT_EQ(recognise_column("Strain 1 (mm)").unit, "(mm)") << "who asks for it by name gets its unit";
 }
 
 }  // namespace
