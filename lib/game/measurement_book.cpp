@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "measurement/conditions.hpp"
+
 namespace nacre::game {
 
 bool answers(const measurement::SpecimenRecord& specimen, const Order& order) {
@@ -24,11 +26,10 @@ std::optional<std::string> beside_orders(const measurement::SpecimenRecord& spec
   if (near == nullptr) return std::nullopt;
   return fmt::format(
       "specimen {} of {}, {} test, does not answer its order: pulled at {:.3g} /s and {:.3g} mm thick, ordered at "
-      "{:.3g} "
-      "/s and {:.3g} mm (answered within 25 and 10 %)",
+      "{:.3g} /s and {:.3g} mm (answered within {:.0f} and {:.0f} %)",
       specimen.specimen, specimen.design.name(), tester::to_string(specimen.test),
       specimen.conditions.strain_rate_per_s, specimen.conditions.thickness_mm, near->conditions.strain_rate_per_s,
-      near->conditions.thickness_mm);
+      near->conditions.thickness_mm, 100.0 * measurement::kRateTolerance, 100.0 * measurement::kThicknessTolerance);
 }
 
 MeasurementBook::Entry MeasurementBook::enter(const measurement::SpecimenRecord& record, const std::string& order_id) {

@@ -8,8 +8,8 @@ namespace nacre::measurement {
 bool same_conditions(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
   const auto near = [](double a, double b, double relative) { return std::abs(a - b) <= relative * b; };
   return std::abs(tested.orientation_deg - ordered.orientation_deg) < 0.5 &&
-         near(tested.strain_rate_per_s, ordered.strain_rate_per_s, 0.25) &&
-         near(tested.thickness_mm, ordered.thickness_mm, 0.1);
+         near(tested.strain_rate_per_s, ordered.strain_rate_per_s, kRateTolerance) &&
+         near(tested.thickness_mm, ordered.thickness_mm, kThicknessTolerance);
 }
 
 std::vector<SpecimenRecord> at_nominal_conditions(std::vector<SpecimenRecord> specimens) {

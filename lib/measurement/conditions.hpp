@@ -7,7 +7,10 @@
 
 namespace nacre::measurement {
 
-/// Same orientation, rate within a quarter, thickness within a tenth of `ordered`.
+/// How far rate and thickness may be from those that were ordered, relative to these.
+inline constexpr double kRateTolerance = 0.25, kThicknessTolerance = 0.1;
+
+/// Same orientation, rate and thickness within their tolerances of `ordered`.
 bool same_conditions(const tester::TestConditions& tested, const tester::TestConditions& ordered);
 
 /// The specimens under nominal conditions: the standard ones where same_conditions() holds, otherwise those of the
