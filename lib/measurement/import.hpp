@@ -27,7 +27,8 @@ struct Import {
   std::vector<ImportedSpecimen> specimens;  ///< in the order of the sheet
   std::vector<ImportFault> rejected;        ///< one per specimen or file that could not be used
   std::vector<std::string> warnings;
-  int known = 0;  ///< how many of the specimens the set held before (write_import)
+  int known = 0;     ///< how many of the specimens the set held before (write_import)
+  int replaced = 0;  ///< how many it held with another test, which this one now stands for
 };
 
 struct ImportSettings {
@@ -45,8 +46,8 @@ std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRe
 
 /// Writes what came of `sheet` into the measurement set `folder`: a new one, or one that gains specimens. What the set
 /// holds stays: a specimen that it knows by the same test keeps the judgement that the set has of it (`import` then
-/// says that one), a known name with another test is moved to the rejected. Throws InputError when the set cannot be
-/// read or written.
-void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import);
+/// says that one), a known name with another test is moved to the rejected, or takes the old one's place and its
+/// judgement with `replace`. Throws InputError when the set cannot be read or written.
+void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import, bool replace = false);
 
 }  // namespace nacre::measurement

@@ -48,11 +48,18 @@ SetTable::SetTable(const std::filesystem::path& folder) {
   if (heading_.empty()) throw InputError::format("{}: is empty, expected a heading and rows", file);
 }
 
-bool SetTable::holds(std::string_view specimen) const {
+bool SetTable::is_of(const std::vector<std::string>& row, std::string_view specimen) const {
   const auto place =
       static_cast<std::size_t>(std::find(heading_.begin(), heading_.end(), kColumns[kSpecimen]) - heading_.begin());
-  return std::any_of(rows_.begin(), rows_.end(),
-                     [&](const auto& row) { return place < row.size() && trimmed(row[place]) == specimen; });
+  return place < row.size() && trimmed(row[place]) == specimen;
+}
+
+bool SetTable::holds(std::string_view specimen) const {
+  return std::any_of(rows_.begin(), rows_.end(), [&](const auto& row) { return is_of(row, specimen); });
+}
+
+void SetTable::remove(std::string_view specimen) {
+  std::erase_if(rows_, [&](const auto& row) { return is_of(row, specimen); });
 }
 
 void SetTable::append(const std::map<std::string, std::string>& cells) {
@@ -64,7 +71,7 @@ void SetTable::append(const std::map<std::string, std::string>& cells) {
 
 void SetTable::judge(std::string_view specimen, bool valid, const std::string& note) {
   for (auto& row : rows_) {
-    if (trimmed(cell(row, kColumns[kSpecimen])) != specimen) continue;
+    if (!is_of(row, specimen)) continue;
     cell(row, kColumns[kValid]) = valid ? "1" : "0";
     std::string& whole = cell(row, kColumns[kNote]);
     whole = trimmed(whole).empty() ? note : std::string(trimmed(whole)) + "; " + note;

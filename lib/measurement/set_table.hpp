@@ -23,6 +23,8 @@ class SetTable {
   std::size_t size() const { return rows_.size(); }  ///< rows, usable or not
   /// Whether a row has this name, usable or not.
   bool holds(std::string_view specimen) const;
+  /// Takes every row of this name out.
+  void remove(std::string_view specimen);
   /// A row more, its cells by column; columns that the table lacks are added at the right.
   void append(const std::map<std::string, std::string>& cells);
   /// Puts a judgement into every row of this name: `valid`, and the note behind the one that is there.
@@ -31,6 +33,7 @@ class SetTable {
   void write(const std::filesystem::path& folder) const;
 
  private:
+  bool is_of(const std::vector<std::string>& row, std::string_view specimen) const;
   std::size_t column(std::string_view name);  ///< index; added when it is absent
   std::string& cell(std::vector<std::string>& row, std::string_view name);
 
@@ -38,8 +41,8 @@ class SetTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Adds specimens, whose names must be new, to the set in `folder`: their rows and curves; what is there stays. Throws
-/// InputError when the table cannot be read or something cannot be written.
+/// Adds specimens to the set in `folder`: their rows, in place of those of the same names, and curves in files of their
+/// own; what else is there stays. Throws InputError when the table cannot be read or something cannot be written.
 void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens);
 
 }  // namespace nacre::measurement

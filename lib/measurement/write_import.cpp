@@ -25,7 +25,8 @@ bool same_test(SpecimenRecord known, const SpecimenRecord& imported) {
 }
 
 /// Parts `import` by what the set holds already; the specimens that are new to it.
-std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const std::string& sheet, Import& import) {
+std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const std::string& sheet, Import& import,
+                                   bool replace) {
   const MeasurementSet set = read_measurement_set(folder);
   const SetTable table(folder);
   std::vector<SpecimenRecord> added;
@@ -34,23 +35,24 @@ std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const st
     const auto known = std::find_if(set.specimens.begin(), set.specimens.end(),
                                     [&](const auto& each) { return each.specimen == one.record.specimen; });
     const bool repeated = known != set.specimens.end() && same_test(*known, one.record);
-    if (!repeated && table.holds(one.record.specimen)) {
+    const bool replaces = !repeated && table.holds(one.record.specimen);
+    if (replaces && !replace) {
       import.rejected.push_back(
           {sheet, one.line, "specimen",
            fmt::format("`{}` stands in {} with other content, which stays; expected another name, "
-                       "or that row removed first",
+                       "or --replace",
                        one.record.specimen, (folder / kTableName).string())});
       continue;
     }
     import.known += repeated;
+    import.replaced += replaces;
     if (const std::string doubt = doubt_of_twins(one.record, set.specimens); !repeated && !doubt.empty())
       import.warnings.push_back(doubt);
-    if (repeated) {
+    if (known != set.specimens.end()) {
       one.record.valid = known->valid;
       one.record.note = known->note;
-    } else {
-      added.push_back(one.record);
     }
+    if (!repeated) added.push_back(one.record);
     kept.push_back(std::move(one));
   }
   import.specimens = std::move(kept);
@@ -59,10 +61,10 @@ std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const st
 
 }  // namespace
 
-void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import) {
+void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import, bool replace) {
   std::error_code unreadable;
   if (std::filesystem::exists(folder / kTableName, unreadable)) {
-    const std::vector<SpecimenRecord> added = settle(folder, sheet, import);
+    const std::vector<SpecimenRecord> added = settle(folder, sheet, import, replace);
     if (!added.empty()) add_to_measurement_set(folder, added);
     return;
   }

@@ -78,6 +78,7 @@ void write_measurement_set(const std::filesystem::path& folder, const std::vecto
 
 void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens) {
   SetTable table(folder);
+  for (const SpecimenRecord& record : specimens) table.remove(record.specimen);
   add_specimens(folder, specimens, table);
 }
 

@@ -17,6 +17,7 @@ struct Options {
   std::string sheet;
   std::string out;
   std::string toe = "compensate";
+  bool replace = false;
   bool json = false;
 };
 
@@ -55,8 +56,9 @@ void print_import(const measurement::Import& import, const Options& options) {
                  1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
                  one.record.valid ? "" : "  NOT VALID");
     }
-    fmt::print("{} specimens{}, {} rejected: {}\n", import.specimens.size(),
-               import.known > 0 ? fmt::format(" ({} there before)", import.known) : "", import.rejected.size(),
+    fmt::print("{} specimens{}{}, {} rejected: {}\n", import.specimens.size(),
+               import.known > 0 ? fmt::format(" ({} there before)", import.known) : "",
+               import.replaced > 0 ? fmt::format(" ({} replaced)", import.replaced) : "", import.rejected.size(),
                options.out);
     return;
   }
@@ -66,6 +68,7 @@ void print_import(const measurement::Import& import, const Options& options) {
   print_json({{"set", options.out},
               {"specimens", specimens},
               {"known", import.known},
+              {"replaced", import.replaced},
               {"rejected", rejected},
               {"warnings", import.warnings}});
 }
@@ -75,7 +78,7 @@ int import_exports(const Options& options) {
                                                                           : measurement::Toe::compensate};
   measurement::Import import = measurement::import_exports(
       std::vector<std::filesystem::path>(options.files.begin(), options.files.end()), options.sheet, settings);
-  measurement::write_import(options.out, options.sheet, import);
+  measurement::write_import(options.out, options.sheet, import, options.replace);
   for (const std::string& warning : import.warnings) warn(warning);
   for (const auto& fault : import.rejected) warn(to_string(fault));
   if (import.specimens.empty()) {
@@ -100,6 +103,8 @@ void add_import(CLI::App& app, Action& action) {
       ->check(CLI::ExistingFile);
   command.add_option("--out", options->out, "Folder of the measurement set; one that exists gains specimens")
       ->required();
+  command.add_flag("--replace", options->replace,
+                   "Specimens that the set has with other content are written anew; its judgement of them stays");
   command.add_option("--toe", options->toe, "First part of the curves: compensate (ASTM D638 A1) or keep")
       ->check(CLI::IsMember({"compensate", "keep"}))
       ->capture_default_str();

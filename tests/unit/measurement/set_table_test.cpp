@@ -102,6 +102,27 @@ TEST_F(RepeatedImport, RejectsAKnownNameWithAnotherTestAndKeepsTheOldOne) {
   EXPECT_EQ(text("set/curves/A.csv"), curve);
 }
 
+TEST_F(RepeatedImport, ReplacesOnlyWhenToldToAndKeepsTheJudgement) {
+  import("a.csv,A,rigid,52,3.2,54\nb.csv,B,soft,52,3.2,54\n");
+  SetTable table(folder_ / "set");
+  table.judge("A", false, "bubble (me)");
+  table.write(folder_ / "set");
+  const double before_pa = *specimens()[0].toughness_pa;
+  write("sheet.csv", "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A,rigid,26,3.2,54\n");
+  Import corrected = import_exports({}, folder_ / "sheet.csv");
+  write_import(folder_ / "set", "sheet.csv", corrected, true);
+  EXPECT_EQ(corrected.replaced, 1);
+  EXPECT_TRUE(corrected.rejected.empty());
+  const auto set = specimens();
+  ASSERT_EQ(set.size(), 2U);
+  EXPECT_EQ(set[0].specimen, "B") << "as it was";
+  EXPECT_EQ(set[1].specimen, "A");
+  EXPECT_NEAR(*set[1].toughness_pa, 2.0 * before_pa, 1e-4 * before_pa) << "half as wide";
+  EXPECT_NEAR(tester::area_under(set[1].curve), *set[1].toughness_pa, 1e-4 * before_pa) << "and its curve";
+  EXPECT_FALSE(set[1].valid);
+  EXPECT_EQ(set[1].note, "bubble (me)");
+}
+
 TEST_F(RepeatedImport, GivesANewSpecimenNoCurveFileOfAnother) {
   import("a.csv,A 1,rigid,52,3.2,54\n");  // curves/A_1.csv
   import("b.csv,A_1,soft,50,3.2,54\n");
