@@ -33,6 +33,7 @@ struct Options {
   int budget = 300;
   std::string out;
   std::string cache;
+  std::string known;
   std::string former;
   std::string fidelity = "full";
   std::uint64_t seed = 1;
@@ -67,6 +68,7 @@ explore::SearchSettings search_settings(const Options& options) {
   if (!options.former.empty() && options.algorithm != "learned")
     throw InputError::format("--former: `{}` learns nothing from former samples, expected --algorithm learned",
                              options.algorithm);
+  if (!options.known.empty()) settings.known = explore::read_gamut_csv(options.known);
   if (options.former.empty()) return settings;
   settings.former = explore::read_gamut_csv(options.former);
   if (settings.former.empty())
@@ -137,6 +139,8 @@ void add_explore(CLI::App& app, Action& action) {
   command.add_option("--out", options->out, "gamut.csv")->required();
   command.add_option("--cache", options->cache,
                      "Database of simulations, read and continued; with it an interrupted search goes on where it was");
+  command.add_option("--known", options->known,
+                     "gamut.csv of the same parameters and fidelity: what it holds is not simulated again");
   command.add_option("--former", options->former,
                      "gamut.csv of other parameters or another fidelity, for `learned` to begin with");
   add_fidelity(command, options->fidelity)->capture_default_str();

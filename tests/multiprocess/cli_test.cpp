@@ -218,6 +218,11 @@ TEST_F(CommandLine, ExploreAndSelectWorkHandInHand) {
                                      120.0);
   ASSERT_EQ(explored.status, 0) << explored.err;
   EXPECT_EQ(nlohmann::json::parse(explored.out)["evaluated"], 30);
+  const Outcome more = run_nacre({"explore", "--fidelity", "tiny", "--budget", "10", "--batch", "5", "--known",
+                                  path("gamut.csv"), "--out", path("gamut.csv"), "--json"},
+                                 120.0);
+  ASSERT_EQ(more.status, 0) << more.err;
+  EXPECT_EQ(nlohmann::json::parse(more.out)["evaluated"], 40) << "what is known is not simulated again";
   const Outcome selected = run_nacre({"select", path("gamut.csv"), "--count", "3", "--json"});
   ASSERT_EQ(selected.status, 0) << selected.err;
   const auto document = nlohmann::json::parse(selected.out);
