@@ -15,6 +15,8 @@ Json specimens_json(const game::MeasurementBook& book) {
          {"design", r.design.name()},
          {"test", tester::to_string(r.test)},
          {"orientation_deg", r.conditions.orientation_deg},
+         {"strain_rate_per_s", r.conditions.strain_rate_per_s},
+         {"thickness_mm", r.conditions.thickness_mm},
          {"batch", r.batch},
          {"modulus_pa", json_or_null(r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa)},
          {"toughness_pa",
@@ -46,7 +48,10 @@ Json group_json(const measurement::ReplicateGroup& group) {
           {"proposed_outliers", proposed},
           {"wanted", group.wanted},
           {"mean_pa", group.mean_pa},
-          {"scatter", group.scatter}};
+          {"scatter", group.scatter},
+          {"mean_without_pa", group.mean_without_pa},
+          {"scatter_without", group.scatter_without},
+          {"representative", group.representative}};
 }
 
 Json orders_json(const game::LaboratoryFacts& facts) {

@@ -63,8 +63,7 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
   // What numerics share among rows is in the predictions, as far as these residuals tell it.
-  Eigen::VectorXd variances = observations.covariance().diagonal();
-  if (observations.has_shared_numerics()) variances -= observations.numerics_shared.rowwise().squaredNorm();
+  const Eigen::VectorXd variances = observations.own_variances();
   const auto with_numerics = [&](const Fit& fit) -> Eigen::VectorXd {
     std::vector<Eigen::Index> all(static_cast<std::size_t>(observations.size()));
     std::iota(all.begin(), all.end(), 0);
@@ -178,12 +177,20 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
     text += fmt::format(" Caution: {} changes the {} by {:.1f} %, more than the data's noise.", check.changed,
                         in_words(check.feature), 100.0 * check.largest);
   }
-  if (diagnosis.verdict == Verdict::unexplained && observations.disconnected_batches > 1) {
+  const bool batches_matter = diagnosis.verdict == Verdict::unexplained ||
+                              std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
+                                          [](const NamedEffect& effect) { return effect.name == "batch_drift"; });
+  if (batches_matter && observations.disconnected_batches > 1) {
     text += fmt::format(
         " Caution: the batches fall into {} sets without a common design, so that what batches add looks like what "
         "designs differ by: print one design in every batch.",
         observations.disconnected_batches);
   }
+  constexpr double kNoSpecimensDo = 5e-4;
+  if (diagnosis.noise_known && diagnosis.replicate_sd < kNoSpecimensDo)
+    text +=
+        " Caution: replicates agree to a twentieth of a per cent, which no printed specimens do: were their means "
+        "typed in for each?";
   if (diagnosis.verdict != Verdict::base_sufficient && !at_an_end.empty()) {
     text += fmt::format(
         " Caution: {} {} at the end of what was searched. Are the inks others than the thesis'? They need ranges of "

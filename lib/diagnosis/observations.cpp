@@ -205,6 +205,12 @@ CovarianceParts Observations::covariance_parts() const {
   return parts;
 }
 
+Eigen::VectorXd Observations::own_variances() const {
+  Eigen::VectorXd variances = covariance().diagonal();
+  if (has_shared_numerics()) variances -= numerics_shared.rowwise().squaredNorm();
+  return variances;
+}
+
 Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows,
                                               const std::vector<Eigen::Index>& at) const {
   if (!has_shared_numerics()) return Eigen::VectorXd::Zero(size());

@@ -117,6 +117,8 @@ struct Observations {
     const CovarianceParts parts = covariance_parts();
     return parts.fixed + parts.scatter;
   }
+  /// Variances of the rows but for what numerics share among them, which predictions take in (shared_numerics()).
+  Eigen::VectorXd own_variances() const;
   /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given
   /// these residuals at `rows`; for all rows.
   Eigen::VectorXd shared_numerics(const Eigen::VectorXd& residuals_at_rows,

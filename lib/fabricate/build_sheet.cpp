@@ -11,6 +11,7 @@
 #include "base/result.hpp"
 #include "fabricate/preview.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "pattern/coupons.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -53,7 +54,7 @@ Json model_json(const Model& model, const WrittenModel& written) {
   return {{"name", model.name},
           {"slices", slices_of(written)},
           {"design", model.wanted.design.name()},
-          {"readable_name", readable_name(model.wanted.design)},
+          {"readable_name", pattern::readable_name(model.wanted.design)},
           {"test", std::string(tester::to_string(model.wanted.test))},
           {"orientation_deg", model.wanted.orientation_deg},
           {"replicates", model.wanted.replicates},

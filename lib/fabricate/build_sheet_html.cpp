@@ -5,6 +5,7 @@
 #include <array>
 
 #include "fabricate/build_sheet.hpp"
+#include "pattern/coupons.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -57,11 +58,11 @@ std::string models_table(const Job& job, const std::vector<WrittenModel>& writte
         "<tr><td><a href=\"{0}preview.png\">{1}</a></td><td><code>{2}</code></td><td>{3}</td><td class=n>{4}</td>"
         "<td class=n>{5:g} x {6:g} x {7:g}</td><td><code>{0}slices/</code> {8} slices of {9} x {10}</td>"
         "<td class=n>{11:.4f}</td><td class=n>{12:.4f}</td><td class=n>{13:.2f}</td><td>{14}</td></tr>\n",
-        folder, escaped(model.name), escaped(readable_name(model.wanted.design)), tester::to_string(model.wanted.test),
-        model.wanted.replicates, model.size_x_mm, model.size_y_mm, model.size_z_mm, written[i].count.layers,
-        written[i].count.columns, written[i].count.rows, model.wanted.design.rigid_fraction(),
-        rigid_fraction(written[i].count.total), test_speed_mm_per_min(model.wanted),
-        escaped(pull_in_words(model.wanted.loading)));
+        folder, escaped(model.name), escaped(pattern::readable_name(model.wanted.design)),
+        tester::to_string(model.wanted.test), model.wanted.replicates, model.size_x_mm, model.size_y_mm,
+        model.size_z_mm, written[i].count.layers, written[i].count.columns, written[i].count.rows,
+        model.wanted.design.rigid_fraction(), rigid_fraction(written[i].count.total),
+        test_speed_mm_per_min(model.wanted), escaped(pull_in_words(model.wanted.loading)));
   }
   return "<h2>Models</h2>\n<p>Pictures (preview.png): soft is black, rigid white, what is not printed "
          "blue.</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"

@@ -22,7 +22,7 @@ void check_name(const std::string& name) {
 
 /// A design as part of a folder's name: keys of coupons, which are long, by their first digits of a hash.
 std::string short_name(const pattern::Design& design) {
-  std::string name = readable_name(design);
+  std::string name = pattern::readable_name(design);
   constexpr std::size_t kLongest = 32, kHashDigits = 12;
   if (name.size() > kLongest) name = "L" + content_hash(name).substr(0, kHashDigits);
   std::replace(name.begin(), name.end(), ':', '_');
@@ -155,11 +155,6 @@ void number(Job& job) {
 }
 
 }  // namespace
-
-std::string readable_name(const pattern::Design& design) {
-  const pattern::Layout* layout = design.layout();
-  return layout == nullptr ? design.name() : pattern::coupon_name(*layout).value_or(design.name());
-}
 
 std::string pull_in_words(const tester::Loading& loading) {
   std::string words;

@@ -69,9 +69,6 @@ struct Job {
 /// name, replicates outside 1 to 100, or a specimen larger than the tray.
 Job plan_job(const JobRequest& request);
 
-/// A name for people: `checkerboard:2`, `laminate:x:3:2`, otherwise the design's own.
-std::string readable_name(const pattern::Design& design);
-
 /// How a specimen is pulled, for people: `monotonic`, `to 2 % strain, back to 0.5 %, on to 2.2 %`.
 std::string pull_in_words(const tester::Loading& loading);
 

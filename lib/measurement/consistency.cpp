@@ -256,10 +256,10 @@ std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>&
   return reviewed;
 }
 
-std::vector<std::string> doubts_of_units(const std::vector<SpecimenRecord>& specimens) {
+std::vector<UnitDoubt> doubts_of_units(const std::vector<SpecimenRecord>& specimens) {
   constexpr double kFar = 8.0;
   const std::vector<SpecimenRecord> nominal = nominal_by_name(specimens);
-  std::vector<std::string> doubts;
+  std::vector<UnitDoubt> doubts;
   for (const auto& [key, members] : groups_of(nominal)) {
     const auto is_held = [](const SpecimenRecord* member) {
       return member->valid && value_of(*member) > 0.0 && !implausible_value(*member);
@@ -275,9 +275,10 @@ std::vector<std::string> doubts_of_units(const std::vector<SpecimenRecord>& spec
       const double value = value_of(*member);
       if (!is_held(member) || std::abs(std::log(value) - middle) <= far) continue;
       doubts.push_back(
-          fmt::format("specimen {}: its {} is {:.3g} times the middle of the {} replicates of {}: is a unit wrong?",
-                      member->specimen, tester::to_string(member->test), value / std::exp(middle), logs.size(),
-                      member->design.name()));
+          {member->specimen,
+           fmt::format("specimen {}: its {} is {:.3g} times the middle of the {} replicates of {}: is a unit wrong?",
+                       member->specimen, tester::to_string(member->test), value / std::exp(middle), logs.size(),
+                       member->design.name())});
     }
   }
   return doubts;

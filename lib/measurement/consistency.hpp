@@ -67,7 +67,11 @@ std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>&
 /// Valid specimens whose modulus or toughness is more than eight times the middle of their group's, or less than an
 /// eighth of it, as sentences: units are mistaken by factors of ten and more. Of two, both are named. What is
 /// implausible by itself is left out.
-std::vector<std::string> doubts_of_units(const std::vector<SpecimenRecord>& specimens);
+struct UnitDoubt {
+  std::string specimen;
+  std::string text;
+};
+std::vector<UnitDoubt> doubts_of_units(const std::vector<SpecimenRecord>& specimens);
 
 /// By how much specimens of one batch, operator, machine or date differ from others of the same designs.
 struct HistoryEffect {

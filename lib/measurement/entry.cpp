@@ -28,7 +28,7 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
     if (text.size() > kLongestField)
       return tl::unexpected(rejected(name, fmt::format("is longer than {} bytes", kLongestField)));
     heading.position[static_cast<std::size_t>(known - kColumns.begin())] = row.cells.size();
-    row.cells.push_back({text, 1, 1});
+    row.cells.push_back({text, 1, 0});  // no place in a file
   }
   // The row parser would look for a file of that name.
   if (const auto pattern = fields.find(std::string(kColumns[kPattern]));

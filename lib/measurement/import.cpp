@@ -342,7 +342,7 @@ Import import_exports(const std::vector<fs::path>& files, const fs::path& sheet_
     import.specimens.push_back(std::move(*imported));
   }
   collect_gauge_doubts(gauge_doubts, import.warnings);
-  for (const std::string& doubt : doubts_of_units(records)) import.warnings.push_back(doubt);
+  for (const UnitDoubt& doubt : doubts_of_units(records)) import.warnings.push_back(doubt.text);
   for (const std::string& name : exports.unused())
     import.warnings.push_back(fmt::format("{}: no specimen of the sheet names this export; it is not used", name));
   return import;

@@ -92,6 +92,10 @@ std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen);
 /// kModulusPa or kToughnessPa: its column and why no game can use it. Line 0.
 std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen);
 
+/// Doubts about a usable specimen that it raises by itself, each as a sentence that begins with its column: units that
+/// somebody forgot to convert, a value beside its own curve, a pull that was ended too early.
+std::vector<std::string> doubts_about(const SpecimenRecord& specimen);
+
 /// Why no game can use the specimen as a valid one: what it lacks, else a value that is implausible. Line 0.
 std::optional<RejectedRow> why_unusable(const SpecimenRecord& specimen);
 

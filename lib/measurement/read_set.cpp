@@ -71,13 +71,10 @@ void require_columns(const Heading& heading, const CsvRow& row, const std::strin
 }
 
 /// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
-void collect_curve_warnings(const SpecimenRecord& record, const std::string& place,
-                            std::vector<std::string>& warnings) {
+void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>& doubts) {
   constexpr double kNotSeparated = 0.2;
   if (record.curve.empty()) return;
-  const auto doubt = [&](const std::string& sentence) {
-    warnings.push_back(fmt::format("{}: column curve: {}", place, sentence));
-  };
+  const auto doubt = [&](const std::string& sentence) { doubts.push_back("column curve: " + sentence); };
   const double peak_pa = std::ranges::max(record.curve.stress_pa), strain = std::ranges::max(record.curve.strain);
   if (!kUsualPeakPa.hold(peak_pa))
     doubt(fmt::format("the largest stress is {:.3g}, no usual one; is the unit Pa?", peak_pa));
@@ -88,34 +85,37 @@ void collect_curve_warnings(const SpecimenRecord& record, const std::string& pla
                       100.0 * record.curve.stress_pa.back() / peak_pa));
 }
 
-/// Doubts about a usable row, each as a sentence that begins with its place.
-void collect_warnings(const SpecimenRecord& record, const std::string& place, std::vector<std::string>& warnings) {
+}  // namespace
+
+std::vector<std::string> doubts_about(const SpecimenRecord& record) {
+  std::vector<std::string> doubts;
   constexpr double kAreaTolerance = 0.02;
   const bool notched = record.test == tester::TestKind::toughness;
   if (notched && record.toughness_pa && !record.curve.empty()) {
     const double area = tester::area_under(record.curve);
     if (std::abs(area - *record.toughness_pa) > kAreaTolerance * *record.toughness_pa) {
-      warnings.push_back(
-          fmt::format("{}: column toughness_pa: {} is {:.1f} % off the area under the curve, {}; expected at "
+      doubts.push_back(
+          fmt::format("column toughness_pa: {} is {:.1f} % off the area under the curve, {}; expected at "
                       "most 2 %; the given value is used",
-                      place, *record.toughness_pa, 100.0 * std::abs(area / *record.toughness_pa - 1.0), area));
+                      *record.toughness_pa, 100.0 * std::abs(area / *record.toughness_pa - 1.0), area));
     }
   }
   const auto warn_ignored = [&](const char* column) {
-    warnings.push_back(
-        fmt::format("{}: column {}: is not used in a {} test", place, column, tester::to_string(record.test)));
+    doubts.push_back(fmt::format("column {}: is not used in a {} test", column, tester::to_string(record.test)));
   };
   if (record.modulus_pa && record.test != tester::TestKind::modulus) warn_ignored("modulus_pa");
   if (record.toughness_pa && !notched) warn_ignored("toughness_pa");
   const std::optional<double> modulus = modulus_of(record);
   if (const auto doubt = implausible_value(record)) {
-    warnings.push_back(fmt::format("{}: column {}: {}", place, doubt->column, doubt->reason));
+    doubts.push_back(fmt::format("column {}: {}", doubt->column, doubt->reason));
   } else if (modulus && *modulus > kUsualModulusPa.most) {
-    warnings.push_back(
-        fmt::format("{}: column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", place, *modulus));
+    doubts.push_back(fmt::format("column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", *modulus));
   }
-  collect_curve_warnings(record, place, warnings);
+  collect_curve_doubts(record, doubts);
+  return doubts;
 }
+
+namespace {
 
 /// What a row must say: a test alone, a value of it, or a value that can be true.
 enum class Demand { planned, measured, plausible };
@@ -140,8 +140,8 @@ class SetBuilder {
       if (!row.blank()) add(heading, row);
     }
     if (set_.specimens.empty()) throw nothing_usable();
-    for (const std::string& doubt : doubts_of_units(set_.specimens))
-      set_.warnings.push_back(fmt::format("{}: {}", table_, doubt));
+    for (const UnitDoubt& doubt : doubts_of_units(set_.specimens))
+      set_.warnings.push_back(fmt::format("{}: {}", table_, doubt.text));
     return std::move(set_);
   }
 
@@ -173,7 +173,7 @@ class SetBuilder {
       point_count_ += record->curve.size();
       set_.specimens.push_back(*record);
       set_.lines.push_back(row.line);
-      collect_warnings(*record, place, set_.warnings);
+      for (const std::string& doubt : doubts_about(*record)) set_.warnings.push_back(place + ": " + doubt);
     } else if (set_.specimens[index] == *record) {
       set_.warnings.push_back(
           fmt::format("{}: specimen `{}` repeats line {} and is ignored", place, record->specimen, first_line));

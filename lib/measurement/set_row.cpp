@@ -51,7 +51,8 @@ class RowParser {
   void reject(Column column, const std::string& reason) {
     const std::size_t position = heading_.position[column];
     const bool there = position < row_.cells.size();
-    const std::string place = there ? fmt::format(" (character {})", row_.cells[position].column) : "";
+    const std::string place =
+        there && row_.cells[position].column > 0 ? fmt::format(" (character {})", row_.cells[position].column) : "";
     reject(std::string(kColumns[column]), there ? row_.cells[position].line : row_.line, reason + place);
   }
 

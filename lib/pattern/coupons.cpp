@@ -86,4 +86,9 @@ std::optional<std::string> coupon_name(const Layout& layout) {
   return std::nullopt;
 }
 
+std::string readable_name(const Design& design) {
+  const Layout* layout = design.layout();
+  return layout == nullptr ? design.name() : coupon_name(*layout).value_or(design.name());
+}
+
 }  // namespace nacre::pattern

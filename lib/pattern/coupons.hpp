@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/result.hpp"
+#include "pattern/design.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::pattern {
@@ -28,5 +29,8 @@ std::optional<Result<Layout>> coupon_from_name(std::string_view name);
 
 /// The name of a layout that is one of these coupons.
 std::optional<std::string> coupon_name(const Layout& layout);
+
+/// A name for people: `checkerboard:2`, `laminate:x:3:2`, otherwise the design's own.
+std::string readable_name(const Design& design);
 
 }  // namespace nacre::pattern

@@ -10,9 +10,11 @@
 #include "analyser/report_style.hpp"
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
+#include "base/statistics.hpp"
 #include "diagnosis/candidates.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
+#include "pattern/coupons.hpp"
 
 namespace nacre::analyser {
 namespace {
@@ -170,25 +172,54 @@ std::string gain_section(const Diagnosis& d) {
           table(header_row({"mean error on held-out designs", "unit", "base", "extended", "noise alone"}), rows));
 }
 
+/// Why no test is proposed.
+std::string nothing_asked_for(const Diagnosis& d) {
+  const auto invisible = std::count_if(d.candidates.begin(), d.candidates.end(),
+                                       [](const Candidate& c) { return c.status == "invisible"; });
+  if (d.verdict != diagnosis::Verdict::base_sufficient || invisible == 0)
+    return "No two models are left that another specimen would tell apart.";
+  return fmt::format(
+      "{} of the causes above would leave nothing visible on these specimens: they are not absent. "
+      "<code>nacre diagnose SET --plan</code> says which specimens would show them.",
+      invisible);
+}
+
 std::string next_section(const Diagnosis& d) {
   std::string list;
   for (const auto& e : d.next_experiments) {
     list += fmt::format("<li><strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens. {}.</li>\n",
-                        tester::to_string(e.test), design_name(e.design.name()), e.conditions.orientation_deg,
-                        e.conditions.strain_rate_per_s, e.conditions.thickness_mm, e.replicates, escaped(e.reason));
+                        tester::to_string(e.test), design_name(pattern::readable_name(e.design)),
+                        e.conditions.orientation_deg, e.conditions.strain_rate_per_s, e.conditions.thickness_mm,
+                        e.replicates, escaped(e.reason));
   }
-  return section(
-      "next", "The next test",
-      list.empty() ? paragraph("Nothing is open that another specimen would settle.") : "<ol>\n" + list + "</ol>\n");
+  return section("next", "The next test", list.empty() ? paragraph(nothing_asked_for(d)) : "<ol>\n" + list + "</ol>\n");
+}
+
+/// How well means are known, where the features are in question.
+std::string noise_in_words(const Diagnosis& d) {
+  std::string words = fmt::format("Replicates scatter by {}", percent(d.replicate_sd));
+  const auto error_of = [&](diagnosis::Feature feature) {
+    std::vector<double> errors;
+    for (const diagnosis::ResidualRow& row : d.residuals)
+      if (row.feature == feature) errors.push_back(row.standard_error);
+    return errors.empty() ? 0.0 : quantile(errors, 0.5);
+  };
+  if (const double error = error_of(diagnosis::Feature::log_modulus); error > 0.0)
+    words += fmt::format(
+        "; of a modulus the simulation's elements leave {} by layout and {} that all layouts share; a "
+        "design's mean is known to {} but for what is shared",
+        percent(d.numerics_sd), percent(d.numerics_shared_sd), percent(error));
+  if (const double error = error_of(diagnosis::Feature::log_toughness); error > 0.0)
+    words +=
+        fmt::format("; a design's toughness, replicates and elements together, to a factor of {:.2f}", std::exp(error));
+  return words;
 }
 
 /// All that was found, and how.
 std::string findings(const Diagnosis& d, tester::Fidelity fidelity) {
   return where_section(d) + curve_part(d) + cause_section(d) + rivals_section(d) + gain_section(d) + next_section(d) +
-         paragraph(fmt::format("Replicates scatter by {}; the simulation's elements leave {} of a modulus. Fidelity "
-                               "{}; {} fracture simulations. Procedure {}.",
-                               percent(d.replicate_sd), percent(d.numerics_sd), tester::to_string(fidelity),
-                               d.simulations, escaped(d.procedure)),
+         paragraph(fmt::format("{}. Fidelity {}; {} fracture simulations. Procedure {}.", noise_in_words(d),
+                               tester::to_string(fidelity), d.simulations, escaped(d.procedure)),
                    "quiet");
 }
 

@@ -10,11 +10,11 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
-#include "fabricate/job.hpp"
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
+#include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
 
@@ -53,7 +53,7 @@ void print_candidates(const diagnosis::Diagnosis& d) {
                d.contrasts[i].statistic, d.contrasts[i].p_family_wise);
   }
   for (const diagnosis::NextExperiment& e : d.next_experiments) {
-    fmt::print("  next: {} of {}{}, {} specimens: {}\n", tester::to_string(e.test), fabricate::readable_name(e.design),
+    fmt::print("  next: {} of {}{}, {} specimens: {}\n", tester::to_string(e.test), pattern::readable_name(e.design),
                conditions_in_words(e.conditions), e.replicates, e.reason);
   }
 }

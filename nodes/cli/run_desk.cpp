@@ -74,7 +74,9 @@ Answer RunDesk::hand_in(const runtime::Message& message) {
 }
 
 std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
-  return cli::doubts_about(run_, {&specimen, 1});
+  std::vector<std::string> doubts = measurement::doubts_about(specimen);
+  for (const std::string& doubt : cli::doubts_about(run_, {&specimen, 1})) doubts.push_back(doubt);
+  return doubts;
 }
 
 Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {

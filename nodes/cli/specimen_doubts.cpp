@@ -1,22 +1,44 @@
 #include "specimen_doubts.hpp"
 
+#include <set>
+
 #include "game/measurement_book.hpp"
 #include "game/plausibility.hpp"
 #include "game/starting_point.hpp"
 #include "laboratory_view.hpp"
+#include "measurement/consistency.hpp"
 
 namespace nacre::cli {
+namespace {
+
+/// Doubts about new specimens that those of the run raise, and not they among themselves.
+std::vector<std::string> beside_replicates(std::vector<measurement::SpecimenRecord> known,
+                                           std::span<const measurement::SpecimenRecord> specimens) {
+  std::set<std::string> asked;
+  for (const measurement::SpecimenRecord& specimen : specimens) asked.insert(specimen.specimen);
+  for (const auto& doubt : measurement::doubts_of_units({specimens.begin(), specimens.end()}))
+    asked.erase(doubt.specimen);
+  std::erase_if(known, [&](const auto& each) { return asked.contains(each.specimen); });
+  known.insert(known.end(), specimens.begin(), specimens.end());
+  std::vector<std::string> doubts;
+  for (const auto& doubt : measurement::doubts_of_units(known))
+    if (asked.contains(doubt.specimen)) doubts.push_back(doubt.text);
+  return doubts;
+}
+
+}  // namespace
 
 std::vector<std::string> doubts_about(const RunAccess& run, std::span<const measurement::SpecimenRecord> specimens) {
-  const std::vector<game::Order> orders = view_laboratory(run).facts.orders;
+  const game::LaboratoryFacts facts = view_laboratory(run).facts;
   const auto adopted = adopted_parameters(run);
   const material::ParameterSet model = adopted ? *adopted : game::starting_model(run.scenario);
   std::vector<std::string> doubts;
   for (const measurement::SpecimenRecord& specimen : specimens) {
     for (const auto& doubt :
-         {game::beside_orders(specimen, orders), game::doubt_of_unit(specimen, model, run.scenario.fidelity)})
+         {game::beside_orders(specimen, facts.orders), game::doubt_of_unit(specimen, model, run.scenario.fidelity)})
       if (doubt) doubts.push_back(*doubt);
   }
+  for (const std::string& doubt : beside_replicates(facts.book.specimens(), specimens)) doubts.push_back(doubt);
   return doubts;
 }
 

@@ -144,6 +144,13 @@ test("every replicate of a turned order is handed in as a turned one", async () 
       ["b-577fffe9-toughness-turned-2", "", 170000],
     ],
   );
+  // What is typed outlives a look at another view; another test has another unit, and is not what the order asks for.
+  await other.locator('input[name="value"]').fill("0,2");
+  for (const view of ["Nodes", "Laboratory"]) await other.getByRole("link", { name: view }).click();
+  assert.equal(await other.locator('input[name="value"]').inputValue(), "0,2");
+  await other.locator('select[name="test"]').selectOption("modulus");
+  for (const name of ["value", "specimen"]) assert.equal(await other.locator(`input[name="${name}"]`).inputValue(), "");
+  assert.equal(await other.locator('select[name="order"]').inputValue(), "");
   assert.deepEqual(other.troubles, []);
   await leave(other);
 });

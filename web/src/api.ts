@@ -155,6 +155,8 @@ export interface LaboratorySpecimen {
   design: string;
   test: string;
   orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
   batch: string;
   modulus_pa: number | null;
   toughness_pa: number | null;
@@ -199,6 +201,8 @@ export interface Group {
   design: string;
   test: string;
   orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
   state: string;
   tested: string[];
   valid: string[];
@@ -206,6 +210,9 @@ export interface Group {
   wanted: number;
   mean_pa: number;
   scatter: number;
+  /** The same without the proposed outliers. */
+  mean_without_pa: number;
+  scatter_without: number;
 }
 
 export interface Laboratory {

@@ -267,6 +267,11 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
   );
 }
 
+/** Brings the panel into sight: on a narrow screen it stands below the chart. */
+export function showDesignPanel() {
+  document.querySelector("section.design")?.scrollIntoView({ block: "start", behavior: "smooth" });
+}
+
 /** The design that was chosen; `children` stand there until one is. */
 export function DesignPanel({
   chosen,

@@ -4,7 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import type { Laboratory as Work, Order } from "./api";
 import { useHandIn } from "./hand_in";
 import { typedNumber } from "./numbers";
-import { Notice } from "./parts";
+import { Notice, useDraft } from "./parts";
 
 const EMPTY = {
   specimen: "",
@@ -60,14 +60,31 @@ function nextName(order: Order, taken: Set<string>): string {
 const rowsIn = (csv: string) => csv.split("\n").filter((line) => line.trim() !== "").length - 1;
 
 export function Entry({ work, refresh, playing }: { work: Work; refresh: () => Promise<void>; playing: boolean }) {
-  const [form, setForm] = useState(EMPTY);
-  const [fileName, setFileName] = useState("");
-  const [chosen, setChosen] = useState("");
+  const [form, setForm] = useDraft("entry", EMPTY);
+  const [fileName, setFileName] = useDraft("entry/file", "");
+  const [chosen, setChosen] = useDraft("entry/order", "");
   const [fault, setFault] = useState("");
   const [handedIn, setHandedIn] = useState(0);
+  const [files, setFiles] = useState(0); // chosen and let go again
   const [said, busy, handIn] = useHandIn(refresh);
   const set = (name: keyof Form) => (event: { currentTarget: { value: string } }) =>
     setForm({ ...form, [name]: event.currentTarget.value });
+  /** The same for what an order asks for: whoever changes that no longer answers the order that was chosen. */
+  const setAsked = (name: keyof Form) => (event: { currentTarget: { value: string } }) => {
+    const order = orderOf(chosen);
+    const isNamedByOrder = order !== undefined && form.specimen === nameFor(order);
+    setChosen("");
+    setForm({
+      ...form,
+      specimen: isNamedByOrder ? "" : form.specimen,
+      value: name === "test" ? "" : form.value, // in another unit
+      [name]: event.currentTarget.value,
+    });
+  };
+  const forget = () => {
+    setFileName("");
+    setFiles(files + 1);
+  };
   const open = work.orders.filter((o) => !o.complete);
   const orderOf = (id: string) => open.find((o) => o.order === id);
   const nameFor = (order: Order) => nextName(order, new Set(work.specimens.map((s) => s.specimen)));
@@ -75,8 +92,9 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
     setChosen(id);
     const order = orderOf(id);
     if (!order) return;
+    forget();
     setForm({
-      ...form,
+      ...EMPTY, // what was typed belongs to another specimen
       pattern: order.design,
       test: order.test,
       batch: order.batch,
@@ -94,12 +112,13 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
   const unit = form.test === "modulus" ? "GPa" : "MPa";
   const submit = async (event: Event) => {
     event.preventDefault();
-    const wrong = faultIn(form);
+    const isEmptyFile = fileName !== "" && rowsIn(form.curve_csv) < 1;
+    const wrong = isEmptyFile ? `Curve: ${fileName} holds no rows.` : faultIn(form);
     setFault(wrong);
     if (wrong || !(await handIn("/api/measurement", rowOf(form), `${form.specimen} is in the game.`))) return;
     // What was filled in meanwhile stays.
     setForm((now) => ({ ...now, specimen: "", value: "", note: "", valid: true, curve_csv: "" }));
-    setFileName("");
+    forget();
     setHandedIn(handedIn + 1);
   };
   return (
@@ -143,13 +162,13 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
               maxLength={101}
               spellcheck={false}
               value={form.pattern}
-              onInput={set("pattern")}
+              onInput={setAsked("pattern")}
               placeholder="key, rigid, soft, mix:0.65"
             />
           </label>
           <label>
             Test
-            <select name="test" value={form.test} onChange={set("test")}>
+            <select name="test" value={form.test} onChange={setAsked("test")}>
               <option>toughness</option>
               <option>modulus</option>
               <option>tensile</option>
@@ -170,7 +189,7 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           </label>
           <label>
             Orientation{" "}
-            <select name="orientation" value={form.orientation_deg} onChange={set("orientation_deg")}>
+            <select name="orientation" value={form.orientation_deg} onChange={setAsked("orientation_deg")}>
               <option value="0">upright</option>
               <option value="90">turned by 90°</option>
             </select>
@@ -198,7 +217,7 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           <label class="whole">
             Curve{" "}
             <input
-              key={handedIn}
+              key={files}
               type="file"
               accept=".csv,text/csv"
               onChange={async (e) => {

@@ -4,7 +4,7 @@ import { useMemo, useState } from "preact/hooks";
 import type { Errors, Families as Said, Family, FamilyDesign, Maps, Rounds } from "./api";
 import type { Option } from "./chart";
 import { themeColour } from "./colour";
-import { DesignPanel, type Chosen } from "./design_panel";
+import { DesignPanel, showDesignPanel, type Chosen } from "./design_panel";
 import { MechanismTable } from "./explorer";
 import { Grouping } from "./family_grouping";
 import { keyAt, type Gamut } from "./gamut";
@@ -252,7 +252,7 @@ function DesignTable({ families, open }: { families: Family[]; open: (f: Family,
               class="link"
               onClick={() => {
                 open(r.family, r.design);
-                window.scrollTo({ top: 0, behavior: "smooth" });
+                showDesignPanel();
               }}
             >
               <code class="key">{r.design.design}</code>

@@ -1,9 +1,8 @@
 // Which designs belong together: proposed by the program, changed by a person.
 
-import { useState } from "preact/hooks";
 import type { Families as Said, NamedSeeds } from "./api";
 import { useHandIn } from "./hand_in";
-import { Notice, Unit } from "./parts";
+import { Notice, Unit, useDraft } from "./parts";
 
 const NONE = -1;
 
@@ -26,7 +25,7 @@ export function Grouping({
 }) {
   const { families, near_pareto: near, from, problem } = said.grouping;
   // Without a draft the groups follow the server; with one they stay a person's.
-  const [draft, setDraft] = useState<Draft | null>(null);
+  const [draft, setDraft] = useDraft<Draft | null>("grouping", null);
   const [notice, busy, handIn] = useHandIn(refresh, "writing …");
   const server = JSON.stringify(families);
   const groups = draft?.groups ?? families;

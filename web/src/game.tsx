@@ -4,7 +4,7 @@ import { useMemo, useState } from "preact/hooks";
 import type { Measured, Rounds } from "./api";
 import { axis, basis, ChartBox, type Option } from "./chart";
 import { roundColour, themeColour } from "./colour";
-import { DesignPanel, NewestProposals, type Chosen } from "./design_panel";
+import { DesignPanel, NewestProposals, showDesignPanel, type Chosen } from "./design_panel";
 import type { Gamut } from "./gamut";
 import { GamutChart, type Layers } from "./gamut_chart";
 import { figure, GPA, MPA, percent, tick, withError } from "./numbers";
@@ -420,7 +420,7 @@ function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m:
               class="link"
               onClick={() => {
                 choose(m);
-                window.scrollTo({ top: 0, behavior: "smooth" });
+                showDesignPanel();
               }}
             >
               <code class="key">{m.design}</code>

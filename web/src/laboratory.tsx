@@ -3,7 +3,7 @@
 import type { DesignState, Families, Group, Laboratory as Work, Rounds, RunInfo } from "./api";
 import { Entry } from "./entry";
 import { gpa, mpa, percent } from "./numbers";
-import { Awaited, Name, Problem, Table, Unit, useRepeated, useStored } from "./parts";
+import { Awaited, Name, Problem, Table, Unit, unusual, useRepeated, useStored } from "./parts";
 import { offerOf, Proposals } from "./proposals";
 import { AGAIN_MS, useAnswer } from "./reading";
 import { Specimens } from "./review";
@@ -45,6 +45,14 @@ const stateColumns = [
   { heading: "why", value: (d: DesignState) => d.why },
 ];
 
+const inUnit = (g: Group, pa: number) => (g.test === "modulus" ? `${gpa(pa)} GPa` : `${mpa(pa)} MPa`);
+
+/** Green only where nothing is open: outliers that nobody has judged spoil a mean. */
+function chipOf(g: Group): string {
+  if (g.state === "inconsistent") return "rejected";
+  return g.state === "complete" && g.proposed_outliers.length === 0 ? "approved" : "pending";
+}
+
 const groupColumns = [
   {
     heading: "design",
@@ -60,17 +68,22 @@ const groupColumns = [
   {
     heading: "test",
     words: true,
-    show: (g: Group) => `${g.test}${g.orientation_deg ? ", turned" : ""}`,
+    show: (g: Group) => `${g.test}${unusual(g)}`,
     value: (g: Group) => g.test,
   },
   { heading: "orientation_deg", value: (g: Group) => g.orientation_deg },
+  { heading: "strain_rate_per_s", value: (g: Group) => g.strain_rate_per_s },
+  { heading: "thickness_mm", value: (g: Group) => g.thickness_mm },
   {
     heading: "state",
     words: true,
     show: (g: Group) => (
-      <span class={`chip ${g.state === "complete" ? "approved" : g.state === "inconsistent" ? "rejected" : "pending"}`}>
-        {g.state === "more needed" ? `${g.wanted} more for a sure mean` : g.state}
-      </span>
+      <>
+        <span class={`chip ${chipOf(g)}`}>
+          {g.state === "more needed" ? `${g.wanted} more for a sure mean` : g.state}
+        </span>{" "}
+        {g.proposed_outliers.length > 0 && <span class="quiet">{g.proposed_outliers.length} out of line</span>}
+      </>
     ),
     value: (g: Group) => g.state,
   },
@@ -85,10 +98,18 @@ const groupColumns = [
   {
     heading: "mean",
     csv: "mean_pa",
-    show: (g: Group) => (g.test === "modulus" ? `${gpa(g.mean_pa)} GPa` : `${mpa(g.mean_pa)} MPa`),
+    show: (g: Group) => inUnit(g, g.mean_pa),
     value: (g: Group) => g.mean_pa,
   },
   { heading: "scatter", show: (g: Group) => percent(g.scatter), value: (g: Group) => g.scatter },
+  {
+    heading: "without those out of line",
+    csv: "mean_without_pa",
+    show: (g: Group) =>
+      g.proposed_outliers.length > 0 ? `${inUnit(g, g.mean_without_pa)}, ${percent(g.scatter_without)}` : "",
+    value: (g: Group) => g.mean_without_pa,
+  },
+  { heading: "scatter_without", value: (g: Group) => g.scatter_without },
 ];
 
 export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: Rounds; playing: boolean }) {
@@ -112,7 +133,9 @@ export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: R
           <label>
             You are <input value={by} maxLength={60} onInput={(e) => setBy(e.currentTarget.value)} />
           </label>
-          <span class="quiet">kept with everything you decide here</span>
+          <span class="quiet">
+            {by ? "kept with everything you decide here" : "decisions and judgements need a name"}
+          </span>
         </div>
       )}
       {families.value && ( // only the stage tells whether a proposal is still to be decided on
@@ -130,7 +153,7 @@ export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: R
       <section class="panel">
         <Table
           name="replicates"
-          caption="Replicates: a mean is sure once four are tested and three of them agree; the game goes on with what it ordered"
+          caption="Replicates: a mean is sure once as many are tested as the game orders, and enough of them agree"
           rows={work.groups}
           rowKey={(g) => g.tested[0]}
           empty="Nothing has been measured yet."

@@ -145,6 +145,9 @@ function Page() {
       </header>
       {live && live.nodes.length > 0 && view !== "nodes" && <NodeStrip live={live} />}
       <main id="main" tabIndex={-1}>
+        {info.fidelity === "tiny" && (
+          <p class="awaited">Tiny specimens, to try things out: the figures on this page mean nothing.</p>
+        )}
         {view === "game" && <Game rounds={rounds} data={data} theme={theme} />}
         {view === "laboratory" && <Laboratory info={info} rounds={rounds} playing={playing} />}
         {view === "diagnosis" && <Diagnosis rounds={rounds} />}

@@ -29,8 +29,9 @@ export const tick = (value: number) => value.toLocaleString("en", { maximumSigni
 
 /** The number in a typed text, with a point or a comma for its decimals; null: none is in it. */
 export function typedNumber(text: string): number | null {
-  const value = Number(text.trim().replace(",", "."));
-  return text.trim() !== "" && Number.isFinite(value) ? value : null;
+  const plain = text.trim().replace(",", ".");
+  const value = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  return Number.isFinite(value) ? value : null;
 }
 
 export const gpa = (pa: number | null | undefined) => figure(pa === null || pa === undefined ? pa : pa * GPA);

@@ -4,6 +4,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
 import { saveCsv, saveSvg } from "./save";
+import { figure } from "./numbers";
 
 /** One unit of a design, drawn from its name; mixtures as a field of their shade. */
 export function Unit({ design, size, label = true }: { design: string; size: number; label?: boolean }) {
@@ -196,6 +197,32 @@ export function Awaited({ problem, what = "reading …" }: { problem: string; wh
       {problem || what}
     </p>
   );
+}
+
+/** What sets a test apart from the standard one of its design: turned, another rate, another thickness. */
+export function unusual(test: { orientation_deg: number; strain_rate_per_s: number; thickness_mm: number }): string {
+  const differs = (value: number, usual: number, share: number) => Math.abs(value - usual) > share * usual;
+  return [
+    test.orientation_deg ? ", turned" : "",
+    differs(test.strain_rate_per_s, 6.17e-4, 0.25) ? `, at ${figure(test.strain_rate_per_s)} /s` : "",
+    differs(test.thickness_mm, 3.2, 0.1) ? `, ${figure(test.thickness_mm)} mm thick` : "",
+  ].join("");
+}
+
+const drafts = new Map<string, unknown>();
+
+/** State that outlives its view, but not the page: what somebody has typed and not handed in. */
+export function useDraft<T>(name: string, initial: T): [T, (value: T | ((now: T) => T)) => void] {
+  const [value, setValue] = useState<T>(() => (drafts.has(name) ? (drafts.get(name) as T) : initial));
+  return [
+    value,
+    (next) =>
+      setValue((now) => {
+        const chosen = typeof next === "function" ? (next as (now: T) => T)(now) : next;
+        drafts.set(name, chosen);
+        return chosen;
+      }),
+  ];
 }
 
 /** State that lives in the browser's storage, for the name of the person and the theme. */

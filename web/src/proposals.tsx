@@ -1,10 +1,9 @@
 // What is proposed for the laboratory, to be decided on, and designs of one's own.
 
-import { useState } from "preact/hooks";
 import type { Family, Laboratory as Work, Proposed } from "./api";
 import { useHandIn } from "./hand_in";
 import { gpa, mpa } from "./numbers";
-import { Name, Notice, Unit } from "./parts";
+import { Name, Notice, Unit, useDraft } from "./parts";
 
 /** Designs that may wait for a decision: of a round, or of the families of the stage after the last one. */
 export interface Offer {
@@ -60,16 +59,18 @@ export function Proposals({
   playing: boolean;
   approval: boolean;
 }) {
-  const [why, setWhy] = useState("");
-  const [own, setOwn] = useState("");
+  const [why, setWhy] = useDraft("decision/why", "");
+  const [own, setOwn] = useDraft("decision/own", "");
   const [said, busy, handIn] = useHandIn(refresh);
   const stateOf = (design: string) => work.designs.find((d) => d.design === design);
+  /** The reason goes with one decision; the next one has its own. */
+  const say = async (design: string, round: number, approved: boolean, done: string) => {
+    const isTaken = await handIn("/api/approval", { design, round, approved, by, why }, done);
+    if (isTaken) setWhy((now) => (now === why ? "" : now));
+    return isTaken;
+  };
   const decide = (design: string, approved: boolean) =>
-    handIn(
-      "/api/approval",
-      { design, round: offer!.round, approved, by, why },
-      `${design} ${approved ? "approved" : "rejected"}.`,
-    );
+    say(design, offer!.round, approved, `${design} ${approved ? "approved" : "rejected"}.`);
   const isOpen = (design: string) => (stateOf(design)?.state ?? "pending") === "pending";
   if (!offer)
     return (
@@ -144,14 +145,7 @@ export function Proposals({
             type="button"
             disabled={busy || !own || !by}
             onClick={async () => {
-              if (
-                await handIn(
-                  "/api/approval",
-                  { design: own, round: -1, approved: true, by, why },
-                  `${own} will be measured.`,
-                )
-              )
-                setOwn("");
+              if (await say(own, -1, true, `${own} will be measured.`)) setOwn("");
             }}
           >
             Have it measured

@@ -1,10 +1,10 @@
 // Every specimen, with what speaks against it and a person's word.
 
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { Laboratory as Work, LaboratorySpecimen } from "./api";
 import { useHandIn } from "./hand_in";
 import { gpa, mpa } from "./numbers";
-import { Name, Notice, Table, Unit } from "./parts";
+import { Name, Notice, Table, Unit, unusual } from "./parts";
 
 /** The laboratory's note, and who has judged the specimen last and why. */
 function remarkOn(s: LaboratorySpecimen): string {
@@ -30,12 +30,22 @@ export function Specimens({
   const [said, busy, handIn] = useHandIn(refresh);
   const doubts = new Map(work.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)));
   const rows = work.specimens
-    .filter((s) => !find || `${s.specimen} ${s.design} ${s.test} ${s.batch}`.includes(find))
+    .filter((s) => `${s.specimen} ${s.design} ${s.test} ${s.batch}`.toLowerCase().includes(find.toLowerCase()))
     .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
+  const reason = useRef<HTMLInputElement>(null);
+  useEffect(() => reason.current?.focus(), [judged]);
+  /** Another one may be open by now; where none is, the keyboard goes on at the button that opened it. */
+  const close = (s: LaboratorySpecimen) => {
+    setJudged((now) => (now === s.specimen ? null : now));
+    requestAnimationFrame(() => {
+      if (document.activeElement === document.body)
+        document.querySelector<HTMLElement>(`[aria-label="${CSS.escape(`judge ${s.specimen}`)}"]`)?.focus();
+    });
+  };
   const judge = async (s: LaboratorySpecimen) => {
     const done = `${s.specimen} is ${s.valid ? "not valid" : "valid"} now.`;
     if (await handIn("/api/review", { specimen: s.specimen, valid: !s.valid, by, why }, done))
-      setJudged((now) => (now === s.specimen ? null : now)); // another one may be open by now
+      close(s);
   };
   return (
     <section class="panel">
@@ -54,10 +64,10 @@ export function Specimens({
       <Notice said={said} />
       <Table
         name="specimens"
-        caption={`Specimens (${work.specimens.length})`}
+        caption={`Specimens (${find ? `${rows.length} of ` : ""}${work.specimens.length})`}
         rows={rows}
         rowKey={(s) => s.specimen}
-        empty="Nothing has been measured yet."
+        empty={find ? "No specimen is called so." : "Nothing has been measured yet."}
         rowClass={(s) => (s.valid ? "" : "invalid")}
         columns={[
           { heading: "specimen", words: true, show: (s) => s.specimen, value: (s) => s.specimen },
@@ -75,10 +85,12 @@ export function Specimens({
           {
             heading: "test",
             words: true,
-            show: (s) => `${s.test}${s.orientation_deg ? ", turned" : ""}`,
+            show: (s) => `${s.test}${unusual(s)}`,
             value: (s) => s.test,
           },
           { heading: "orientation_deg", value: (s) => s.orientation_deg },
+          { heading: "strain_rate_per_s", value: (s) => s.strain_rate_per_s },
+          { heading: "thickness_mm", value: (s) => s.thickness_mm },
           { heading: "batch", value: (s) => s.batch },
           { heading: "E / GPa", csv: "modulus_pa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
           { heading: "T / MPa", csv: "toughness_pa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
@@ -124,7 +136,7 @@ export function Specimens({
                 >
                   <input
                     required
-                    autofocus
+                    ref={reason}
                     aria-label={`why ${s.specimen} is ${s.valid ? "not valid" : "valid"}`}
                     placeholder="why"
                     value={why}
@@ -134,7 +146,7 @@ export function Specimens({
                   <button type="submit" disabled={busy || !by}>
                     {s.valid ? "not valid" : "valid"}
                   </button>
-                  <button type="button" class="quiet" onClick={() => setJudged(null)}>
+                  <button type="button" class="quiet" onClick={() => close(s)}>
                     cancel
                   </button>
                 </form>

@@ -58,7 +58,8 @@ TEST(Replicates, ValuesThatAUnitExplainsAreDoubted) {
   specimens.push_back(notched("tough", 40e6, 0.09));
   const auto doubts = doubts_of_units(specimens);
   ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_THAT(doubts[0], HasSubstr("specimen percent: its toughness is 96.7 times the middle of the 6"));
+  EXPECT_EQ(doubts[0].specimen, "percent");
+  EXPECT_THAT(doubts[0].text, HasSubstr("specimen percent: its toughness is 96.7 times the middle of the 6"));
   specimens.back().valid = specimens[4].valid = false;
   EXPECT_THAT(doubts_of_units(specimens), IsEmpty()) << "what does not count is not doubted";
   EXPECT_EQ(doubts_of_units({notched("A", 20e6, 0.03), notched("kPa", 20e3, 0.03)}).size(), 2U)
