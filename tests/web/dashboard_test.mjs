@@ -145,6 +145,7 @@ test("every replicate of a turned order is handed in as a turned one", async () 
     ],
   );
   // What is typed outlives a look at another view; another test has another unit, and is not what the order asks for.
+  await other.waitForFunction(() => document.querySelector('input[name="specimen"]').value.endsWith("-3"));
   await other.locator('input[name="value"]').fill("0,2");
   for (const view of ["Nodes", "Laboratory"]) await other.getByRole("link", { name: view }).click();
   assert.equal(await other.locator('input[name="value"]').inputValue(), "0,2");
