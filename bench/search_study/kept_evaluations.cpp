@@ -14,7 +14,6 @@ namespace nacre::search_study {
 namespace {
 
 std::string table_path(const Options& options) {
-  std::filesystem::create_directories(options.work);
   return fmt::format("{}/evaluations-{}-{}-kernel{}.csv", options.work, options.fidelity, options.set,
                      tester::kKernelVersion);
 }

@@ -1,7 +1,7 @@
 // One design, from everything that was said of it.
 
 #include "dashboard/views.hpp"
-#include "game/rounds.hpp"
+#include "measurement/conditions.hpp"
 #include "pattern/constraints.hpp"
 
 namespace nacre::dashboard {
@@ -9,13 +9,11 @@ namespace {
 
 Json specimen_json(const store::MeasuredSpecimen& specimen) {
   const measurement::SpecimenRecord& r = specimen.record;
-  tester::TestConditions usual;
-  usual.orientation_deg = r.conditions.orientation_deg;
   return {{"specimen", r.specimen},
           {"round", specimen.round},
           {"test", tester::to_string(r.test)},
           {"orientation_deg", r.conditions.orientation_deg},
-          {"standard", game::answers(r.conditions, usual)},
+          {"standard", measurement::is_standard(r.conditions)},
           {"batch", r.batch},
           {"modulus_pa", json_or_null(r.modulus_pa ? r.modulus_pa : measurement::modulus_of(r))},
           {"toughness_pa", json_or_null(r.toughness_pa ? r.toughness_pa : measurement::toughness_of(r))},

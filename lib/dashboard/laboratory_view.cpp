@@ -1,6 +1,7 @@
 // The laboratory's work: what is proposed, ordered, printed, measured, and which replicates agree.
 
 #include "dashboard/views.hpp"
+#include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
 
 namespace nacre::dashboard {
@@ -17,6 +18,7 @@ Json specimens_json(const game::MeasurementBook& book) {
          {"orientation_deg", r.conditions.orientation_deg},
          {"strain_rate_per_s", r.conditions.strain_rate_per_s},
          {"thickness_mm", r.conditions.thickness_mm},
+         {"standard", measurement::is_standard(r.conditions)},
          {"batch", r.batch},
          {"modulus_pa", json_or_null(r.test == tester::TestKind::modulus ? measurement::modulus_of(r) : r.modulus_pa)},
          {"toughness_pa",
@@ -42,6 +44,7 @@ Json group_json(const measurement::ReplicateGroup& group) {
           {"orientation_deg", group.conditions.orientation_deg},
           {"strain_rate_per_s", group.conditions.strain_rate_per_s},
           {"thickness_mm", group.conditions.thickness_mm},
+          {"standard", measurement::is_standard(group.conditions)},
           {"state", to_string(group.state)},
           {"tested", group.tested},
           {"valid", group.valid},

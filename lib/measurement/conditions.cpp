@@ -12,6 +12,10 @@ bool same_conditions(const tester::TestConditions& tested, const tester::TestCon
          near(tested.thickness_mm, ordered.thickness_mm, kThicknessTolerance);
 }
 
+bool is_standard(const tester::TestConditions& tested) {
+  return same_conditions(tested, {.orientation_deg = tested.orientation_deg});
+}
+
 std::vector<SpecimenRecord> at_nominal_conditions(std::vector<SpecimenRecord> specimens) {
   std::vector<SpecimenRecord*> by_name;
   for (SpecimenRecord& specimen : specimens) by_name.push_back(&specimen);

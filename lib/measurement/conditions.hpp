@@ -13,6 +13,9 @@ inline constexpr double kRateTolerance = 0.25, kThicknessTolerance = 0.1;
 /// Same orientation, rate and thickness within their tolerances of `ordered`.
 bool same_conditions(const tester::TestConditions& tested, const tester::TestConditions& ordered);
 
+/// Whether a test is the standard one of its design, upright or turned.
+bool is_standard(const tester::TestConditions& tested);
+
 /// The specimens under nominal conditions: the standard ones where same_conditions() holds, otherwise those of the
 /// first specimen (by name) of the same kind, so that replicates of 3.17 and 3.24 mm come together. The order is kept.
 std::vector<SpecimenRecord> at_nominal_conditions(std::vector<SpecimenRecord> specimens);

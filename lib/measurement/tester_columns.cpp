@@ -121,8 +121,8 @@ constexpr std::array kWords = {
 };
 
 /// Words of names that say where an extension was recorded; any other name may mean both.
-constexpr std::array<std::string_view, 8> kGripWords = {"crosshead", "travel", "traverse",    "traversenweg",
-                                                        "weg",       "stroke", "standardweg", "standard travel"};
+constexpr std::array<std::string_view, 7> kGripWords = {"crosshead", "travel", "traverse",   "traversenweg",
+                                                        "weg",       "stroke", "standardweg"};
 constexpr std::array<std::string_view, 3> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
                                                                 "feindehnung"};
 

@@ -50,6 +50,11 @@ struct Reviewed {
   std::optional<int> revision;
 };
 
+/// Of a slip in a specimen's name.
+InputError unknown_specimen(const std::string& specimen, const std::string& where, std::size_t specimens) {
+  return InputError::format("{}: not in {}: expected the name of one of its {} specimens", specimen, where, specimens);
+}
+
 /// Nothing, said on standard error, where the judgement does not stand.
 std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& judgement) {
   const RunAccess run = open_run(options.run);
@@ -57,10 +62,7 @@ std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& ju
   const auto specimens = book.specimens();
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
                                      [&](const auto& each) { return each.specimen == judgement.specimen; });
-  if (specimen == specimens.end()) {
-    throw InputError::format("{}: not in {}: expected the name of one of its {} specimens", judgement.specimen,
-                             options.run, specimens.size());
-  }
+  if (specimen == specimens.end()) throw unknown_specimen(judgement.specimen, options.run, specimens.size());
   if (judgement.valid) {
     if (const auto reason = book.against_validity(judgement.specimen)) throw InputError(*reason);
   }
@@ -85,10 +87,7 @@ std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<Jud
   std::vector<Reviewed> reviewed;
   measurement::SetTable table(options.set);
   for (const Judgement& judgement : judgements) {
-    if (!table.holds(judgement.specimen)) {
-      throw InputError::format("{}: not in {}: expected the name of one of its {} specimens", judgement.specimen,
-                               options.set, table.size());
-    }
+    if (!table.holds(judgement.specimen)) throw unknown_specimen(judgement.specimen, options.set, table.size());
     table.judge(judgement.specimen, judgement.valid, fmt::format("{} ({})", judgement.why, options.by));
     reviewed.push_back({judgement, std::nullopt});
   }
@@ -176,10 +175,8 @@ nlohmann::ordered_json to_json(const ReplicateGroup& group) {
 
 /// What sets a group apart from the standard test of its design; empty for that one.
 std::string unusual_conditions(const tester::TestConditions& conditions) {
-  tester::TestConditions usual;
-  usual.orientation_deg = conditions.orientation_deg;
   const std::string turned = conditions.orientation_deg == 90.0 ? " turned" : "";
-  if (measurement::same_conditions(conditions, usual)) return turned;
+  if (measurement::is_standard(conditions)) return turned;
   return fmt::format("{} at {:.3g} /s, {:.3g} mm thick", turned, conditions.strain_rate_per_s, conditions.thickness_mm);
 }
 

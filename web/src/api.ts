@@ -157,6 +157,8 @@ export interface LaboratorySpecimen {
   orientation_deg: number;
   strain_rate_per_s: number;
   thickness_mm: number;
+  /** The usual rate and thickness. */
+  standard: boolean;
   batch: string;
   modulus_pa: number | null;
   toughness_pa: number | null;
@@ -203,6 +205,8 @@ export interface Group {
   orientation_deg: number;
   strain_rate_per_s: number;
   thickness_mm: number;
+  /** The usual rate and thickness. */
+  standard: boolean;
   state: string;
   tested: string[];
   valid: string[];

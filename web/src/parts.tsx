@@ -199,14 +199,16 @@ export function Awaited({ problem, what = "reading …" }: { problem: string; wh
   );
 }
 
-/** What sets a test apart from the standard one of its design: turned, another rate, another thickness. */
-export function unusual(test: { orientation_deg: number; strain_rate_per_s: number; thickness_mm: number }): string {
-  const differs = (value: number, usual: number, share: number) => Math.abs(value - usual) > share * usual;
-  return [
-    test.orientation_deg ? ", turned" : "",
-    differs(test.strain_rate_per_s, 6.17e-4, 0.25) ? `, at ${figure(test.strain_rate_per_s)} /s` : "",
-    differs(test.thickness_mm, 3.2, 0.1) ? `, ${figure(test.thickness_mm)} mm thick` : "",
-  ].join("");
+/** What sets a test apart from the standard one of its design; the server says which that is. */
+export function unusual(test: {
+  orientation_deg: number;
+  strain_rate_per_s: number;
+  thickness_mm: number;
+  standard?: boolean;
+}): string {
+  const turned = test.orientation_deg ? ", turned" : "";
+  if (test.standard !== false) return turned;
+  return `${turned}, at ${figure(test.strain_rate_per_s)} /s, ${figure(test.thickness_mm)} mm thick`;
 }
 
 const drafts = new Map<string, unknown>();
