@@ -228,8 +228,8 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
     const std::string &first = inside[static_cast<std::size_t>(a)], &second = inside[static_cast<std::size_t>(b)];
     add("double", first + "+" + second, {first, second}, true, false);
   }
-  const auto add_turns = [&](const std::string& kind, int count, const std::string& even, const std::string& odd) {
-    for (int i = 0; i < count; ++i) add(kind, i % 2 == 0 ? even : odd, {i % 2 == 0 ? even : odd}, true, false);
+  const auto add_turns = [&](const std::string& kind, int count, const std::string& one, const std::string& other) {
+    for (int i = 0; i < count; ++i) add(kind, i % 2 == 0 ? one : other, {i % 2 == 0 ? one : other}, true, false);
   };
   add_turns("alike", options.alike, "droplet_mixing", "rigid_overprint");
   for (const char* kind : {"pair", "resolved"}) add_turns(kind, options.pairs, "batch_drift", "rate_dependence");

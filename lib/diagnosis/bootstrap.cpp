@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/parallel.hpp"
 
@@ -184,6 +185,12 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
 double exceedance(const std::vector<double>& draws, double observed) {
   const auto larger = std::count_if(draws.begin(), draws.end(), [&](double draw) { return draw >= observed; });
   return (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(draws.size()));
+}
+
+double threshold(std::vector<double> draws, double level) {
+  const auto allowed = static_cast<std::size_t>(level * static_cast<double>(draws.size() + 1)) - 1;
+  std::ranges::sort(draws, std::greater<>());
+  return draws[allowed];
 }
 
 double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed) {

@@ -89,6 +89,10 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
 /// (1 + number of draws at least as large) / (1 + draws).
 double exceedance(const std::vector<double>& draws, double observed);
 
+/// The largest value that is not rare enough: whatever is larger has an exceedance of at most `level`. At least
+/// 1 / `level` draws.
+double threshold(std::vector<double> draws, double level);
+
 /// Chance of a chi2 as large, of the whole or of the part that stands out most: a part that noise explains generously
 /// must not hide what another one shows. Family-wise over whole and parts.
 double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed);

@@ -169,8 +169,18 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
 
 /// The summary, and what a reader must know beside it.
 std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& decision,
-                                  const Observations& observations, const std::vector<std::string>& at_an_end) {
+                                  const Observations& observations, const std::vector<std::string>& at_an_end,
+                                  const std::vector<std::string>& out_of_line) {
   std::string text = summary_of(diagnosis, decision);
+  if (diagnosis.verdict != Verdict::base_sufficient && !out_of_line.empty()) {
+    constexpr std::size_t kShown = 3;
+    const std::vector<std::string> first(out_of_line.begin(),
+                                         out_of_line.begin() + std::min(kShown, out_of_line.size()));
+    text += fmt::format(
+        " Caution: replicates do not agree ({}{}), and one wrong value looks like a cause that nobody knows: `nacre "
+        "review` shows which.",
+        fmt::join(first, ", "), out_of_line.size() > kShown ? ", ..." : "");
+  }
   for (const SanityCheck& check : diagnosis.sanity) {
     // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
     if (!check.numerical || check.changed == "half the element size") continue;
@@ -297,15 +307,15 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     (decision.verdict == Verdict::named ? diagnosis.gain : diagnosis.partial_gain) = gain;
   }
   report(0.95, "choosing the next experiments");
-  diagnosis.next_experiments = next_experiments(models_to_separate(evidence, decision), evidence.model, observations,
-                                                settings.fidelity, kNextExperiments);
+  diagnosis.next_experiments = next_experiments(evidence, models_to_separate(evidence, decision), kNextExperiments);
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "other numerics on three specimens");
   if (settings.check_numerics)
     diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
   const CoordinateMap map(evidence.model.basis(), decided.effects);
-  diagnosis.summary = summary_with_cautions(diagnosis, decision, observations, map.moduli_at_an_end(decided.u));
+  diagnosis.summary = summary_with_cautions(diagnosis, decision, observations, map.moduli_at_an_end(decided.u),
+                                            groups_out_of_line(specimens));
   report(1.0, "done");
   return diagnosis;
 }

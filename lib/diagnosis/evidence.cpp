@@ -36,14 +36,36 @@ void put_base(Evidence& evidence, Fit base) {
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
 }
 
-/// The base gets the start that the best extended fit ended with: a gain must not be better optimisation.
+/// A base and one effect from where it promises most.
+Fit fit_single(const Evidence& evidence, std::size_t effect) {
+  return fit_model(
+      evidence.model, evidence.observations, {evidence.effects[effect]},
+      best_start(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
+}
+
+/// The base gets the start that the best extended fit ended with: a gain must not be better optimisation. Where that
+/// helps it, every effect begins once more from there.
 void begin_base_again(Evidence& evidence) {
   constexpr double kBetter = 0.1;
   const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
                                      [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
   if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - 1.0) return;
   Fit again = fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count));
-  if (again.chi2 < evidence.base.fit.chi2 - kBetter) put_base(evidence, std::move(again));
+  if (again.chi2 >= evidence.base.fit.chi2 - kBetter) return;
+  put_base(evidence, std::move(again));
+  for (std::size_t k = 0; k < evidence.singles.size(); ++k)
+    evidence.singles[k] = better_of(std::move(evidence.singles[k]), fit_single(evidence, k));
+}
+
+/// An effect that ended with more than the base leaves went astray: without any of it, it is the base.
+void begin_at_the_base(Evidence& evidence) {
+  constexpr double kMore = 0.02;
+  for (Fit& single : evidence.singles) {
+    if (single.chi2 <= evidence.base.fit.chi2 + kMore) continue;
+    const CoordinateMap map = evidence.model.map(single.effects);
+    single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, single.effects,
+                                                    widened_start(evidence.base.fit, map)));
+  }
 }
 
 /// Base and every single effect, fitted to the observations of the evidence.
@@ -63,32 +85,33 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
     // An earlier fit that found something is where to go on, under another covariance or emulator.
     const bool found =
         k < evidence.singles.size() && std::abs(evidence.singles[k].u[evidence.singles[k].base_count]) > 0.01;
-    singles.push_back(fit_model(
-        evidence.model, evidence.observations, {evidence.effects[k]},
-        found ? evidence.singles[k].u
-              : best_start(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[k])));
+    singles.push_back(
+        found ? fit_model(evidence.model, evidence.observations, {evidence.effects[k]}, evidence.singles[k].u)
+              : fit_single(evidence, k));
   }
   evidence.singles = std::move(singles);
   for (Fit& single : evidence.singles) single = begun_again(evidence, std::move(single));
   begin_base_again(evidence);
+  begin_at_the_base(evidence);
 }
 
-/// What finer elements would change, at the base fit, and what they would change otherwise were an effect of the
-/// material true: each direction with a factor of its own, because an effect that smooths or sharpens a layout changes
-/// what its elements cost.
+/// Models whose change with finer elements is shared among moduli: the base, and every effect of the material that acts
+/// on them.
 void share_numerics(Evidence& evidence) {
-  const double amplitude = evidence.settings.floor.mesh_amplitude;
-  std::vector<Eigen::VectorXd> directions = {
-      amplitude * evidence.model.mesh_change(evidence.model.base_map(), evidence.base.fit.u)};
-  for (const Fit& single : evidence.singles) {
-    if (material::find_effect(single.effects.front())->side != material::EffectSide::material) continue;
-    directions.push_back(amplitude * evidence.model.mesh_change(evidence.model.map(single.effects), single.u) -
-                         directions.front());
-    if (directions.back().norm() < 1e-9) directions.pop_back();  // it does not act on moduli
+  evidence.numerics = {{{}, evidence.base.fit.u}};
+  for (const Fit& single : evidence.singles)
+    if (material::find_effect(single.effects.front())->side == material::EffectSide::material)
+      evidence.numerics.push_back({single.effects, single.u});
+  const Eigen::MatrixXd all = shared_directions(evidence, evidence.model);
+  std::vector<Eigen::Index> kept;
+  std::vector<ModelPoint> acting;
+  for (Eigen::Index k = 0; k < all.cols(); ++k) {
+    if (k > 0 && all.col(k).norm() < 1e-9) continue;
+    kept.push_back(k);
+    acting.push_back(std::move(evidence.numerics[static_cast<std::size_t>(k)]));
   }
-  Eigen::MatrixXd& shared = evidence.observations.numerics_shared;
-  shared.resize(evidence.observations.size(), static_cast<Eigen::Index>(directions.size()));
-  for (std::size_t k = 0; k < directions.size(); ++k) shared.col(static_cast<Eigen::Index>(k)) = directions[k];
+  evidence.numerics = std::move(acting);
+  evidence.observations.numerics_shared = all(Eigen::all, kept);
   evidence.observations.numerics_sd = evidence.settings.floor.mesh_remainder_sd;
 }
 
@@ -129,6 +152,17 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
     signatures.push_back(std::move(signature));
   }
   return signatures;
+}
+
+Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& model) {
+  Eigen::MatrixXd directions(model.size(), static_cast<Eigen::Index>(evidence.numerics.size()));
+  for (std::size_t k = 0; k < evidence.numerics.size(); ++k) {
+    const ModelPoint& point = evidence.numerics[k];
+    directions.col(static_cast<Eigen::Index>(k)) =
+        evidence.settings.floor.mesh_amplitude * model.mesh_change(model.map(point.effects), point.u);
+    if (k > 0) directions.col(static_cast<Eigen::Index>(k)) -= directions.col(0);
+  }
+  return directions;
 }
 
 Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
@@ -173,7 +207,7 @@ Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observ
 }
 
 Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings) {
-  Evidence evidence{workbench.model(), workbench.observations(), settings, {}, workbench.effects(), {}, {}, {}};
+  Evidence evidence{workbench.model(), workbench.observations(), settings, {}, workbench.effects(), {}, {}, {}, {}};
   const CoordinateMap map = evidence.model.base_map();
   const double first = workbench.has_fractures() ? 0.55 : 0.0;
   const int passes =

@@ -145,8 +145,8 @@ Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
   return u;
 }
 
-Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u) {
-  const CoordinateMap map = model.base_map();
+Fit linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u) {
+  const CoordinateMap map = model.map(effects);
   Fit fit = begun(model, map, u);
   fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
   fit.free_all();

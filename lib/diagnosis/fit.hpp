@@ -45,8 +45,8 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
 /// it at its usual value.
 Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map);
 
-/// The base model at given coordinates, with its linearisation there and every coordinate free; chi2 is not computed.
-Fit linearised(const FeatureModel& model, const Eigen::VectorXd& u);
+/// Base and effects at given coordinates, with the linearisation there and every coordinate free; chi2 is not computed.
+Fit linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u);
 
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
 /// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the

@@ -198,8 +198,7 @@ std::vector<FeatureGain> gain_by_feature(const Observations& observations, const
 double drop_needed(const Evidence& evidence) {
   std::vector<double> drops;
   for (const DrawStatistics& draw : evidence.base_draws) drops.push_back(draw.largest_drop());
-  std::sort(drops.begin(), drops.end());
-  return drops[static_cast<std::size_t>((1.0 - evidence.settings.name_level) * static_cast<double>(drops.size() - 1))];
+  return threshold(std::move(drops), evidence.settings.name_level);
 }
 
 Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,

@@ -167,7 +167,7 @@ void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eige
 
 Eigen::MatrixXd FeatureModel::predict(const CoordinateMap& map, std::span<const Eigen::VectorXd> u) const {
   const int groups = static_cast<int>(observations_.groups.size()), points = static_cast<int>(u.size());
-  Eigen::MatrixXd y(observations_.size(), points);
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(observations_.size(), points);
   parallel_for(groups * points, [&](int job) {
     const auto point = static_cast<std::size_t>(job / groups), group = static_cast<std::size_t>(job % groups);
     const Observation& g = observations_.groups[group];
@@ -187,7 +187,7 @@ Eigen::MatrixXd FeatureModel::slopes(const CoordinateMap& map, const Eigen::Vect
     points.push_back(u);
     points.back()[i] += steps[i];
   }
-  Eigen::MatrixXd y(observations_.size(), map.size());
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(observations_.size(), map.size());
   predict_others(map, points, y);
   const material::ParameterSet own = map.parameters(u);
   parallel_for(static_cast<int>(observations_.groups.size()), [&](int i) {

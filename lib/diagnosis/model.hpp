@@ -20,11 +20,12 @@ namespace nacre::diagnosis {
 /// moduli.
 class FeatureModel {
  public:
-  /// `observations` must outlive the model; `surface` is needed when there are fracture rows, and may learn more while
-  /// the model lives.
+  /// `observations` must outlive the model; `surface` may learn more while the model lives; without one fracture rows
+  /// are foretold as 0.
   FeatureModel(const Observations& observations, const Basis& basis, tester::Fidelity fidelity,
                const FractureSurface* surface = nullptr);
   const Basis& basis() const { return basis_; }
+  int size() const { return observations_.size(); }  ///< rows
   CoordinateMap map(std::span<const std::string> effects) const { return CoordinateMap(basis_, effects); }
   CoordinateMap base_map() const { return CoordinateMap(basis_, {}); }
   /// Predicted features, rows x coordinate vectors; all cores. Throws std::runtime_error when a simulation is

@@ -177,27 +177,32 @@ double Observations::replicate_sd(Feature feature, TestKind test) const {
   return c.size() ? std::sqrt(c(f, f)) : 0.0;
 }
 
+RowCovariance Observations::row_covariance(int i, int j) const {
+  const Row &a = rows[static_cast<std::size_t>(i)], &b = rows[static_cast<std::size_t>(j)];
+  RowCovariance covariance;
+  if (a.test != b.test || a.probe != b.probe) return covariance;
+  // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
+  if (a.group == b.group)
+    covariance.scatter =
+        std::min(a.weight, b.weight) *
+        scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
+  if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) return covariance;
+  const bool same = group_of(i).design == group_of(j).design;
+  if (a.test == TestKind::modulus && same) covariance.fixed = numerics_sd * numerics_sd;
+  if (a.test == TestKind::toughness)
+    covariance.fixed = fracture_numerics.covariance(a.feature, b.feature, rigid_position(group_of(i)),
+                                                    rigid_position(group_of(j)), same);
+  return covariance;
+}
+
 CovarianceParts Observations::covariance_parts() const {
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size(), size());
   CovarianceParts parts{none, none};
   for (int i = 0; i < size(); ++i) {
-    const Row& a = rows[static_cast<std::size_t>(i)];
     for (int j = 0; j <= i; ++j) {
-      const Row& b = rows[static_cast<std::size_t>(j)];
-      if (a.test != b.test || a.probe != b.probe) continue;
-      // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
-      if (a.group == b.group)
-        parts.scatter(i, j) = parts.scatter(j, i) =
-            std::min(a.weight, b.weight) *
-            scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
-      if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) continue;
-      const bool same = group_of(i).design == group_of(j).design;
-      double numerics = 0.0;
-      if (a.test == TestKind::modulus && same) numerics = numerics_sd * numerics_sd;
-      if (a.test == TestKind::toughness)
-        numerics = fracture_numerics.covariance(a.feature, b.feature, rigid_position(group_of(i)),
-                                                rigid_position(group_of(j)), same);
-      parts.fixed(i, j) = parts.fixed(j, i) = numerics;
+      const RowCovariance both = row_covariance(i, j);
+      parts.fixed(i, j) = parts.fixed(j, i) = both.fixed;
+      parts.scatter(i, j) = parts.scatter(j, i) = both.scatter;
     }
   }
   if (has_shared_numerics()) parts.fixed += numerics_shared * numerics_shared.transpose();

@@ -79,7 +79,12 @@ struct ReplicateScatter {
 /// Factors on the replicate variances, in the order of Observations::scatter.
 using ScatterFactors = std::vector<double>;
 
-/// The covariance of the rows, taken apart: what scatters between replicates, and the rest. Rows of different scatter
+/// The covariance of two rows, taken apart: what scatters between replicates, and the rest.
+struct RowCovariance {
+  double fixed = 0.0, scatter = 0.0;
+};
+
+/// The same of all rows. Rows of different scatter
 /// are independent in both parts.
 struct CovarianceParts {
   Eigen::MatrixXd fixed;
@@ -110,8 +115,10 @@ struct Observations {
   /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
   int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
-  /// Covariance of the rows. What two numerics differ by is the same for all specimens of one layout under one test:
-  /// rotated twins share it. Along the shared directions all rows go together.
+  /// Covariance of two rows, but for the shared directions and the emulator. What two numerics differ by is the same
+  /// for all specimens of one layout under one test: rotated twins share it.
+  RowCovariance row_covariance(int i, int j) const;
+  /// Covariance of the rows. Along the shared directions all rows go together.
   CovarianceParts covariance_parts() const;
   Eigen::MatrixXd covariance() const {
     const CovarianceParts parts = covariance_parts();

@@ -7,8 +7,8 @@
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/experiments.hpp"
 #include "diagnosis/features.hpp"
+#include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
 
 namespace nacre::diagnosis {
@@ -82,7 +82,7 @@ std::string bundle_of(const PossibleTest& test) {
     case AddedTest::laminate:
       return "laminates of period 1, 2 and 5, across and along the pull";
     case AddedTest::homogeneous:
-      return "homogeneous coupons at two rates, unloaded on the way";
+      return "homogeneous coupons at several rates, unloaded on the way";
     case AddedTest::twin:
       break;
   }
@@ -115,7 +115,7 @@ Sheet sheet_of(Workbench& workbench, const DiagnosisSettings& settings, const As
   Observations& observations = workbench.observations();
   for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
   const CoordinateMap map = workbench.model().base_map();
-  Fit base = linearised(workbench.model(), map.coordinates(settings.start));
+  Fit base = linearised(workbench.model(), {}, map.coordinates(settings.start));
   if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
     observations.numerics_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, base.u);
     observations.numerics_sd = settings.floor.mesh_remainder_sd;

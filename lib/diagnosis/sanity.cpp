@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/parallel.hpp"
+#include "measurement/consistency.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -94,6 +97,14 @@ std::vector<SanityCheck> check_numerics(const Observations& observations, const 
     }
   }
   return checks;
+}
+
+std::vector<std::string> groups_out_of_line(const std::vector<measurement::SpecimenRecord>& specimens) {
+  std::vector<std::string> groups;
+  for (const measurement::ReplicateGroup& group : measurement::review_replicates(specimens))
+    if (!group.proposed.empty() || group.state == measurement::GroupState::inconsistent)
+      groups.push_back(fmt::format("{} of {}", tester::to_string(group.test), group.design.name()));
+  return groups;
 }
 
 }  // namespace nacre::diagnosis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "diagnosis/diagnosis.hpp"
@@ -12,5 +13,9 @@ namespace nacre::diagnosis {
 /// which have neither mesh nor time step.
 std::vector<SanityCheck> check_numerics(const Observations& observations, const material::ParameterSet& set,
                                         tester::Fidelity fidelity);
+
+/// Groups of replicates of which some are out of line (measurement::review_replicates), by design and test: "modulus of
+/// 577fffe9fffdef". A value mistyped looks like a cause that nobody knows.
+std::vector<std::string> groups_out_of_line(const std::vector<measurement::SpecimenRecord>& specimens);
 
 }  // namespace nacre::diagnosis

@@ -190,7 +190,7 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
 /// there, and how elements move the model there, says little of the true ones.
 double signal_of(const Evidence& evidence, const Fit& model) {
   const Fit fit = fit_with_own_numerics(evidence, model.effects, model.u).fit;
-  const Fit base = linearised(evidence.model, fit.u.head(fit.base_count));
+  const Fit base = linearised(evidence.model, {}, fit.u.head(fit.base_count));
   const Observations observations = with_numerics_at(evidence, evidence.model.map(fit.effects), fit.u);
   return signature_size(base, fit.predicted - base.predicted, Whitener(observations.covariance())).projected;
 }
@@ -213,7 +213,8 @@ const Fit& without(const Evidence& evidence, const Fit& model, std::size_t effec
 /// empty when none does.
 std::string condition_instead(const Evidence& evidence, const Fit& model) {
   const NoisyData data{evidence.observations.values, Whitener(evidence.observations.covariance())};
-  Anchor anchor{.fit = {}, .signatures = {}, .directions = even_directions(evidence.observations), .scatter = {}};
+  Anchor anchor;
+  anchor.directions = even_directions(evidence.observations);
   for (std::size_t effect = 0; effect < model.effects.size(); ++effect) {
     anchor.fit = without(evidence, model, effect);
     const std::vector<double> by_factors = anchor_statistics(anchor, data).contrasts;

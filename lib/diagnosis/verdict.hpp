@@ -12,6 +12,12 @@
 
 namespace nacre::diagnosis {
 
+/// A model at some of its coordinates.
+struct ModelPoint {
+  std::vector<std::string> effects;
+  Eigen::VectorXd u;
+};
+
 /// Everything the decision rests on: the base model, every effect (and pair, when needed) fitted jointly with it.
 struct Evidence {
   const FeatureModel& model;
@@ -20,6 +26,7 @@ struct Evidence {
   Anchor base;
   std::vector<std::string> effects;  ///< candidates, in the order of the library
   std::vector<Fit> singles;          ///< one per effect
+  std::vector<ModelPoint> numerics;  ///< models whose change with finer elements the shared directions are
   DrawStatistics base_statistics;
   std::vector<DrawStatistics> base_draws;
 };
@@ -30,7 +37,7 @@ struct Decision {
   std::vector<Fit> possible;
   std::optional<Fit> partial;  ///< best model of an unexplained misfit
   std::vector<double> p_fit;   ///< per effect: chance of a misfit as large when base + effect is true; 1 where no name
-                              ///< was in question, 0 too far behind the best to be tested
+                               ///< was in question, 0 too far behind the best to be tested
   std::vector<double> p_family_wise;  ///< per effect
   double p_misfit = 1.0;
   double p_outside = 1.0;  ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1
@@ -54,6 +61,11 @@ Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observ
 
 /// The one that leaves less.
 Fit better_of(Fit a, Fit b);
+
+/// What finer elements change along the shared directions of the evidence in the rows of `model`, one standard
+/// deviation each, rows x directions: at the base, and by how much otherwise where an effect of the material is true.
+/// Each has a factor of its own, because an effect that smooths or sharpens a layout changes what its elements cost.
+Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& model);
 
 /// These coordinates, base constants where the search for the base began.
 Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u);

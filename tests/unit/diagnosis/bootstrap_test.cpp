@@ -106,5 +106,17 @@ TEST(OmnibusChance, IsAChance) {
   }
 }
 
+TEST(Bootstrap, WhatIsBeyondAThresholdIsRareEnoughAndNothingElse) {
+  for (const int count : {700, 999, 2000}) {
+    std::vector<double> draws;
+    for (int i = 0; i < count; ++i) draws.push_back((i * 7919) % count);
+    for (const double level : {0.003, 0.01, 0.05}) {
+      const double limit = threshold(draws, level);
+      EXPECT_LE(exceedance(draws, limit + 0.5), level);
+      EXPECT_GT(exceedance(draws, limit), level);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nacre::diagnosis

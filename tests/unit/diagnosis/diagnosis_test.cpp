@@ -10,7 +10,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/contrasts.hpp"
-#include "diagnosis/experiments.hpp"
+#include "diagnosis/possible_tests.hpp"
 #include "diagnosis/procedure.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
@@ -26,12 +26,18 @@ DiagnosisSettings tiny_settings() {
   return settings;
 }
 
+/// With none of an effect a model is the base: no fit of one may end with more than the base leaves.
+Diagnosis with_levels_checked(Diagnosis diagnosis) {
+  for (const Candidate& candidate : diagnosis.candidates) EXPECT_GE(candidate.statistic, -0.02) << candidate.name;
+  return diagnosis;
+}
+
 Diagnosis diagnose_truth(const material::ParameterSet& truth, std::uint64_t seed = 1) {
   SyntheticSet set;
   set.seed = seed;
   DiagnosisSettings settings = tiny_settings();
   settings.seed = seed;
-  return diagnose(synthetic_specimens(set, truth), settings);
+  return with_levels_checked(diagnose(synthetic_specimens(set, truth), settings));
 }
 
 Diagnosis diagnose_effect(const std::string& name, double value) {
@@ -186,7 +192,7 @@ Diagnosis diagnose_coupons(const std::string& effect, std::vector<double> values
                            const std::vector<double>& strains = pulled_to_two_percent()) {
   material::ParameterSet truth = synthetic_truth();
   if (!effect.empty()) truth.extensions[effect] = std::move(values);
-  return diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5, strains), tiny_settings());
+  return with_levels_checked(diagnose(synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5, strains), tiny_settings()));
 }
 
 TEST(CouponDiagnosis, CouponsOfTheBaseModelAreBaseSufficient) {

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "diagnosis/experiments.hpp"
 #include "diagnosis/observations.hpp"
+#include "diagnosis/possible_tests.hpp"
 #include "pattern/coupons.hpp"
 
 namespace nacre::diagnosis {
@@ -167,6 +168,26 @@ TEST(Observations, ACouponThatWasOnlyPulledMayStillBeUnloaded) {
   };
   EXPECT_TRUE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02})})));
   EXPECT_FALSE(offers_it(observed({coupon("a/1", {0.0, 0.01, 0.02, 0.005, 0.022})})));
+}
+
+// What relaxes within a second answers a creep test like a slow one and an impact like a fast one.
+TEST(Observations, BetweenRatesThatLieFarApartCouponsAreOfferedInTheMiddle) {
+  const auto rates_offered = [](double fast_per_s) {
+    const std::vector<double> straight = {0.0, 0.005, 0.01, 0.015, 0.02};
+    std::vector<measurement::SpecimenRecord> specimens = {coupon("a/1", straight), coupon("a/2", straight)};
+    specimens[0].conditions.strain_rate_per_s = 1e-6;
+    specimens[1].conditions.strain_rate_per_s = fast_per_s;
+    std::set<double> rates;
+    for (const PossibleTest& test : possible_tests(observed(specimens)))
+      if (test.test == tester::TestKind::tensile) rates.insert(test.conditions.strain_rate_per_s);
+    return rates;
+  };
+  const std::set<double> near = rates_offered(5e-5);
+  ASSERT_EQ(near.size(), 2u);
+  EXPECT_NEAR(*near.rbegin(), 1e-5, 1e-10) << "ten times what is usual";
+  const std::set<double> rates = rates_offered(10.0);
+  ASSERT_EQ(rates.size(), 3u);
+  EXPECT_NEAR(*rates.rbegin(), std::sqrt(10.0 * 1e-6), 1e-9);
 }
 
 measurement::SpecimenRecord notched(const std::string& specimen, const std::string& key) {

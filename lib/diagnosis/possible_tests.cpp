@@ -1,0 +1,148 @@
+#include "diagnosis/possible_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "pattern/coupons.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+using tester::TestKind;
+
+constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
+constexpr int kConditionTwins = 3;      // designs of a test that are also tested under other conditions
+constexpr double kCouponStrain = 0.02;  // said in the words of possible_tests()
+
+/// Groups of layouts that are not coupons, those of most replicates first.
+std::vector<const Observation*> layouts_most_measured_first(const Observations& observations) {
+  std::vector<const Observation*> groups;
+  for (const Observation& g : observations.groups)
+    if (g.design.layout() && g.test != TestKind::tensile) groups.push_back(&g);
+  std::ranges::stable_sort(groups, std::greater<>(), &Observation::replicates);
+  return groups;
+}
+
+/// A rate that nobody has measured at, from what is usual.
+struct OtherRate {
+  double strain_rate_per_s = 0.0;
+  std::string_view words;  ///< "ten times as fast"
+};
+
+/// Ten times what is usual, and where measured rates lie far apart the middle of the widest gap: what relaxes in a time
+/// of its own shows between them.
+std::vector<OtherRate> other_rates(const Observations& observations, TestKind test, double usual_per_s) {
+  constexpr double kFarApart = 100.0;
+  std::vector<OtherRate> rates = {{kSecondRate * usual_per_s, "ten times as fast"}};
+  std::set<double> measured;
+  for (const Observation& g : observations.groups)
+    if (g.test == test) measured.insert(g.conditions.strain_rate_per_s);
+  double widest = kFarApart, middle = 0.0;
+  for (auto rate = measured.begin(); rate != measured.end() && std::next(rate) != measured.end(); ++rate)
+    if (const double gap = *std::next(rate) / *rate; gap > widest) widest = gap, middle = *rate * std::sqrt(gap);
+  if (middle > 0.0) rates.push_back({middle, "at a rate between those measured"});
+  return rates;
+}
+
+/// Turned twins of all layouts; faster and thinner ones of the most measured of each test.
+std::vector<PossibleTest> twins(const Observations& observations) {
+  std::vector<PossibleTest> possible;
+  const std::vector<const Observation*> layouts = layouts_most_measured_first(observations);
+  std::map<TestKind, int> twins_of;
+  for (const Observation* g : layouts) {
+    const auto twin = [&](std::string_view words) -> tester::TestConditions& {
+      possible.push_back({AddedTest::twin, g->design, g->test, g->conditions, std::string(words)});
+      return possible.back().conditions;
+    };
+    const double orientation_deg = g->conditions.orientation_deg;
+    twin("a twin printed turned by 90 degrees").orientation_deg = orientation_deg == 0.0 ? 90.0 : 0.0;
+    if (g->conditions != usual_conditions(observations, g->test) || twins_of[g->test]++ >= kConditionTwins) continue;
+    for (const OtherRate& rate : other_rates(observations, g->test, g->conditions.strain_rate_per_s))
+      twin(fmt::format("a twin pulled {}", rate.words)).strain_rate_per_s = rate.strain_rate_per_s;
+    twin("a twin of half the thickness").thickness_mm *= kSecondThickness;
+  }
+  return possible;
+}
+
+std::vector<PossibleTest> layout_coupons(TestKind test, const tester::TestConditions& conditions) {
+  std::vector<PossibleTest> possible;
+  const auto laminate = [&](pattern::LayerDirection direction, int period, std::string_view way) {
+    possible.push_back({AddedTest::laminate, pattern::laminate(direction, period, period), test, conditions,
+                        fmt::format("a laminate of period {} {} the pull", period, way)});
+  };
+  for (const int period : {1, 2, 5}) {
+    possible.push_back({AddedTest::checkerboard, pattern::checkerboard(period), test, conditions,
+                        fmt::format("a checkerboard of period {}", period)});
+    laminate(pattern::LayerDirection::along_x, period, "across");
+    laminate(pattern::LayerDirection::along_y, period, "along");
+  }
+  return possible;
+}
+
+std::vector<PossibleTest> homogeneous_coupons(const Observations& observations) {
+  const tester::TestConditions usual = usual_conditions(observations, TestKind::tensile);
+  std::vector<OtherRate> rates = other_rates(observations, TestKind::tensile, usual.strain_rate_per_s);
+  rates.insert(rates.begin(), {usual.strain_rate_per_s, ""});
+  std::vector<PossibleTest> possible;
+  for (const double fraction : {1.0, 0.5, 0.0}) {
+    for (const OtherRate& rate : rates) {
+      possible.push_back({AddedTest::homogeneous, pattern::Mixture{fraction}, TestKind::tensile, usual,
+                          fmt::format("a homogeneous coupon pulled {}{}to 2 % strain, back to 0.5 % and on", rate.words,
+                                      rate.words.empty() ? "" : " ")});
+      possible.back().conditions.strain_rate_per_s = rate.strain_rate_per_s;
+    }
+  }
+  return possible;
+}
+
+}  // namespace
+
+tester::Loading coupon_loading() { return {{kCouponStrain, 0.005, 0.022}}; }
+
+std::vector<double> unload_history() {
+  constexpr double kStep = kCouponStrain / 40.0;
+  return tester::strain_path(coupon_loading(), kStep);
+}
+
+bool answers(const PossibleTest& test, const Observation& group) {
+  return test.design == group.design && test.test == group.test && test.conditions == group.conditions &&
+         (test.test != TestKind::tensile || group.unloaded);
+}
+
+Observation group_of(const PossibleTest& test, int replicates) {
+  Observation group;
+  group.design = test.design;
+  group.test = test.test;
+  group.conditions = test.conditions;
+  group.unloaded = test.test == TestKind::tensile;
+  group.replicates = replicates;
+  return group;
+}
+
+std::vector<PossibleTest> possible_tests(const Observations& observations) {
+  std::set<std::string> taken;
+  const auto name_of = [](const PossibleTest& t) {
+    return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test),
+                       t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
+  };
+  for (const Observation& g : observations.groups) {
+    const PossibleTest measured{{}, g.design, g.test, g.conditions, ""};
+    if (answers(measured, g)) taken.insert(name_of(measured));
+  }
+  std::vector<PossibleTest> possible = twins(observations);
+  for (const TestKind test : {TestKind::modulus, TestKind::toughness})
+    if (std::ranges::any_of(observations.groups,
+                            [&](const Observation& g) { return g.test == test && g.design.layout(); }))
+      std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
+  std::ranges::move(homogeneous_coupons(observations), std::back_inserter(possible));
+  std::erase_if(possible, [&](const PossibleTest& test) { return !taken.insert(name_of(test)).second; });
+  return possible;
+}
+
+}  // namespace nacre::diagnosis
