@@ -22,7 +22,32 @@ Eigen::VectorXd change_of(const Evidence& evidence, std::size_t k, bool noticed)
   return noticed ? fitted : evidence.base.signatures[k].changes.col(kTypicalSize);
 }
 
+/// The smallest parameter of effect k whose traces these data would show, beyond what the base imitates.
+std::optional<double> smallest_seen(const Evidence& evidence, std::size_t k, const Whitener& whitener) {
+  const auto sizes = Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kSizes)));
+  const Eigen::MatrixXd projected =
+      projected_signatures(evidence.base.fit, evidence.base.signatures[k].changes(Eigen::all, sizes), whitener);
+  std::vector<double> signals;
+  for (const auto& column : projected.colwise()) signals.push_back(column.norm());
+  const auto strength = smallest_strength(kSizes, signals, kVisibleSignal);
+  if (!strength) return std::nullopt;
+  return material::value_at_strength(material::find_effect(evidence.effects[k])->parameters.front(), *strength);
+}
+
 }  // namespace
+
+std::optional<double> smallest_strength(std::span<const double> strengths, const std::vector<double>& judged,
+                                        double wanted) {
+  constexpr double kNothing = 0.01;
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (judged[i] < wanted) continue;
+    if (i == 0) return strengths[0] * wanted / judged[0];
+    if (judged[i - 1] < kNothing) return strengths[i];
+    const double t = std::log(wanted / judged[i - 1]) / std::log(judged[i] / judged[i - 1]);
+    return strengths[i - 1] * std::pow(strengths[i] / strengths[i - 1], t);
+  }
+  return std::nullopt;
+}
 
 std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision) {
   const Whitener whitener(evidence.observations.covariance());
@@ -60,6 +85,7 @@ std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& d
       if (cosine > candidate.rival_cosine)
         candidate.rival_cosine = cosine, candidate.nearest_rival = evidence.effects[j];
     }
+    candidate.smallest_seen = smallest_seen(evidence, k, whitener);
     candidate.distance = candidate.signal_to_noise * std::sqrt((1.0 - candidate.rival_cosine) / 2.0);
     const bool visible = typical.projected >= kVisibleSignal;
     const bool noticed = candidate.p_family_wise <= evidence.settings.name_level;

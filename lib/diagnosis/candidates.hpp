@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "diagnosis/verdict.hpp"
@@ -24,6 +26,11 @@ inline constexpr double kOwnLead = 10.6, kCertainLead = 3.0 * kOwnLead;
 /// Where the factor is true the lead is normal with mean -d^2 and deviation 2 d, d the distance between the two; at the
 /// worst d chance reaches 7.6 in 0.3 % of sets, the level of a name (docs/decisions/0022).
 inline constexpr double kContrastTie = 2.0, kEvenLead = 7.6;
+
+/// The smallest strength of an effect at which what is `judged` at some ascending ones reaches `wanted`: between them
+/// in log scale, the larger of two where the smaller leaves nothing; nothing beyond them.
+std::optional<double> smallest_strength(std::span<const double> strengths, const std::vector<double>& judged,
+                                        double wanted);
 
 /// What became of every effect of the library: fitted size and drop, absorption, signal-to-noise at the fitted size
 /// where it was noticed and at a typical one otherwise (0.3 of its range), and its nearest rival among the effects that

@@ -51,6 +51,8 @@ struct Candidate {
       nearest_rival;  ///< the effect whose signature is most like this one's beyond the base; empty: none is seen
   double rival_cosine = 0.0;  ///< how like, 0..1
   double distance = 0.0;  ///< signal_to_noise sqrt((1 - cosine) / 2): from 2.2 on the two are told apart with 5 % error
+  std::optional<double> smallest_seen;  ///< parameter from which on its traces would have shown; none up to 0.6 of its
+                                        ///< range
 };
 
 /// What a contrast looks at: one feature of one kind of test, as a whole or against something of the specimens.

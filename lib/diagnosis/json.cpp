@@ -29,7 +29,8 @@ ordered_json json_of(const Candidate& c) {
           {"p_fit", c.p_fit},
           {"nearest_rival", c.nearest_rival},
           {"rival_cosine", c.rival_cosine},
-          {"distance", c.distance}};
+          {"distance", c.distance},
+          {"smallest_seen", c.smallest_seen ? ordered_json(*c.smallest_seen) : ordered_json(nullptr)}};
 }
 
 ordered_json json_of(const Contrast& c) {

@@ -140,20 +140,6 @@ void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenReco
   }
 }
 
-/// Smallest size, as a strength, at which `judged` reaches `wanted`: between the planned sizes in log scale, the larger
-/// of the two where the smaller leaves nothing; nothing beyond them.
-std::optional<double> smallest(const std::vector<double>& judged, double wanted) {
-  constexpr double kNothing = 0.01;
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (judged[i] < wanted) continue;
-    if (i == 0) return kPlannedSizes[0] * wanted / judged[0];
-    if (judged[i - 1] < kNothing) return kPlannedSizes[i];
-    const double t = std::log(wanted / judged[i - 1]) / std::log(judged[i] / judged[i - 1]);
-    return kPlannedSizes[i - 1] * std::pow(kPlannedSizes[i] / kPlannedSizes[i - 1], t);
-  }
-  return std::nullopt;
-}
-
 /// Signatures of all effects in some rows, whitened and projected off what the base imitates there.
 struct Traces {
   std::vector<Eigen::MatrixXd> projected;  ///< rows x kPlannedSizes, per signature
@@ -198,8 +184,9 @@ PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const Traces& tr
     return strength ? std::optional(material::value_at_strength(parameter, *strength)) : std::nullopt;
   };
   // As a diagnosis decides: a name needs traces that no look-alike leaves.
-  const auto nameable = smallest(signals, kNameableSignal), apart = smallest(distance, kToldApart);
-  planned.smallest_seen = value(smallest(signals, kVisibleSignal));
+  const auto nameable = smallest_strength(kPlannedSizes, signals, kNameableSignal),
+             apart = smallest_strength(kPlannedSizes, distance, kToldApart);
+  planned.smallest_seen = value(smallest_strength(kPlannedSizes, signals, kVisibleSignal));
   planned.smallest_told_apart = nameable && apart ? value(std::max(*nameable, *apart)) : std::nullopt;
   planned.status = planned.smallest_told_apart ? "told_apart" : planned.smallest_seen ? "visible" : "invisible";
   return planned;

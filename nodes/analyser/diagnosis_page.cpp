@@ -116,10 +116,7 @@ std::string cause_section(const Diagnosis& d) {
     content += paragraph(
         "No cause is named; the sentence above says why. The simulation should not be extended by the one that comes "
         "nearest: it may predict better for the wrong reason.");
-    if (d.partial_gain)
-      content += paragraph(fmt::format("(The nearest would take held-out errors from {} to {}.)",
-                                       percent(std::expm1(d.partial_gain->held_out_error_before)),
-                                       percent(std::expm1(d.partial_gain->held_out_error_after))));
+    if (d.partial_gain) content += paragraph("Of the nearest: " + escaped(gain_in_words(*d.partial_gain)));
   }
   if (content.empty()) content = paragraph("No cause is needed.");
   return section("cause", "The cause", content);
@@ -139,8 +136,16 @@ constexpr const char* kColumnsOfRivals =
     "Signal / noise: of the cause at its fitted size, or at a typical size where nothing was found, counted where the "
     "base model stands (a name is judged once more at constants of its own); below {:.1f} it cannot be told from "
     "nothing. Hidden by the base: share of its traces that other constants of the materials "
-    "imitate. Cosine 1: two causes look alike on these specimens. Chance: how often the best of all causes would look "
+    "imitate. Seen from: the size whose traces these specimens would have shown; a smaller one may be there. Cosine 1: "
+    "two causes look alike on these specimens. Chance: how often the best of all causes would look "
     "as good by accident.";
+
+/// From which size on an effect would have shown: "0.31 px".
+std::string seen_from(const Candidate& c) {
+  if (!c.smallest_seen) return "–";
+  const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
+  return quantity(*c.smallest_seen) + escaped(material::unit_behind_number(unit));
+}
 
 std::string rivals_section(const Diagnosis& d) {
   std::string rows;
@@ -148,13 +153,13 @@ std::string rivals_section(const Diagnosis& d) {
     const bool acts = c.status != "not_applicable";
     rows += table_row(
         {effect_name(c.name), status_words(c, d.verdict), acts ? figure(c.signal_to_noise) : "–",
-         acts ? percent(c.absorption) : "–",
+         acts ? percent(c.absorption) : "–", seen_from(c),
          c.nearest_rival.empty() ? "–" : fmt::format("{} ({})", effect_name(c.nearest_rival), figure(c.rival_cosine)),
          acts ? figure(c.statistic) : "–", acts ? chance(c.p_family_wise) : "–"});
   }
   return section("rivals", "What else could explain it",
-                 table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "most like (cosine)",
-                                   "drop of χ²", "chance"}),
+                 table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "seen from",
+                                   "most like (cosine)", "drop of χ²", "chance"}),
                        rows, "words") +
                      paragraph(fmt::format(kColumnsOfRivals, diagnosis::kVisibleSignal), "quiet"));
 }

@@ -43,10 +43,13 @@ std::string conditions_in_words(const tester::TestConditions& c) {
   return words;
 }
 
+std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
+
 void print_candidates(const diagnosis::Diagnosis& d) {
   for (const diagnosis::Candidate& c : d.candidates) {
-    fmt::print("  {:<22} {:<10} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:.1f}\n", c.name, c.status,
-               c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise);
+    fmt::print("  {:<22} {:<14} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:6.1f}  seen from {} {}\n", c.name,
+               c.status, c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
+               size_or_dash(c.smallest_seen), material::find_effect(c.name)->parameters.front().unit);
   }
   for (std::size_t i = 0; i < d.contrasts.size() && i < 3; ++i) {
     fmt::print("  residuals along {}: {:.1f} standard deviations (p {:.4f})\n", d.contrasts[i].name,
@@ -130,8 +133,6 @@ diagnosis::Diagnosis diagnosis_of(const TakingPart& part, const diagnosis::Diagn
     return diagnosis::undecided(problem.what());
   }
 }
-
-std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
 
 int plan(const Options& options) {
   if (options.set.empty())

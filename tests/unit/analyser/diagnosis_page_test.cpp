@@ -34,6 +34,23 @@ TEST(DiagnosisPage, AnErrorThatGrowsIsNotCalledAGain) {
   EXPECT_THAT(gain_section({0.05, 0.03, 0.4, 0.2, 0.6, {}}), HasSubstr("falls"));
 }
 
+TEST(DiagnosisPage, WhatTheNearestCauseGainsIsSaidAsSurelyAsItIsKnown) {
+  Diagnosis d;
+  d.verdict = diagnosis::Verdict::unexplained;
+  d.partial_gain = Gain{0.03, 0.028, 0.07, -0.2, 0.3, {}};
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full), HasSubstr("not established"));
+}
+
+TEST(DiagnosisPage, SaysFromWhichSizeOnACauseWouldHaveShown) {
+  Diagnosis d;
+  d.candidates.resize(2);
+  d.candidates[0].name = "droplet_mixing";
+  d.candidates[0].smallest_seen = 0.31;
+  d.candidates[1].name = "machine_compliance";
+  const std::string page = render_diagnosis_page(d, "a-set", tester::Fidelity::full);
+  EXPECT_THAT(page, HasSubstr("<td>0.31 pixels</td>"));
+}
+
 TEST(DiagnosisPage, GainIsTheSentenceOfTheSummary) {
   const Gain gain{0.2, 0.1, 0.5, 0.3, 0.7, {}};
   EXPECT_THAT(gain_section(gain), HasSubstr(gain_in_words(gain)));

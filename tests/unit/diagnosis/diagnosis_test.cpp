@@ -60,6 +60,16 @@ TEST(Diagnosis, DataOfTheBaseModelAreBaseSufficient) {
   EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
   EXPECT_TRUE(diagnosis.effects.empty());
   EXPECT_FALSE(diagnosis.gain);
+  // What is not found is said to be smaller than what would have shown.
+  for (const Candidate& candidate : diagnosis.candidates) {
+    if (candidate.status == "not_applicable") continue;
+    const material::EffectParameter& parameter = material::find_effect(candidate.name)->parameters.front();
+    const double typical = material::value_at_strength(parameter, 0.3);
+    const bool shows_when_typical =
+        candidate.smallest_seen &&
+        material::strength_of(parameter, *candidate.smallest_seen) <= material::strength_of(parameter, typical) + 1e-9;
+    EXPECT_EQ(candidate.status == "excluded", shows_when_typical) << candidate.name;
+  }
 }
 
 TEST(Diagnosis, AnotherInkIsNoMisfitInRangesOfItsOwn) {
