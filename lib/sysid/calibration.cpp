@@ -233,27 +233,24 @@ struct Calibration::State {
     if (!of_toughness.empty()) toughness.fit->tell(std::move(of_toughness));
   }
 
-  /// Adds a row per parameter to the result. Returns how many of them the fit took from the data.
+  /// Adds a row per parameter to the result.
   template <class Vector>
-  int add_estimates(std::string_view table, std::span<const std::string_view> names,
-                    std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit,
-                    const Vector& log_sd) {
+  void add_estimates(std::string_view table, std::span<const std::string_view> names,
+                     std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit,
+                     const Vector& log_sd) {
     std::vector<CoordinateInterval> intervals;
     if (fit != nullptr) intervals = fit->intervals();
     intervals.resize(vector.size(), {0.0, 1.0, kUnknownDeviation});  // theta's gamma is not searched
-    const auto determined = [](const CoordinateInterval& each) { return each.deviation < 0.5 * kUnknownDeviation; };
-    const auto fitted = std::count_if(intervals.begin(), intervals.end(), determined);
     for (std::size_t j = 0; j < vector.size(); ++j) {
       intervals[j] = widened(intervals[j], ranges[j], vector[j], log_sd[j]);
       ParameterEstimate estimate{fmt::format("{}.{}", table, names[j]), vector[j], ranges[j].minimum, ranges[j].maximum,
-                                 determined(intervals[j])};
+                                 intervals[j].deviation < 0.5 * kUnknownDeviation};
       if (estimate.determined) {
         estimate.low90 = from_unit(ranges[j], intervals[j].low90);
         estimate.high90 = from_unit(ranges[j], intervals[j].high90);
       }
       result.estimates.push_back(std::move(estimate));
     }
-    return static_cast<int>(fitted);
   }
 
   void conclude() {
@@ -281,23 +278,22 @@ struct Calibration::State {
         after[toughness.items[k]].curve = best.curve;
       }
     }
-    const int fitted_modulus =
-        add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
-                      to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
-    const int fitted_toughness =
-        add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
-                      to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_eta_sd);
+    add_estimates("modulus", material::modulus_parameter_names(), modulus_ranges(),
+                  to_vector(result.parameters.modulus), modulus.fit.get(), material::ModulusVector{});
+    add_estimates("toughness", material::toughness_parameter_names(), toughness_ranges(),
+                  to_vector(result.parameters.toughness), toughness.fit.get(), settings.floor.log_eta_sd);
     result.before = prediction_errors(measured, before);
     result.after = prediction_errors(measured, after);
-    add_likelihood(fitted_modulus, fitted_toughness);
+    add_likelihood();
     add_ensemble();
   }
 
-  void add_likelihood(int fitted_modulus, int fitted_toughness) {
+  void add_likelihood() {
+    const auto taken_by = [](const Half& half) { return half.fit != nullptr ? half.fit->freedom_taken() : 0.0; };
     const Likelihood modulus_likelihood =
-        modulus_likelihood_of(measured, result.predictions, settings.floor, fitted_modulus);
+        modulus_likelihood_of(measured, result.predictions, settings.floor, taken_by(modulus));
     const Likelihood toughness_likelihood =
-        toughness_likelihood_of(measured, result.predictions, settings.floor, fitted_toughness);
+        toughness_likelihood_of(measured, result.predictions, settings.floor, taken_by(toughness));
     result.modulus_deviance = modulus_likelihood.deviance;
     result.modulus_fit = modulus_likelihood.fit;
     result.toughness_deviance = toughness_likelihood.deviance;

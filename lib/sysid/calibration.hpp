@@ -125,11 +125,12 @@ bool is_unbroken(const Prediction& prediction, const pattern::Design& design);
 
 /// Whether residuals are of the size that replicates and the numerics floor explain.
 struct GoodnessOfFit {
-  int count = 0;             ///< designs; 0: nothing to judge
-  int freedom = 0;           ///< designs less the parameters that they determine
+  int count = 0;    ///< designs; 0: nothing to judge
+  int freedom = 0;  ///< designs less the degrees of freedom that the fit took from them; 0: less than one, not tested
   double chi_squared = 0.0;  ///< squared residuals of log E or log T over their variances, the floor included
   double chi_squared_replicates = 0.0;  ///< the same against the scatter of replicates alone
-  double p_value = 1.0;                 ///< chance of so large a chi squared when the model is right
+  double p_value = 1.0;                 ///< chance of so large a chi squared when the model is right; 1 when not tested
+  bool tested() const { return freedom > 0; }
   bool misfit() const { return count > 0 && p_value < 0.01; }
   bool operator==(const GoodnessOfFit&) const = default;
 };

@@ -22,6 +22,8 @@ constexpr double kOffsetDeviation = 2.0;   // of a feature's level
 constexpr double kGammaDeviation = 0.15;   // of the sensitivity to log gamma
 constexpr double kPoissonDeviation = 0.2;  // over the whole range of a Poisson's ratio
 
+constexpr double kSmallestNoise = 0.03;  // of a residual, when deviations are told
+
 double square(double x) { return x * x; }
 
 /// Covariance of the linear part over one group of three materials: sensitivities s = mean + split with sum zero +
@@ -259,36 +261,44 @@ Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at,
   return slopes;
 }
 
-std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
-                                         const std::vector<double>& spans, bool poisson_searched,
-                                         const NumericsFloor& floor) {
-  constexpr double kSmallestNoise = 0.03;
-  std::vector<double> deviations(kEtaCount, kUnknownDeviation);
-  if (trials.size() < 2) return deviations;
+ToughnessModel toughness_model(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+                               const std::vector<double>& spans, bool poisson_searched) {
+  ToughnessModel model{
+      .searched = {kSearchedEta.begin(), kSearchedEta.end()}, .slopes = {}, .residuals = {}, .weights = {}};
+  if (poisson_searched) {
+    model.searched.resize(kEtaCount);
+    std::iota(model.searched.begin(), model.searched.end(), 0);
+  }
   FeatureEmulator emulator(spans, data.measured.size());
   emulator.learn(trials, best);
-  std::vector<std::size_t> searched(kSearchedEta.begin(), kSearchedEta.end());
-  if (poisson_searched) {
-    searched.resize(kEtaCount);
-    std::iota(searched.begin(), searched.end(), 0);
-  }
-  const Eigen::MatrixXd slopes = feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched);
+  model.slopes =
+      feature_slopes(emulator, trials[best].point, data.measured.size(), poisson_searched)(Eigen::all, model.searched);
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
-  Eigen::VectorXd residuals = Eigen::VectorXd::Zero(2 * designs), weights = residuals;
+  model.residuals = model.weights = Eigen::VectorXd::Zero(2 * designs);
   for (Eigen::Index i = 0; i < designs; ++i) {
     const measurement::Replicates& measured = data.measured[static_cast<std::size_t>(i)];
     const auto simulated = features_of(trials[best].predictions[static_cast<std::size_t>(i)]);
     if (!simulated) continue;  // weight 0
-    residuals[i] = simulated->log_toughness - std::log(measured.toughness_pa);
-    weights[i] = data.weights[static_cast<std::size_t>(i)];
+    model.residuals[i] = simulated->log_toughness - std::log(measured.toughness_pa);
+    model.weights[i] = data.weights[static_cast<std::size_t>(i)];
     const std::optional<double> peak = peak_of(measured);
     if (!peak) continue;
-    residuals[designs + i] = simulated->log_peak - std::log(*peak);
-    weights[designs + i] = weights[i];
+    model.residuals[designs + i] = simulated->log_peak - std::log(*peak);
+    model.weights[designs + i] = model.weights[i];
   }
-  const std::vector<double> told = parameter_deviations(slopes(Eigen::all, searched), residuals, weights,
-                                                        kSmallestNoise, shared_fracture_errors(data.measured, floor));
-  for (std::size_t k = 0; k < searched.size(); ++k) deviations[searched[k]] = told[k];
+  model.noise = noise_variance(model.slopes, model.residuals, model.weights, kSmallestNoise);
+  return model;
+}
+
+std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+                                         const std::vector<double>& spans, bool poisson_searched,
+                                         const NumericsFloor& floor) {
+  std::vector<double> deviations(kEtaCount, kUnknownDeviation);
+  if (trials.size() < 2) return deviations;
+  const ToughnessModel model = toughness_model(data, trials, best, spans, poisson_searched);
+  const std::vector<double> told = parameter_deviations(model.slopes, model.residuals, model.weights, kSmallestNoise,
+                                                        shared_fracture_errors(data.measured, floor));
+  for (std::size_t k = 0; k < model.searched.size(); ++k) deviations[model.searched[k]] = told[k];
   return deviations;
 }
 

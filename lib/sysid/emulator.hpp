@@ -84,8 +84,18 @@ class FeatureEmulator {
 Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at, std::size_t design_count,
                                bool poisson_searched);
 
-/// Deviations of eta at trials[best] by the emulator's slopes, the residuals of both features, and the floor that all
-/// designs share.
+/// Eta's fit around trials[best], linear: the emulator's slopes (2 designs x searched) and the residuals of both
+/// features.
+struct ToughnessModel {
+  std::vector<std::size_t> searched;  ///< coordinates that the columns stand for
+  Eigen::MatrixXd slopes;
+  Eigen::VectorXd residuals, weights;  ///< weight 0: no residual
+  double noise = 0.0;                  ///< variance of a residual (spread.hpp)
+};
+ToughnessModel toughness_model(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+                               const std::vector<double>& spans, bool poisson_searched);
+
+/// Deviations of eta at trials[best] by that model, and the floor that all designs share.
 std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
                                          const std::vector<double>& spans, bool poisson_searched,
                                          const NumericsFloor& floor);

@@ -46,6 +46,12 @@ class EmulatorFit final : public RecordedFit {
     return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/false, settings_.floor);
   }
 
+  double freedom_taken() const override {
+    if (trials_.size() < 2) return 0.0;
+    const ToughnessModel model = toughness_model(data_, trials_, best_, spans_, /*poisson_searched=*/false);
+    return freedom_taken_by(model.searched, model.slopes, model.weights / model.noise, kUnknownPrecision);
+  }
+
  private:
   std::vector<Point> propose() {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));

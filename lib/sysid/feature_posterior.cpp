@@ -85,7 +85,7 @@ double FeaturePosterior::operator()(const Point& point, std::span<const FeatureC
   return cost;
 }
 
-Eigen::VectorXd FeaturePosterior::learnt_variances() const {
+Eigen::VectorXd FeaturePosterior::learnt_precisions() const {
   const Eigen::Index designs = static_cast<Eigen::Index>(toughness_.measured.size());
   Eigen::VectorXd variances = Eigen::VectorXd::Constant(2 * designs, std::numeric_limits<double>::infinity());
   const auto fill = [&](const Feature& feature, Eigen::Index first) {
@@ -100,23 +100,22 @@ Eigen::VectorXd FeaturePosterior::learnt_variances() const {
   };
   fill(toughness_, 0);
   fill(peak_, designs);
-  return variances;
+  return variances.cwiseInverse();
 }
 
-Eigen::MatrixXd FeaturePosterior::information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& variances) const {
-  Eigen::MatrixXd result = slopes.transpose() * variances.cwiseInverse().asDiagonal() * slopes;
-  result.diagonal().array() += 1.0 / square(kUnknownDeviation);
+Eigen::MatrixXd FeaturePosterior::information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& precisions) const {
+  Eigen::MatrixXd result = slopes.transpose() * precisions.asDiagonal() * slopes;
+  result.diagonal().array() += kUnknownPrecision;
   return result;
 }
 
 Eigen::MatrixXd FeaturePosterior::posterior_covariance(const Eigen::MatrixXd& slopes) const {
-  const Eigen::MatrixXd precision = information(slopes, learnt_variances());
+  const Eigen::MatrixXd precision = information(slopes, learnt_precisions());
   return precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
 Eigen::MatrixXd FeaturePosterior::moves_by_shared_errors(const Eigen::MatrixXd& slopes) const {
-  return posterior_covariance(slopes) * slopes.transpose() * learnt_variances().cwiseInverse().asDiagonal() *
-         shared_errors_;
+  return posterior_covariance(slopes) * slopes.transpose() * learnt_precisions().asDiagonal() * shared_errors_;
 }
 
 }  // namespace nacre::sysid

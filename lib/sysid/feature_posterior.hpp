@@ -25,6 +25,9 @@ class FeaturePosterior {
   /// What the data leave possible around the base, in unit coordinates: residuals independent. `slopes` as
   /// feature_slopes() gives them.
   Eigen::MatrixXd posterior_covariance(const Eigen::MatrixXd& slopes) const;
+  /// One over the variance of every residual, log T then log peak, with the factor that the residuals at the base
+  /// suggest; 0 where there is none.
+  Eigen::VectorXd learnt_precisions() const;
   /// How far parameters move (rows) to take over a shared error of normal size (columns).
   Eigen::MatrixXd moves_by_shared_errors(const Eigen::MatrixXd& slopes) const;
 
@@ -35,10 +38,7 @@ class FeaturePosterior {
     std::vector<double> base;       ///< log, of the base trial; not a number where it failed
     double sum_of_squares(int& count) const;
   };
-  /// Variances of all residuals, log T then log peak, with the factor that the residuals at the base suggest; infinite
-  /// where there is none.
-  Eigen::VectorXd learnt_variances() const;
-  Eigen::MatrixXd information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& variances) const;
+  Eigen::MatrixXd information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& precisions) const;
 
   Point start_;
   Feature toughness_, peak_;

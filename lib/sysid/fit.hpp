@@ -51,6 +51,8 @@ class Fit {
   virtual const std::vector<Trial>& trials() const = 0;
   /// Of every coordinate of best().point; the whole axis where the data tell nothing, or were not asked.
   virtual std::vector<CoordinateInterval> intervals() const = 0;
+  /// Degrees of freedom that the fit took from what was measured of E or of T (spread.hpp); 0 when nothing moved.
+  virtual double freedom_taken() const { return 0.0; }
   /// Points drawn from what the data leave possible around best().point; empty from fits that cannot tell.
   virtual std::vector<Point> plausible(int /*count*/) const { return {}; }
   /// Objective of the best trial of each search, when there are several side by side.

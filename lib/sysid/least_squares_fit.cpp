@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "sysid/emulator.hpp"
 #include "sysid/objective.hpp"
@@ -63,6 +64,13 @@ class LeastSquaresFit final : public RecordedFit {
     return result;
   }
 
+  double freedom_taken() const override {
+    if (jacobian_.size() == 0) return 0.0;
+    const Trial& at = trials_[best_];
+    return freedom_taken_by(problem_.searched, jacobian_, reweighted(weights(at), residuals(at)),
+                            pull() * sum_of_weights());
+  }
+
  private:
   int dimension() const { return static_cast<int>(problem_.searched.size()); }
   std::size_t coordinate(int j) const { return problem_.searched[static_cast<std::size_t>(j)]; }
@@ -106,6 +114,16 @@ class LeastSquaresFit final : public RecordedFit {
     return residuals.array().isNaN().select(0.0, problem_.weights);
   }
 
+  /// Towards the absolute error of (2.8): least squares of what is left of each residual.
+  Eigen::VectorXd reweighted(const Eigen::VectorXd& weights, const Eigen::VectorXd& residuals) const {
+    return weights.cwiseQuotient(residuals.cwiseAbs().cwiseMax(problem_.small_residual));
+  }
+
+  /// One by one: the order of a sum decides its last bit.
+  double sum_of_weights() const { return std::accumulate(problem_.weights.begin(), problem_.weights.end(), 0.0); }
+  /// Second derivative of the pull to the start, the cost being a mean over the weights.
+  double pull() const { return 2.0 * problem_.pull / dimension(); }
+
   void take_jacobian(std::size_t first_new) {
     const Trial& centre = trials_[centre_];
     residual_ = residuals(centre);
@@ -132,18 +150,13 @@ class LeastSquaresFit final : public RecordedFit {
 
   Point damped_step(double damping) const {
     const Trial& centre = trials_[centre_];
-    Eigen::VectorXd weight(residual_.size());
-    double weight_sum = 0.0;
-    for (Eigen::Index i = 0; i < weight.size(); ++i) {
-      weight_sum += problem_.weights[i];
-      weight[i] = problem_.weights[i] / std::max(std::abs(residual_[i]), problem_.small_residual);
-    }
+    const Eigen::VectorXd weight = reweighted(problem_.weights, residual_);
+    const double weight_sum = sum_of_weights();
     Eigen::MatrixXd normal = jacobian_.transpose() * weight.asDiagonal() * jacobian_ / weight_sum;
     Eigen::VectorXd gradient = jacobian_.transpose() * weight.asDiagonal() * residual_ / weight_sum;
-    const double pull = 2.0 * problem_.pull / dimension();
     for (int j = 0; j < dimension(); ++j) {
-      gradient[j] += pull * (centre.point[coordinate(j)] - settings_.start[coordinate(j)]);
-      normal(j, j) += pull;
+      gradient[j] += pull() * (centre.point[coordinate(j)] - settings_.start[coordinate(j)]);
+      normal(j, j) += pull();
       normal(j, j) *= 1.0 + damping;
     }
     return bounded_step(normal, gradient, centre.point);

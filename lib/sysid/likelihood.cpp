@@ -20,12 +20,14 @@ class Residuals {
     known_ += variance * variance / (replicate_variance * replicate_variance);
   }
   /// `scatter_freedom`: how well the scatter of replicates is known; an assumed one counts as one degree.
-  Likelihood conclude(int determined, int scatter_freedom) {
+  Likelihood conclude(double freedom_taken, int scatter_freedom) {
     if (result_.fit.count == 0) return result_;
-    result_.fit.freedom = std::max(1, result_.fit.count - determined);
+    const double freedom = result_.fit.count - freedom_taken;
+    if (freedom < 1.0) return result_;  // the fit meets such data whatever they are
+    result_.fit.freedom = static_cast<int>(std::lround(freedom));
     // Satterthwaite: the floor's part of the variances is known, whatever the replicates' is worth.
     const double freedom_below = std::max(1, scatter_freedom) * known_ / result_.fit.count;
-    result_.fit.p_value = f_tail(result_.fit.chi_squared / result_.fit.freedom, result_.fit.freedom, freedom_below);
+    result_.fit.p_value = f_tail(result_.fit.chi_squared / freedom, freedom, freedom_below);
     return result_;
   }
 
@@ -43,7 +45,7 @@ double f_tail(double value, double freedom_above, double freedom_below) {
 
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                  const std::vector<Prediction>& predictions, const NumericsFloor& floor,
-                                 int determined) {
+                                 double freedom_taken) {
   const RelativeScatter scatter = pooled_relative_scatter(measured);
   const NumericsFloor none = NumericsFloor::none();
   Residuals residuals;
@@ -53,12 +55,12 @@ Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& mea
     residuals.add(std::log(*simulated / measured[i].modulus_pa), modulus_variance(measured[i], scatter, floor),
                   modulus_variance(measured[i], scatter, none));
   }
-  return residuals.conclude(determined, scatter.modulus_freedom);
+  return residuals.conclude(freedom_taken, scatter.modulus_freedom);
 }
 
 Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                    const std::vector<Prediction>& predictions, const NumericsFloor& floor,
-                                   int determined) {
+                                   double freedom_taken) {
   const RelativeScatter scatter = pooled_relative_scatter(measured);
   const NumericsFloor none = NumericsFloor::none();
   Residuals residuals;
@@ -68,7 +70,7 @@ Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& m
     residuals.add(std::log(*simulated / measured[i].toughness_pa), toughness_variance(measured[i], scatter, floor),
                   toughness_variance(measured[i], scatter, none));
   }
-  return residuals.conclude(determined, scatter.toughness_freedom);
+  return residuals.conclude(freedom_taken, scatter.toughness_freedom);
 }
 
 }  // namespace nacre::sysid

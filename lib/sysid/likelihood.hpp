@@ -11,15 +11,16 @@ struct Likelihood {
   GoodnessOfFit fit;
 };
 
-/// Residuals of log E or log T of the designs that were measured and simulated; `determined`: parameters that these
-/// data determine. Their covariance is that of replicates (pooled over designs) and floor, and the deviance contains
-/// its logarithm. Few replicates say little of the scatter: the chance of so large a chi squared is that of an F.
+/// Residuals of log E or log T of the designs that were measured and simulated; `freedom_taken`: what the fit
+/// took from these data (Fit::freedom_taken). Their covariance is that of replicates (pooled over designs) and floor,
+/// and the deviance contains its logarithm. Few replicates say little of the scatter: the chance of so large a chi
+/// squared is that of an F.
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                  const std::vector<Prediction>& predictions, const NumericsFloor& floor,
-                                 int determined);
+                                 double freedom_taken);
 Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                    const std::vector<Prediction>& predictions, const NumericsFloor& floor,
-                                   int determined);
+                                   double freedom_taken);
 
 /// Chance that F with these degrees of freedom is at least `value` (Paulson's cube roots; within 0.002 from ten
 /// degrees below on; with fewer too large, so that less is called a misfit).

@@ -51,6 +51,12 @@ class ObjectiveFit final : public RecordedFit {
     return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/true, settings_.floor);
   }
 
+  double freedom_taken() const override {
+    if (trials_.size() < 2) return 0.0;
+    const ToughnessModel model = toughness_model(data_, trials_, best_, spans_, /*poisson_searched=*/true);
+    return freedom_taken_by(model.searched, model.slopes, model.weights / model.noise, kUnknownPrecision);
+  }
+
  private:
   std::vector<Point> first_points() const {
     std::vector<Point> points = {settings_.start};

@@ -41,6 +41,7 @@ class ParallelFit final : public Fit {
   const Trial& best() const override { return leader().best(); }
   const std::vector<Trial>& trials() const override { return trials_; }
   std::vector<CoordinateInterval> intervals() const override { return leader().intervals(); }
+  double freedom_taken() const override { return leader().freedom_taken(); }
   std::vector<Point> plausible(int count) const override { return leader().plausible(count); }
 
   std::vector<double> best_objectives() const override {

@@ -77,6 +77,12 @@ class PosteriorFit final : public RecordedFit {
     return result;
   }
 
+  double freedom_taken() const override {
+    if (trials_.size() < 2) return 0.0;
+    return freedom_taken_by(kSearchedEta, slopes()(Eigen::all, kSearchedEta), posterior_.learnt_precisions(),
+                            kUnknownPrecision);
+  }
+
   std::vector<Point> plausible(int count) const override {
     if (trials_.size() < 2 || count <= 0) return {};
     const std::vector<Eigen::VectorXd> draws = possible(/*shared_errors=*/0);

@@ -1,7 +1,9 @@
 #pragma once
 // What every fit keeps: what it was asked to fit, all trials, the best of them by objective plus pull to the start.
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "sysid/fit.hpp"
@@ -37,6 +39,17 @@ class RecordedFit : public Fit {
   /// where they do not, or were not asked.
   virtual std::vector<double> deviations() const {
     return std::vector<double>(settings_.start.size(), kUnknownDeviation);
+  }
+
+  /// freedom_taken() from E or T by a linear model at best().point whose `jacobian` has a column for each of
+  /// `coordinates`: one that stands at an end of its range no longer follows the data.
+  double freedom_taken_by(std::span<const std::size_t> coordinates, Eigen::MatrixXd jacobian,
+                          const Eigen::VectorXd& weights, double prior_precision) const {
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const double at = best().point[coordinates[k]];
+      if (at <= 0.0 || at >= 1.0) jacobian.col(static_cast<Eigen::Index>(k)).setZero();
+    }
+    return sysid::freedom_taken(jacobian, weights, prior_precision, static_cast<Eigen::Index>(data_.measured.size()));
   }
 
   /// The part of the cost that no simulation tells.

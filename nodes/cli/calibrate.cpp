@@ -60,9 +60,15 @@ nlohmann::ordered_json to_json(const sysid::PredictionErrors& errors) {
 
 nlohmann::ordered_json to_json(const sysid::GoodnessOfFit& fit) {
   if (fit.count == 0) return nullptr;
-  return {{"designs", fit.count},           {"freedom", fit.freedom},
-          {"chi_squared", fit.chi_squared}, {"chi_squared_replicates", fit.chi_squared_replicates},
-          {"p_value", fit.p_value},         {"misfit", fit.misfit()}};
+  const auto if_tested = [&](const nlohmann::ordered_json& value) {
+    return fit.tested() ? value : nlohmann::ordered_json(nullptr);
+  };
+  return {{"designs", fit.count},
+          {"freedom", fit.freedom},
+          {"chi_squared", fit.chi_squared},
+          {"chi_squared_replicates", fit.chi_squared_replicates},
+          {"p_value", if_tested(fit.p_value)},
+          {"misfit", if_tested(fit.misfit())}};
 }
 
 /// log simulated - log measured of every fitted design.
@@ -118,6 +124,13 @@ nlohmann::ordered_json to_json(const sysid::OfflineCalibration& result) {
 /// Plainly, whether what is left can be scatter.
 void print_fit(std::string_view what, const sysid::GoodnessOfFit& fit) {
   if (fit.count == 0) return;
+  if (!fit.tested()) {
+    fmt::print(
+        "{}: not tested, the fit follows its {} designs and leaves less than one degree of freedom (chi squared "
+        "{:.1f})\n",
+        what, fit.count, fit.chi_squared);
+    return;
+  }
   fmt::print("{}: {} (chi squared {:.1f} at {} degrees of freedom, p {:.3g}; against replicates alone {:.1f})\n", what,
              fit.misfit() ? "MISFIT: the model cannot explain these data within scatter and numerics"
                           : "residuals are scatter and numerics",

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/random.hpp"
+#include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
 #include "sysid/objective.hpp"
 
@@ -485,6 +486,45 @@ TEST(Calibration, SaysThatTheModelMisfitsWhenItLacksAnEffect) {
   const Calibrated result = finish(lacking, measured);
   EXPECT_TRUE(result.modulus_fit.misfit());
   EXPECT_GT(result.modulus_fit.chi_squared_replicates, result.modulus_fit.chi_squared);
+}
+
+/// Moduli of designs that the default parameters describe: three replicates that scatter by 0.3 %, and what `floor`
+/// says that numerics leave of each design.
+std::vector<Replicates> designs_without_effect(int count, const NumericsFloor& floor, RandomStream& random) {
+  std::vector<Replicates> measured = measured_designs(count, material::default_parameters());
+  for (Replicates& design : measured) {
+    const double shown_pa = design.modulus_pa * std::exp(floor.log_modulus_sd * random.normal());
+    std::vector<double> moduli_pa(3);
+    for (double& value : moduli_pa) value = shown_pa * (1.0 + 0.003 * random.normal());
+    design.toughness_count = 0;
+    design.modulus_count = static_cast<int>(moduli_pa.size());
+    design.modulus_pa = mean(moduli_pa);
+    design.modulus_sd_pa = standard_deviation(moduli_pa);
+  }
+  return measured;
+}
+
+// Six constants move, two of them as the data say: with few designs p would crowd near 1 if these were not counted.
+TEST(Calibration, OfDataWithoutEffectPIsAnyNumberEquallyOften) {
+  constexpr int kSets = 1000;
+  CalibrationSettings with = settings();
+  with.floor.log_modulus_sd = 0.001;
+  for (const int designs : {4, 6, 12}) {
+    RandomStream random(11, fmt::format("{} designs", designs));
+    int low = 0, high = 0, misfits = 0;
+    for (int set = 0; set < kSets; ++set) {
+      const std::vector<Replicates> measured = designs_without_effect(designs, with.floor, random);
+      Calibration calibration(measured, with);
+      const GoodnessOfFit fit = finish(calibration, measured).modulus_fit;
+      ASSERT_TRUE(fit.tested());
+      low += fit.p_value < 0.1;
+      high += fit.p_value > 0.9;
+      misfits += fit.misfit();
+    }
+    EXPECT_NEAR(low, 0.1 * kSets, 0.05 * kSets) << designs << " designs";
+    EXPECT_NEAR(high, 0.1 * kSets, 0.05 * kSets) << designs << " designs";
+    EXPECT_LE(misfits, 0.03 * kSets) << designs << " designs";
+  }
 }
 
 /// The three base materials with their measured values (Table 3.4).

@@ -51,6 +51,18 @@ TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
   EXPECT_NEAR(likelihood.deviance, 25e-4 / variance + 2 * std::log(variance), 1e-9);
 }
 
+TEST(Likelihood, TestsNothingWhereTheFitLeavesLessThanOneDegreeOfFreedom) {
+  const std::vector<Replicates> measured(3, measured_modulus(1e9, 1e7, 4));
+  const std::vector<Prediction> wrong(3, modulus(1.2e9));
+  const GoodnessOfFit tested = modulus_likelihood_of(measured, wrong, {}, 1.9).fit;
+  EXPECT_EQ(tested.freedom, 1);
+  EXPECT_TRUE(tested.misfit());
+  const GoodnessOfFit untested = modulus_likelihood_of(measured, wrong, {}, 2.1).fit;
+  EXPECT_FALSE(untested.tested());
+  EXPECT_FALSE(untested.misfit());
+  EXPECT_DOUBLE_EQ(untested.chi_squared, tested.chi_squared);
+}
+
 TEST(Likelihood, StaysFiniteWhereReplicatesAgreeExactly) {
   const Likelihood likelihood =
       modulus_likelihood_of({measured_modulus(1e9, 0.0, 4)}, {modulus(2e9)}, NumericsFloor{.log_modulus_sd = 0.0}, 0);

@@ -58,6 +58,23 @@ TEST(ParameterDeviations, RowsWithoutWeightCountNowhere) {
   EXPECT_EQ(parameter_deviations(jacobian, residuals, Eigen::VectorXd::Zero(16), 0.01).front(), kUnknownDeviation);
 }
 
+TEST(FreedomTaken, IsTheNumberOfParametersThatTheDataTell) {
+  const Eigen::MatrixXd jacobian = (Eigen::MatrixXd(4, 3) << 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2, 0).finished();
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(4);
+  EXPECT_NEAR(freedom_taken(jacobian, weights, 1e-9, 4), 2.0, 1e-6) << "the third does nothing";
+  EXPECT_NEAR(freedom_taken(jacobian, weights, 1e-9, 2), 1.0, 1e-6) << "from the first two residuals";
+  EXPECT_NEAR(freedom_taken(jacobian, Eigen::Vector4d(1, 0, 1, 0), 1e-9, 4), 2.0, 1e-6) << "rows without weight";
+}
+
+TEST(FreedomTaken, OfParametersThatActAlikeIsOne) {
+  EXPECT_NEAR(freedom_taken(Eigen::MatrixXd::Ones(5, 3), Eigen::VectorXd::Ones(5), 1e-9, 5), 1.0, 1e-6);
+}
+
+TEST(FreedomTaken, IsLessWherePriorAndDataShare) {
+  // Information 4 from the data, 12 from the prior.
+  EXPECT_NEAR(freedom_taken(Eigen::MatrixXd::Ones(4, 1), Eigen::VectorXd::Ones(4), 12.0, 4), 4.0 / 16.0, 1e-12);
+}
+
 // Log E of each design is linear in all six coordinates, and off by a twentieth that none of them explains.
 std::vector<Prediction> linear_moduli(const Point& point, int designs, int failing) {
   std::vector<Prediction> predictions(static_cast<std::size_t>(designs + failing));
@@ -70,19 +87,29 @@ std::vector<Prediction> linear_moduli(const Point& point, int designs, int faili
   return predictions;
 }
 
-std::vector<CoordinateInterval> modulus_intervals(int designs, int failing) {
+std::unique_ptr<Fit> fitted_moduli(int designs, int failing) {
   measurement::Replicates design;
   design.modulus_count = 1;
   design.modulus_pa = 1e9;
   const std::size_t count = static_cast<std::size_t>(designs + failing);
-  const auto fit = make_modulus_fit({.measured = std::vector(count, design), .weights = std::vector(count, 1.0)},
-                                    {.start = Point(6, 0.5), .budget = 60, .floor = NumericsFloor::none()});
+  auto fit = make_modulus_fit({.measured = std::vector(count, design), .weights = std::vector(count, 1.0)},
+                              {.start = Point(6, 0.5), .budget = 60, .floor = NumericsFloor::none()});
   for (std::vector<Point> points = fit->ask(); !points.empty(); points = fit->ask()) {
     std::vector<std::vector<Prediction>> told;
     for (const Point& point : points) told.push_back(linear_moduli(point, designs, failing));
     fit->tell(std::move(told));
   }
-  return fit->intervals();
+  return fit;
+}
+
+std::vector<CoordinateInterval> modulus_intervals(int designs, int failing) {
+  return fitted_moduli(designs, failing)->intervals();
+}
+
+TEST(LeastSquaresFit, TakesADegreeOfFreedomForEachParameterThatTheDataTell) {
+  EXPECT_NEAR(fitted_moduli(12, 0)->freedom_taken(), 6.0, 0.05);
+  EXPECT_NEAR(fitted_moduli(12, 20)->freedom_taken(), 6.0, 0.05) << "a design that fails says nothing";
+  EXPECT_NEAR(fitted_moduli(4, 0)->freedom_taken(), 4.0, 0.05);
 }
 
 TEST(LeastSquaresFit, DesignsWhoseSimulationFailsNarrowNoInterval) {
