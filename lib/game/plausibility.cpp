@@ -22,20 +22,28 @@ std::optional<double> shown_modulus(const measurement::SpecimenRecord& specimen)
 
 }  // namespace
 
-std::optional<std::string> doubt_of_unit(const measurement::SpecimenRecord& specimen,
-                                         const material::ParameterSet& model, tester::Fidelity fidelity) {
+std::optional<double> UnitDoubts::simulated_pa(const measurement::SpecimenRecord& specimen) {
+  const tester::Simulation question{specimen.design, model_, specimen.conditions, fidelity_};
+  const auto [known, is_new] = simulated_pa_.try_emplace(tester::simulation_key(question, tester::TestKind::modulus));
+  if (is_new) {
+    if (const auto simulated = tester::test_modulus(question)) known->second = simulated->modulus_pa;
+  }
+  return known->second;
+}
+
+std::optional<std::string> UnitDoubts::about(const measurement::SpecimenRecord& specimen) {
   if (!specimen.valid) return std::nullopt;
   const auto shown_pa = shown_modulus(specimen);
   if (!shown_pa) return std::nullopt;
-  const auto simulated = tester::test_modulus({specimen.design, model, specimen.conditions, fidelity});
-  if (!simulated) return std::nullopt;
+  const std::optional<double> modulus_pa = simulated_pa(specimen);
+  if (!modulus_pa) return std::nullopt;
   const bool is_notched = specimen.test == tester::TestKind::toughness;
-  const double ratio = *shown_pa / simulated->modulus_pa;
+  const double ratio = *shown_pa / *modulus_pa;
   if (ratio < kFar && ratio > 1.0 / (is_notched ? kFarWithNotch : kFar)) return std::nullopt;
   return fmt::format("specimen {} of {}, {} test: {} {:.3g} GPa, where the model has a modulus of {:.3g}: {}",
                      specimen.specimen, specimen.design.name(), tester::to_string(specimen.test),
                      is_notched || !specimen.modulus_pa ? "its curve begins with a slope of" : "its modulus is",
-                     1e-9 * *shown_pa, 1e-9 * simulated->modulus_pa,
+                     1e-9 * *shown_pa, 1e-9 * *modulus_pa,
                      "is a unit wrong (stress in Pa, strain as a ratio, size in mm)?");
 }
 

@@ -2,6 +2,7 @@
 // Whether a specimen can be what it is said to be, by the model of the day: units are mistaken by factors of ten and
 // more, models by less.
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -11,10 +12,22 @@
 
 namespace nacre::game {
 
-/// A doubt about the unit of a valid specimen, as a sentence; nothing where there is none. A modulus is held against
-/// that which the model simulates for the design (milliseconds), a notched specimen's curve by the slope of its
-/// beginning.
-std::optional<std::string> doubt_of_unit(const measurement::SpecimenRecord& specimen,
-                                         const material::ParameterSet& model, tester::Fidelity fidelity);
+/// Doubts about the units of valid specimens. A modulus is held against that which the model simulates for the design
+/// (milliseconds, once for all replicates), a notched specimen's curve by the slope of its beginning.
+class UnitDoubts {
+ public:
+  UnitDoubts(const material::ParameterSet& model, tester::Fidelity fidelity) : model_(model), fidelity_(fidelity) {}
+  /// As a sentence; nothing where there is none.
+  std::optional<std::string> about(const measurement::SpecimenRecord& specimen);
+  int simulations() const { return static_cast<int>(simulated_pa_.size()); }
+
+ private:
+  /// Nothing where the simulation fails.
+  std::optional<double> simulated_pa(const measurement::SpecimenRecord& specimen);
+
+  material::ParameterSet model_;
+  tester::Fidelity fidelity_;
+  std::map<std::string, std::optional<double>> simulated_pa_;  ///< by simulation_key()
+};
 
 }  // namespace nacre::game

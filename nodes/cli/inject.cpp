@@ -85,9 +85,8 @@ struct Offered {
 };
 
 /// Offers what no node contradicts and every node would take; the rest goes into `delivery`.
-Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet& set, const std::string& folder,
-                        runtime::Endpoint& endpoint, Delivery& delivery) {
-  const HeldMeasurements held = held_measurements(run);
+Offered offer_specimens(const RunAccess& run, const HeldMeasurements& held, const measurement::MeasurementSet& set,
+                        const std::string& folder, runtime::Endpoint& endpoint, Delivery& delivery) {
   Offered offered;
   for (std::size_t i = 0; i < set.specimens.size(); ++i) {
     const measurement::SpecimenRecord& specimen = set.specimens[i];
@@ -112,11 +111,12 @@ Offered offer_specimens(const RunAccess& run, const measurement::MeasurementSet&
 }
 
 /// Sends a set and waits for the answers of those that listen.
-Delivery send(const RunAccess& run, const measurement::MeasurementSet& set, const Options& options) {
+Delivery send(const RunAccess& run, const HeldMeasurements& held_before, const measurement::MeasurementSet& set,
+              const Options& options) {
   const auto endpoint = speak(run, "inject");
   Delivery delivery;
   delivery.rejected = set.rejected;
-  const auto [hashes, specimens, repeated] = offer_specimens(run, set, options.set, *endpoint, delivery);
+  const auto [hashes, specimens, repeated] = offer_specimens(run, held_before, set, options.set, *endpoint, delivery);
   if (hashes.empty() && delivery.conflicting.empty())
     throw InputError::format("{}: none of its {} specimens can be sent", options.set, set.specimens.size());
   wait_for_receivers(*endpoint, hashes, options.timeout_s);
@@ -140,8 +140,11 @@ int inject(const Options& options) {
   const RunAccess run = open_run(options.run);
   const measurement::MeasurementSet set = measurement::read_measurement_set(options.set);
   warn_about(set, options.set);
-  for (const std::string& doubt : doubts_about(run, set.specimens)) warn(doubt);
-  const Delivery delivery = send(run, set, options);
+  HeldMeasurements held{.validation_agent = {}, .analyser = held_by_analyser(run)};
+  const LaboratoryView view = view_laboratory(
+      run, [&](const std::string& payload) { enter(held.validation_agent, payload, run.scenario.fidelity); });
+  for (const std::string& doubt : doubts_about(run, view, set.specimens)) warn(doubt);
+  const Delivery delivery = send(run, held, set, options);
   print_delivery(delivery, options.json);
   if (delivery.unanswered > 0) say_unanswered(delivery.unanswered_by, options.timeout_s);
   return delivery.unanswered > 0 || !delivery.conflicting.empty() ? 1 : 0;

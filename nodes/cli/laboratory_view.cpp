@@ -100,7 +100,7 @@ void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
 
 }  // namespace
 
-LaboratoryView view_laboratory(const RunAccess& run) {
+LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(const std::string& payload)>& measured) {
   LaboratoryView view;
   game::LaboratoryFacts& facts = view.facts;
   facts.replicates = run.scenario.validation.replicates;
@@ -117,13 +117,19 @@ LaboratoryView view_laboratory(const RunAccess& run) {
   const auto take_measurement = [&](const wire::Measurement& one) {
     if (one.fidelity == run.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
   };
-  read_validation_agent(
-      run,
-      {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
-       {"MEASUREMENT", each<wire::Measurement>(take_measurement)},
-       {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
-       {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
-      {{"TEST_ORDER", each<wire::TestOrder>(take_order)}, {"FAMILY", each<wire::Family>(take_family)}});
+  const auto take_model = [&](const wire::AdoptedModel& model) { view.model = model.parameters; };
+  read_validation_agent(run,
+                        {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
+                         {"MEASUREMENT",
+                          [&](const std::string& payload) {
+                            each<wire::Measurement>(take_measurement)(payload);
+                            if (measured) measured(payload);
+                          }},
+                         {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
+                         {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
+                        {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
+                         {"FAMILY", each<wire::Family>(take_family)},
+                         {"PARAMETERS", each<wire::AdoptedModel>(take_model)}});
   for (const auto& [specimen, by] : read_printed(run)) facts.printed.push_back(specimen);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);

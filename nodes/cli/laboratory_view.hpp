@@ -3,6 +3,7 @@
 // from the record of what was printed (RUN/laboratory/printed.csv, written by `nacre printed` alone).
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,10 +26,13 @@ struct LaboratoryView {
   game::LaboratoryFacts facts;
   std::vector<OrderState> orders;
   std::optional<wire::Proposal> newest_proposal;
+  std::optional<material::ParameterSet> model;  ///< that the validation agent adopted last
 };
 
-/// Throws InputError when the record of what was printed cannot be read.
-LaboratoryView view_laboratory(const RunAccess& run);
+/// `measured` is handed the payload of every MEASUREMENT, too. Throws InputError when the record of what was printed
+/// cannot be read.
+LaboratoryView view_laboratory(const RunAccess& run,
+                               const std::function<void(const std::string& payload)>& measured = {});
 
 /// Adds specimens to the record of what was printed, but those that it holds already. Returns how many were new. Throws
 /// InputError, and records nothing, when it holds another specimen of the same label.

@@ -75,7 +75,8 @@ Answer RunDesk::hand_in(const runtime::Message& message) {
 
 std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
   std::vector<std::string> doubts = measurement::doubts_about(specimen);
-  for (const std::string& doubt : cli::doubts_about(run_, {&specimen, 1})) doubts.push_back(doubt);
+  for (const std::string& doubt : cli::doubts_about(run_, view_laboratory(run_), {&specimen, 1}))
+    doubts.push_back(doubt);
   return doubts;
 }
 

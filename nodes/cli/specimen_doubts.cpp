@@ -5,7 +5,6 @@
 #include "game/measurement_book.hpp"
 #include "game/plausibility.hpp"
 #include "game/starting_point.hpp"
-#include "laboratory_view.hpp"
 #include "measurement/consistency.hpp"
 
 namespace nacre::cli {
@@ -28,14 +27,13 @@ std::vector<std::string> beside_replicates(std::vector<measurement::SpecimenReco
 
 }  // namespace
 
-std::vector<std::string> doubts_about(const RunAccess& run, std::span<const measurement::SpecimenRecord> specimens) {
-  const game::LaboratoryFacts facts = view_laboratory(run).facts;
-  const auto adopted = adopted_parameters(run);
-  const material::ParameterSet model = adopted ? *adopted : game::starting_model(run.scenario);
+std::vector<std::string> doubts_about(const RunAccess& run, const LaboratoryView& view,
+                                      std::span<const measurement::SpecimenRecord> specimens) {
+  const game::LaboratoryFacts& facts = view.facts;
+  game::UnitDoubts units(view.model ? *view.model : game::starting_model(run.scenario), run.scenario.fidelity);
   std::vector<std::string> doubts;
   for (const measurement::SpecimenRecord& specimen : specimens) {
-    for (const auto& doubt :
-         {game::beside_orders(specimen, facts.orders), game::doubt_of_unit(specimen, model, run.scenario.fidelity)})
+    for (const auto& doubt : {game::beside_orders(specimen, facts.orders), units.about(specimen)})
       if (doubt) doubts.push_back(*doubt);
   }
   for (const std::string& doubt : beside_replicates(facts.book.specimens(), specimens)) doubts.push_back(doubt);

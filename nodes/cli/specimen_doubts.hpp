@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "laboratory_view.hpp"
 #include "measurement/measurement.hpp"
 #include "run_access.hpp"
 
@@ -12,6 +13,7 @@ namespace nacre::cli {
 
 /// Sentences: specimens that leave the orders of their designs open, and values that the run's model cannot explain but
 /// by a mistaken unit.
-std::vector<std::string> doubts_about(const RunAccess& run, std::span<const measurement::SpecimenRecord> specimens);
+std::vector<std::string> doubts_about(const RunAccess& run, const LaboratoryView& view,
+                                      std::span<const measurement::SpecimenRecord> specimens);
 
 }  // namespace nacre::cli

@@ -41,30 +41,6 @@ std::string history_of(const measurement::SpecimenRecord& specimen) {
   return history.empty() ? "" : history + "]";
 }
 
-/// Payloads of the MEASUREMENTs in the analyser's journal, oldest first; none where this machine does not hold it.
-std::vector<std::string> received_by_analyser(const RunAccess& run) {
-  std::vector<std::string> payloads;
-  const auto journal = run.folder / "nodes" / "analyser" / "journal.lcm";
-  if (!std::filesystem::exists(journal)) return payloads;
-  runtime::LogReader reader(journal);
-  while (const auto record = reader.next()) {
-    if (record->channel != kChannel) continue;
-    if (auto blanked = wire::blank_header(kChannel, record->data)) payloads.push_back(std::move(blanked->payload));
-  }
-  return payloads;
-}
-
-/// Enters a measurement that its node took in; those of another fidelity it refused.
-void take(std::map<std::string, std::string>& hashes, const std::string& payload, tester::Fidelity fidelity) {
-  auto measurement = wire::read<wire::Measurement>(payload);
-  if (!measurement || measurement->fidelity != fidelity) return;
-  // Who ordered it and when is not what was measured.
-  wire::Measurement plain;
-  plain.fidelity = measurement->fidelity;
-  plain.record = std::move(measurement->record);
-  hashes.emplace(plain.record.specimen, wire::message_hash(kChannel, wire::write(plain)));
-}
-
 }  // namespace
 
 measurement::SpecimenRecord with_history_of_note(measurement::SpecimenRecord specimen) {
@@ -100,11 +76,33 @@ runtime::Message measurement_message(const measurement::SpecimenRecord& specimen
   return {kChannel, wire::write(measurement)};
 }
 
+void enter(std::map<std::string, std::string>& held, const std::string& payload, tester::Fidelity fidelity) {
+  auto measurement = wire::read<wire::Measurement>(payload);
+  if (!measurement || measurement->fidelity != fidelity) return;
+  // Who ordered it and when is not what was measured.
+  wire::Measurement plain;
+  plain.fidelity = measurement->fidelity;
+  plain.record = std::move(measurement->record);
+  held.emplace(plain.record.specimen, wire::message_hash(kChannel, wire::write(plain)));
+}
+
+std::map<std::string, std::string> held_by_analyser(const RunAccess& run) {
+  std::map<std::string, std::string> held;
+  const auto journal = run.folder / "nodes" / "analyser" / "journal.lcm";
+  if (!std::filesystem::exists(journal)) return held;
+  runtime::LogReader reader(journal);
+  while (const auto record = reader.next()) {
+    if (record->channel != kChannel) continue;
+    if (const auto blanked = wire::blank_header(kChannel, record->data))
+      enter(held, blanked->payload, run.scenario.fidelity);
+  }
+  return held;
+}
+
 HeldMeasurements held_measurements(const RunAccess& run) {
-  HeldMeasurements held;
+  HeldMeasurements held{.validation_agent = {}, .analyser = held_by_analyser(run)};
   for (const std::string& payload : received_by_validation_agent(run, kChannel))
-    take(held.validation_agent, payload, run.scenario.fidelity);
-  for (const std::string& payload : received_by_analyser(run)) take(held.analyser, payload, run.scenario.fidelity);
+    enter(held.validation_agent, payload, run.scenario.fidelity);
   return held;
 }
 

@@ -23,6 +23,9 @@ struct HeldMeasurements {
   std::map<std::string, std::string> validation_agent;
   std::map<std::string, std::string> analyser;
 };
+/// Enters the payload of a MEASUREMENT that a node took in; those of another fidelity it refused.
+void enter(std::map<std::string, std::string>& held, const std::string& payload, tester::Fidelity fidelity);
+std::map<std::string, std::string> held_by_analyser(const RunAccess& run);
 HeldMeasurements held_measurements(const RunAccess& run);
 
 /// Why a node that has another measurement of the specimen's name keeps it, with what to do, as a sentence; nothing

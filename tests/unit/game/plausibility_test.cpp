@@ -31,10 +31,11 @@ measurement::SpecimenRecord specimen_of(tester::TestKind test, tester::Curve cur
 
 TEST(Plausibility, DoubtsUnitsAndNothingElse) {
   const material::ParameterSet model = material::default_parameters();
+  UnitDoubts units(model, tester::Fidelity::tiny);
   const double modulus_pa =
       tester::test_modulus({*pattern::design_from_name("rigid"), model, {}, tester::Fidelity::tiny})->modulus_pa;
   const auto doubt = [&](tester::TestKind test, double slope_pa, double strain) {
-    return doubt_of_unit(specimen_of(test, straight(slope_pa, strain)), model, tester::Fidelity::tiny).value_or("");
+    return units.about(specimen_of(test, straight(slope_pa, strain))).value_or("");
   };
   for (const double ratio : {0.2, 1.0, 5.0}) EXPECT_EQ(doubt(tester::TestKind::modulus, ratio * modulus_pa, 0.01), "");
   EXPECT_THAT(doubt(tester::TestKind::modulus, 0.01 * modulus_pa, 1.0), HasSubstr("strain as a ratio")) << "per cent";
@@ -43,9 +44,21 @@ TEST(Plausibility, DoubtsUnitsAndNothingElse) {
   EXPECT_THAT(doubt(tester::TestKind::toughness, 0.004 * modulus_pa, 1.0), HasSubstr("begins with a slope of"));
   measurement::SpecimenRecord given = specimen_of(tester::TestKind::modulus, {});
   given.modulus_pa = 2.6e6;
-  EXPECT_THAT(doubt_of_unit(given, model, tester::Fidelity::tiny).value_or(""), HasSubstr("its modulus is 0.0026 GPa"));
+  EXPECT_THAT(units.about(given).value_or(""), HasSubstr("its modulus is 0.0026 GPa"));
   given.valid = false;
-  EXPECT_FALSE(doubt_of_unit(given, model, tester::Fidelity::tiny)) << "it does not count";
+  EXPECT_FALSE(units.about(given)) << "it does not count";
+}
+
+TEST(Plausibility, ReplicatesAreSimulatedOnce) {
+  UnitDoubts units(material::default_parameters(), tester::Fidelity::tiny);
+  measurement::SpecimenRecord specimen = specimen_of(tester::TestKind::modulus, {});
+  specimen.modulus_pa = 1e3;
+  for (int replicate = 0; replicate < 3; ++replicate) EXPECT_TRUE(units.about(specimen));
+  EXPECT_TRUE(units.about(specimen_of(tester::TestKind::toughness, straight(1e3, 1.0)))) << "of the same design";
+  EXPECT_EQ(units.simulations(), 1);
+  specimen.design = *pattern::design_from_name("soft");
+  EXPECT_TRUE(units.about(specimen));
+  EXPECT_EQ(units.simulations(), 2);
 }
 
 }  // namespace
