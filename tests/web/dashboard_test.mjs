@@ -603,6 +603,9 @@ test("pictures and tables can be saved", async () => {
     /^design,round,rigid_fraction,modulus_pa,modulus_sd_pa,toughness_pa,toughness_sd_pa,.*\n[0-9a-f]{14},\d+,[\d.]+,\d{8,}/,
   );
   assert.match((await saved("gap as SVG")).toString(), /^<svg/);
+  // On the page the keys stand outside of the chart.
+  for (const key of ["front of gamut 1", "measured", "proposals"])
+    assert.ok((await saved("gamut as SVG")).toString().includes(`>${key}</text>`), key);
   assert.deepEqual(saving.troubles, []);
   await leave(saving);
   await finished.close();

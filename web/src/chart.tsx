@@ -1,7 +1,13 @@
 // ECharts in the page: theme, size, and the picture as a file.
 
 import { LineChart, ScatterChart } from "echarts/charts";
-import { DataZoomInsideComponent, GridComponent, MarkAreaComponent, MarkLineComponent } from "echarts/components";
+import {
+  DataZoomInsideComponent,
+  GridComponent,
+  LegendPlainComponent,
+  MarkAreaComponent,
+  MarkLineComponent,
+} from "echarts/components";
 import * as echarts from "echarts/core";
 import { CanvasRenderer, SVGRenderer } from "echarts/renderers";
 import { createContext, type ComponentChildren } from "preact";
@@ -14,6 +20,7 @@ echarts.use([
   ScatterChart,
   GridComponent,
   DataZoomInsideComponent,
+  LegendPlainComponent,
   MarkLineComponent,
   MarkAreaComponent,
   CanvasRenderer,
@@ -66,16 +73,60 @@ interface Props {
   children?: ComponentChildren;
 }
 
-/** The same picture drawn again as SVG, or as PNG at twice the size, on the page's ground. */
+/** How many rows the names take in a legend `width` wide. */
+function rowsOf(names: string[], width: number, key: number, gap: number, font: string): number {
+  const context = document.createElement("canvas").getContext("2d")!;
+  context.font = font;
+  let rows = 1;
+  let used = 0;
+  for (const name of names) {
+    const needed = key + context.measureText(name).width;
+    if (used > 0 && used + needed > width) [rows, used] = [rows + 1, 0];
+    used += needed + gap;
+  }
+  return rows;
+}
+
+/** The option with a legend above it, and by how much the picture grows: on the page the keys stand beside the chart. */
+function withLegend(option: Option, width: number): { legended: Option; grown: number } {
+  const series = option.series as { name?: string; symbol?: string; data: ArrayLike<unknown> }[];
+  const shown = new Map(series.filter((s) => s.name && s.data.length > 0).map((s) => [s.name!, s]));
+  const names = [...shown.keys()];
+  if (names.length === 0) return { legended: option, grown: 0 };
+  const [itemWidth, itemHeight, itemGap, fontSize, row, padding] = [30, 10, 14, 11, 14, 8];
+  const grid = option.grid as { left: number; right: number; top: number };
+  const { fontFamily } = option.textStyle as { fontFamily: string };
+  const textGap = 5;
+  const room = width - grid.left - grid.right;
+  const grown =
+    padding + (row + itemGap) * rowsOf(names, room, itemWidth + textGap, itemGap, `${fontSize}px ${fontFamily}`) - itemGap;
+  const legend = {
+    // A line without marks would get one of the palette's.
+    data: [...shown.values()].map((s) => ({ name: s.name, itemStyle: s.symbol === "none" ? { opacity: 0 } : {} })),
+    left: grid.left,
+    top: padding,
+    width: room,
+    padding: 0,
+    itemWidth,
+    itemHeight,
+    itemGap,
+    textStyle: { color: themeColour("quiet"), fontSize },
+  };
+  return { legended: { ...option, legend, grid: { ...grid, top: grid.top + grown } }, grown };
+}
+
+/** The same picture drawn again with a legend as SVG, or as PNG at twice the size, on the page's ground. */
 function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string): void {
-  const [width, height] = [chart.getWidth(), chart.getHeight()];
+  const width = chart.getWidth();
+  const { legended, grown } = withLegend(option, width);
+  const height = chart.getHeight() + grown;
   const renderer =
     kind === "svg"
       ? { renderer: "svg" as const, ssr: true, width, height }
       : { renderer: "canvas" as const, devicePixelRatio: 2, width, height };
   const host = kind === "svg" ? null : document.createElement("div");
   const copy = echarts.init(host, null, renderer);
-  copy.setOption({ ...option, backgroundColor: themeColour("panel") });
+  copy.setOption({ ...legended, backgroundColor: themeColour("panel") });
   const zoom = (chart.getOption() as { dataZoom?: { startValue: number; endValue: number }[] }).dataZoom;
   zoom?.forEach((each, dataZoomIndex) =>
     copy.dispatchAction({ type: "dataZoom", dataZoomIndex, startValue: each.startValue, endValue: each.endValue }),
