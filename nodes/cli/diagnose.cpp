@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
+#include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
 #include "output.hpp"
