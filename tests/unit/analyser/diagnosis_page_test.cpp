@@ -48,7 +48,7 @@ TEST(DiagnosisPage, SaysFromWhichSizeOnACauseWouldHaveShown) {
   d.candidates[0].smallest_seen = 0.31;
   d.candidates[1].name = "machine_compliance";
   const std::string page = render_diagnosis_page(d, "a-set", tester::Fidelity::full);
-  EXPECT_THAT(page, HasSubstr("<td>0.31 pixels</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>0.310 pixels</td>"));
 }
 
 TEST(DiagnosisPage, GainIsTheSentenceOfTheSummary) {

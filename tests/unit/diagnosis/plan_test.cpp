@@ -58,9 +58,8 @@ TEST_F(Plans, CouponsAreThoseOfTheInksThatAreGiven) {
     return planned(synthetic_coupons(settings_.start, {1e-3}, 3, 0.0, 1), "rigid_yield").smallest_seen.value();
   };
   const double own = planned_yield();
-  settings_ = {};
   settings_.start = material::default_parameters();
-  settings_.fidelity = tester::Fidelity::tiny;
+  settings_.ranges = material::thesis_ranges();
   EXPECT_LT(own, 0.6 * planned_yield());
 }
 
