@@ -69,9 +69,8 @@ bool holds(const Fit& whole, const Fit& part) {
 }
 
 /// The inverse of the covariance of a model's free coordinates: what the data say, the prior of the base constants, and
-/// of an effect that its value lies anywhere in its range.
-Eigen::LDLT<Eigen::MatrixXd> information(const Fit& model, const Whitener& whitener) {
-  const Eigen::MatrixXd columns = model.whitened_columns(whitener);
+/// of an effect that its value lies anywhere in its range. `columns`: Fit::whitened_columns().
+Eigen::LDLT<Eigen::MatrixXd> information(const Fit& model, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd normal = columns.transpose() * columns;
   for (std::size_t k = 0; k < model.free.size(); ++k) {
     const int i = model.free[k];
@@ -103,7 +102,8 @@ ForetoldTests::ForetoldTests(const Evidence& evidence, std::vector<Fit> models, 
     for (std::size_t t = 0; t < tests.size(); ++t)
       for (const int row : rows_of_[t])
         if (tests[t].test == TestKind::toughness) put_fracture(m, row, seen[t][m]);
-    information_.push_back(information(models_[m], whitener_));
+    columns_.push_back(models_[m].whitened_columns(whitener_));
+    information_.push_back(information(models_[m], columns_.back()));
   }
   join();
   if (measured_.has_shared_numerics()) {
@@ -218,8 +218,8 @@ double ForetoldTests::growth(const NewRow& row, std::size_t truth, std::size_t w
   }
   apart -= slopes.dot(refit.step) + row.whitened.dot(refit.left);
   // What the measured rows leave open of the constants, as far as it moves this row against them.
-  const Eigen::VectorXd open = slopes(model.free).transpose() -
-                               model.whitened_columns(whitener_).topRows(measured_.size()).transpose() * row.whitened;
+  const Eigen::VectorXd open =
+      slopes(model.free).transpose() - columns_[wrong].topRows(measured_.size()).transpose() * row.whitened;
   const double variance = row.variance + open.dot(information_[wrong].solve(open));
   return apart * apart / variance;
 }

@@ -19,7 +19,7 @@ namespace nacre::diagnosis {
 class ForetoldTests {
  public:
   /// Simulates each test at each of the models, which were fitted to the observations of the evidence; `replicates` of
-  /// each are made.
+  /// each are made. The observations must outlive this.
   ForetoldTests(const Evidence& evidence, std::vector<Fit> models, const std::vector<PossibleTest>& tests,
                 int replicates);
   /// For a test and each pair of models, the feature that tells them apart best, and by how many standard errors. Their
@@ -61,6 +61,7 @@ class ForetoldTests {
   Observations added_, joined_;                            ///< the tests alone, and behind what was measured
   std::vector<std::vector<int>> rows_of_;                  ///< of each test, in added_
   std::vector<Fit> foretold_;                              ///< the models over the rows of added_
+  std::vector<Eigen::MatrixXd> columns_;                   ///< of each model: Fit::whitened_columns()
   std::vector<Eigen::LDLT<Eigen::MatrixXd>> information_;  ///< of each model's free coordinates
   std::vector<std::vector<Refit>> refits_;                 ///< by truth and wrong model
 };
