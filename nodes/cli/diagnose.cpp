@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
+#include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"
@@ -48,9 +49,10 @@ std::string size_or_dash(const std::optional<double>& size) { return size ? fmt:
 
 void print_candidates(const diagnosis::Diagnosis& d) {
   for (const diagnosis::Candidate& c : d.candidates) {
-    fmt::print("  {:<22} {:<14} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:6.1f}  seen from {} {}\n", c.name,
+    const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
+    fmt::print("  {:<22} {:<14} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:6.1f}  seen from {}{}\n", c.name,
                c.status, c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
-               size_or_dash(c.smallest_seen), material::find_effect(c.name)->parameters.front().unit);
+               size_or_dash(c.smallest_seen), c.smallest_seen ? material::unit_behind_number(unit) : "");
   }
   for (std::size_t i = 0; i < d.contrasts.size() && i < 3; ++i) {
     fmt::print("  residuals along {}: {:.1f} standard deviations (p {:.4f})\n", d.contrasts[i].name,
