@@ -1,25 +1,22 @@
 #include <algorithm>
 
 #include "sysid/emulator.hpp"
+#include "sysid/eta_fit.hpp"
 #include "sysid/eta_moves.hpp"
-#include "sysid/recorded_fit.hpp"
 #include "sysid/warped_objective.hpp"
 
 namespace nacre::sysid {
 namespace {
 
-constexpr double kPull = 0.01;        // cost of moving every parameter across its whole range
 constexpr double kFirstRadius = 0.7;  // of the trust region, in natural logarithms: a factor of two
 constexpr double kLargestRadius = 1.0;
 constexpr double kSmallestRadius = 0.05;
 constexpr double kLeastGain = 1e-3;  // relative gain that counts as progress
 
-class EmulatorFit final : public RecordedFit {
+class EmulatorFit final : public EtaFit {
  public:
   EmulatorFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others)
-      : RecordedFit(std::move(data), settings, kPull),
-        spans_(std::move(spans)),
-        others_(std::move(others)),
+      : EtaFit(std::move(data), settings, kPull, std::move(spans), std::move(others), /*poisson_searched=*/false),
         emulator_(spans_, data_.measured.size()),
         predicted_(data_) {}
 
@@ -32,38 +29,18 @@ class EmulatorFit final : public RecordedFit {
   void tell(std::vector<std::vector<Prediction>> predictions) override {
     const bool starting = trials_.empty();
     const double before = starting ? 0.0 : cost(trials_[best_]);
-    for (std::size_t k = 0; k < asked_.size(); ++k) {
-      const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
-      record(asked_[k], std::move(predictions[k]), objective);
-    }
-    asked_.clear();
+    record_asked(std::move(predictions));
     if (starting) return;
     const bool gained = cost(trials_[best_]) < (1.0 - kLeastGain) * before;
     radius_ = gained ? std::min(kLargestRadius, 1.3 * radius_) : 0.5 * radius_;
-  }
-
-  std::vector<double> deviations() const override {
-    return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/false, settings_.floor);
-  }
-
-  double freedom_taken() const override {
-    if (trials_.size() < 2) return 0.0;
-    const ToughnessModel model = toughness_model(data_, trials_, best_, spans_, /*poisson_searched=*/false);
-    return freedom_taken_by(model.searched, model.slopes, model.weights / model.noise, kUnknownPrecision);
   }
 
  private:
   std::vector<Point> propose() {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));
     if (count <= 0 || radius_ < kSmallestRadius) return {};
+    if (trials_.empty()) return first_points();
     std::vector<Point> points;
-    if (trials_.empty()) {
-      points = {settings_.start};
-      for (const Point& other : others_) {
-        if (static_cast<int>(points.size()) < count) points.push_back(other);
-      }
-      return points;
-    }
     emulator_.learn(trials_, best_);
     predicted_.set_base(trials_[best_]);
     for (int k = 0; k < count; ++k) {
@@ -85,8 +62,6 @@ class EmulatorFit final : public RecordedFit {
     return moved(from, best_move(cost, radius_), spans_);
   }
 
-  std::vector<double> spans_;
-  std::vector<Point> others_;
   FeatureEmulator emulator_;
   WarpedObjective predicted_;
   std::vector<FeatureChange> changes_;

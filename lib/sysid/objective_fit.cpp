@@ -2,25 +2,23 @@
 #include <cmath>
 
 #include "sysid/emulator.hpp"
+#include "sysid/eta_fit.hpp"
 #include "sysid/eta_moves.hpp"
-#include "sysid/recorded_fit.hpp"
 #include "sysid/warped_objective.hpp"
 
 namespace nacre::sysid {
 namespace {
 
-constexpr double kPull = 0.01;       // cost of moving every parameter across its whole range
 constexpr double kScaleReach = 2.3;  // natural logarithm of ten
 constexpr int kScaleSteps = 25;
 constexpr double kRepeatability = 0.1;  // of one design's share of the objective: toughness and curve jump together
 
-class ObjectiveFit final : public RecordedFit {
+class ObjectiveFit final : public EtaFit {
  public:
   ObjectiveFit(FitData data, const FitSettings& settings, std::vector<double> spans, std::vector<Point> others,
                optimize::Algorithm algorithm)
-      : RecordedFit(std::move(data), settings, algorithm == optimize::Algorithm::trust_region ? kPull : 0.0),
-        spans_(std::move(spans)),
-        others_(std::move(others)),
+      : EtaFit(std::move(data), settings, algorithm == optimize::Algorithm::trust_region ? kPull : 0.0,
+               std::move(spans), std::move(others), /*poisson_searched=*/true),
         algorithm_(algorithm) {}
 
   std::vector<Point> ask() override {
@@ -37,36 +35,14 @@ class ObjectiveFit final : public RecordedFit {
   }
 
   void tell(std::vector<std::vector<Prediction>> predictions) override {
+    const std::size_t before = trials_.size();
+    record_asked(std::move(predictions));
     std::vector<std::optional<double>> costs;
-    for (std::size_t k = 0; k < asked_.size(); ++k) {
-      const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
-      record(asked_[k], std::move(predictions[k]), objective);
-      costs.push_back(cost(trials_.back()));
-    }
-    asked_.clear();
+    for (std::size_t k = before; k < trials_.size(); ++k) costs.push_back(cost(trials_[k]));
     if (optimizer_) optimizer_->tell(costs);
   }
 
-  std::vector<double> deviations() const override {
-    return toughness_deviations(data_, trials_, best_, spans_, /*poisson_searched=*/true, settings_.floor);
-  }
-
-  double freedom_taken() const override {
-    if (trials_.size() < 2) return 0.0;
-    const ToughnessModel model = toughness_model(data_, trials_, best_, spans_, /*poisson_searched=*/true);
-    return freedom_taken_by(model.searched, model.slopes, model.weights / model.noise, kUnknownPrecision);
-  }
-
  private:
-  std::vector<Point> first_points() const {
-    std::vector<Point> points = {settings_.start};
-    const int more = std::min(settings_.batch, settings_.budget) - 1;
-    for (const Point& other : others_) {
-      if (static_cast<int>(points.size()) <= more) points.push_back(other);
-    }
-    return points;
-  }
-
   void begin_search(std::vector<Point> starts) {
     optimize::BatchOptimizerSettings settings;
     settings.dimension = kEtaCount;
@@ -96,8 +72,6 @@ class ObjectiveFit final : public RecordedFit {
     return expected(scales) < cost(from) ? moved(from.point, scales, spans_) : from.point;
   }
 
-  std::vector<double> spans_;
-  std::vector<Point> others_;
   optimize::Algorithm algorithm_;
   std::unique_ptr<optimize::BatchOptimizer> optimizer_;
 };

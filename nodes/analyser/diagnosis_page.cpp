@@ -140,7 +140,7 @@ constexpr const char* kColumnsOfRivals =
     "two causes look alike on these specimens. Chance: how often the best of all causes would look "
     "as good by accident.";
 
-/// From which size on an effect would have shown: "0.31 px".
+/// From which size on an effect would have shown: "0.31 pixels".
 std::string seen_from(const Candidate& c) {
   if (!c.smallest_seen) return "–";
   const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
@@ -160,7 +160,7 @@ std::string rivals_section(const Diagnosis& d) {
   return section("rivals", "What else could explain it",
                  table(header_row({"cause", "judgement", "signal / noise", "hidden by the base", "seen from",
                                    "most like (cosine)", "drop of χ²", "chance"}),
-                       rows, "words") +
+                       rows, "words wrapped") +
                      paragraph(fmt::format(kColumnsOfRivals, diagnosis::kVisibleSignal), "quiet"));
 }
 
@@ -192,7 +192,7 @@ std::string nothing_asked_for(const Diagnosis& d) {
 std::string next_section(const Diagnosis& d) {
   std::string list;
   for (const auto& e : d.next_experiments) {
-    list += fmt::format("<li><strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens. {}.</li>\n",
+    list += fmt::format("<li><strong>{}</strong> of {} at {:.0f} degrees, {:.3g} /s, {} mm, {} specimens; {}.</li>\n",
                         tester::to_string(e.test), design_name(pattern::readable_name(e.design)),
                         e.conditions.orientation_deg, e.conditions.strain_rate_per_s, e.conditions.thickness_mm,
                         e.replicates, escaped(e.reason));

@@ -68,6 +68,7 @@ tr.note td { text-align: left; color: var(--quiet); padding-top: 12px; }
 thead tr + tr th:first-child { text-align: right; padding-left: 10px; }
 table.words td { white-space: nowrap; } table.words code.long { display: inline-block; width: 36ch; white-space: normal; overflow-wrap: anywhere; }
 table.words td:last-child { white-space: normal; min-width: 18ch; overflow-wrap: anywhere; }
+table.wrapped th, table.wrapped td { white-space: normal; vertical-align: top; } table.wrapped td:last-child { white-space: nowrap; min-width: 0; }
 strong.bad { color: var(--bad); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(420px, 100%), 1fr)); gap: 14px; }
 .card { display: flex; gap: 14px; padding: 12px; background: var(--panel); border: 1px solid var(--rule); border-radius: 6px; font-size: 14px; }

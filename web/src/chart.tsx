@@ -3,6 +3,7 @@
 import { LineChart, ScatterChart } from "echarts/charts";
 import {
   DataZoomInsideComponent,
+  GraphicComponent,
   GridComponent,
   LegendPlainComponent,
   MarkAreaComponent,
@@ -12,7 +13,8 @@ import * as echarts from "echarts/core";
 import { CanvasRenderer, SVGRenderer } from "echarts/renderers";
 import { createContext, type ComponentChildren } from "preact";
 import { useContext, useLayoutEffect, useRef } from "preact/hooks";
-import { themeColour } from "./colour";
+import { scaleColour, themeColour } from "./colour";
+import { figure } from "./numbers";
 import { save, saveCsv, saveSvg } from "./save";
 
 echarts.use([
@@ -20,6 +22,7 @@ echarts.use([
   ScatterChart,
   GridComponent,
   DataZoomInsideComponent,
+  GraphicComponent,
   LegendPlainComponent,
   MarkLineComponent,
   MarkAreaComponent,
@@ -55,11 +58,22 @@ export function basis(more: Option = {}): Option {
   return {
     animation: false,
     backgroundColor: "transparent",
-    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily },
+    // Apostrophes, since a saved picture holds the names within quotation marks.
+    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily.replaceAll('"', "'") },
     grid: { left: 56, right: 16, top: 14, bottom: 46 },
     ...more,
   };
 }
+
+/** What the colours of a chart mean: scaleColour() from `low` to `high`, in `unit`. */
+export interface ColourScale {
+  name: string;
+  low: number;
+  high: number;
+  unit: string;
+}
+
+const RAMP = Array.from({ length: 9 }, (_, i) => scaleColour(i / 8));
 
 interface Props {
   /** Name of the file, and what a screen reader says. */
@@ -70,17 +84,27 @@ interface Props {
   table?: () => { heading: string[]; rows: unknown[][] };
   onReady?: (chart: Chart) => void;
   tools?: ComponentChildren;
+  scale?: ColourScale;
   children?: ComponentChildren;
+}
+
+/** The family of a chart's letters. */
+const familyOf = (option: Option) => (option.textStyle as { fontFamily: string }).fontFamily;
+
+/** Tells how wide a text is in a font. */
+function measureIn(font: string): (text: string) => number {
+  const context = document.createElement("canvas").getContext("2d")!;
+  context.font = font;
+  return (text) => context.measureText(text).width;
 }
 
 /** How many rows the names take in a legend `width` wide. */
 function rowsOf(names: string[], width: number, key: number, gap: number, font: string): number {
-  const context = document.createElement("canvas").getContext("2d")!;
-  context.font = font;
+  const widthOf = measureIn(font);
   let rows = 1;
   let used = 0;
   for (const name of names) {
-    const needed = key + context.measureText(name).width;
+    const needed = key + widthOf(name);
     if (used > 0 && used + needed > width) [rows, used] = [rows + 1, 0];
     used += needed + gap;
   }
@@ -95,11 +119,10 @@ function withLegend(option: Option, width: number): { legended: Option; grown: n
   if (names.length === 0) return { legended: option, grown: 0 };
   const [itemWidth, itemHeight, itemGap, fontSize, row, padding] = [30, 10, 14, 11, 14, 8];
   const grid = option.grid as { left: number; right: number; top: number };
-  const { fontFamily } = option.textStyle as { fontFamily: string };
   const textGap = 5;
   const room = width - grid.left - grid.right;
   const grown =
-    padding + (row + itemGap) * rowsOf(names, room, itemWidth + textGap, itemGap, `${fontSize}px ${fontFamily}`) - itemGap;
+    padding + (row + itemGap) * rowsOf(names, room, itemWidth + textGap, itemGap, `${fontSize}px ${familyOf(option)}`) - itemGap;
   const legend = {
     // A line without marks would get one of the palette's.
     data: [...shown.values()].map((s) => ({ name: s.name, itemStyle: s.symbol === "none" ? { opacity: 0 } : {} })),
@@ -115,18 +138,47 @@ function withLegend(option: Option, width: number): { legended: Option; grown: n
   return { legended: { ...option, legend, grid: { ...grid, top: grid.top + grown } }, grown };
 }
 
-/** The same picture drawn again with a legend as SVG, or as PNG at twice the size, on the page's ground. */
-function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string): void {
+/** The option, for a picture so high, with a colour scale in `row` pixels more below it. */
+function withScale(option: Option, height: number, row: number, scale: ColourScale): Option {
+  const grid = option.grid as { left: number; bottom: number };
+  const [gap, fontSize, ramp] = [6, 11, { width: 120, height: 10 }];
+  const font = `${fontSize}px ${familyOf(option)}`;
+  const before = `${scale.name}  ${figure(scale.low)}`;
+  const from = grid.left + measureIn(font)(before) + gap;
+  const text = (x: number, words: string) => ({
+    type: "text",
+    x,
+    y: height + (row - fontSize) / 2,
+    style: { text: words, font, fill: themeColour("quiet") },
+  });
+  const colorStops = RAMP.map((color, i) => ({ offset: i / (RAMP.length - 1), color }));
+  const graphic = [
+    text(grid.left, before),
+    {
+      type: "rect",
+      shape: { x: from, y: height + (row - ramp.height) / 2, ...ramp },
+      style: { fill: { type: "linear", x: 0, y: 0, x2: 1, y2: 0, colorStops } },
+    },
+    text(from + ramp.width + gap, `${figure(scale.high)} ${scale.unit}`),
+  ];
+  return { ...option, graphic, grid: { ...grid, bottom: grid.bottom + row } };
+}
+
+/** The same picture drawn again with its keys as SVG, or as PNG at twice the size, on the page's ground. */
+function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string, scale?: ColourScale): void {
   const width = chart.getWidth();
   const { legended, grown } = withLegend(option, width);
-  const height = chart.getHeight() + grown;
+  const drawn = chart.getHeight() + grown;
+  const row = scale ? 24 : 0;
+  const keyed = scale ? withScale(legended, drawn, row, scale) : legended;
+  const height = drawn + row;
   const renderer =
     kind === "svg"
       ? { renderer: "svg" as const, ssr: true, width, height }
       : { renderer: "canvas" as const, devicePixelRatio: 2, width, height };
   const host = kind === "svg" ? null : document.createElement("div");
   const copy = echarts.init(host, null, renderer);
-  copy.setOption({ ...legended, backgroundColor: themeColour("panel") });
+  copy.setOption({ ...keyed, backgroundColor: themeColour("panel") });
   const zoom = (chart.getOption() as { dataZoom?: { startValue: number; endValue: number }[] }).dataZoom;
   zoom?.forEach((each, dataZoomIndex) =>
     copy.dispatchAction({ type: "dataZoom", dataZoomIndex, startValue: each.startValue, endValue: each.endValue }),
@@ -142,7 +194,7 @@ function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string
   copy.dispose();
 }
 
-export function ChartBox({ name, label, option, height, table, onReady, tools, children }: Props) {
+export function ChartBox({ name, label, option, height, table, onReady, tools, scale, children }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<Chart | undefined>(undefined);
   const theme = useContext(ThemeContext);
@@ -169,11 +221,20 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, c
       </div>
       <figcaption class="tools">
         {tools}
+        {scale && (
+          <span class="scale">
+            <span>{figure(scale.low)}</span>
+            <span class="ramp" style={{ background: `linear-gradient(to right, ${RAMP.join(", ")})` }} />
+            <span>
+              {figure(scale.high)} {scale.unit}
+            </span>
+          </span>
+        )}
         <span class="spring" />
         <button
           type="button"
           class="quiet"
-          onClick={() => picture(chart.current!, option, "svg", name)}
+          onClick={() => picture(chart.current!, option, "svg", name, scale)}
           aria-label={`${name} as SVG`}
         >
           SVG
@@ -181,7 +242,7 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, c
         <button
           type="button"
           class="quiet"
-          onClick={() => picture(chart.current!, option, "png", name)}
+          onClick={() => picture(chart.current!, option, "png", name, scale)}
           aria-label={`${name} as PNG`}
         >
           PNG

@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { get, problemOf, type Between, type Maps, type Mechanism, type PatternMap, type Rounds } from "./api";
-import { axis, basis, ChartBox, type Option } from "./chart";
+import { axis, basis, ChartBox, type ColourScale, type Option } from "./chart";
 import { scaleColour, themeColour } from "./colour";
 import { DesignBody, type Chosen } from "./design_panel";
 import { figure, GPA, MPA, percent } from "./numbers";
@@ -227,7 +227,7 @@ function MapChart({
         heading: ["pattern", "source", "x", "y", "modulus_pa", "toughness_pa"],
         rows: map.pattern.map((p, i) => [p, map.source[i], map.x[i], map.y[i], map.modulus_pa[i], map.toughness_pa[i]]),
       })}
-      tools={<Scale coloured={coloured} low={low} high={high} />}
+      scale={scaleOf(coloured, low, high)}
     >
       <div
         ref={overlay}
@@ -304,18 +304,9 @@ function range(values: (number | null)[]): [number, number] {
   return known.length > 0 ? [Math.min(...known), Math.max(...known)] : [0, 1];
 }
 
-function Scale({ coloured, low, high }: { coloured: Coloured; low: number; high: number }) {
+function scaleOf(coloured: Coloured, low: number, high: number): ColourScale {
   const [factor, unit] = coloured === "modulus" ? [GPA, "GPa"] : [MPA, "MPa"];
-  const stops = Array.from({ length: 9 }, (_, i) => scaleColour(i / 8)).join(", ");
-  return (
-    <span class="scale">
-      <span>{figure(low * factor)}</span>
-      <span class="ramp" style={{ background: `linear-gradient(to right, ${stops})` }} />
-      <span>
-        {figure(high * factor)} {unit}
-      </span>
-    </span>
-  );
+  return { name: coloured === "modulus" ? "E" : "T", low: low * factor, high: high * factor, unit };
 }
 
 /** Which map, and what its colour shows. */
