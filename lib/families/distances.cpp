@@ -1,6 +1,8 @@
 #include "families/distances.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "base/parallel.hpp"
 #include "families/earth_movers.hpp"
@@ -20,6 +22,15 @@ DistanceMatrix earth_movers_distances(std::span<const pattern::Pattern> patterns
     if (progress && all > 0.0) progress(static_cast<double>(pairs) / all);
   });
   return matrix;
+}
+
+double far_away(const DistanceMatrix& distances) {
+  constexpr double kTimes = 10.0, kLeast = 1e-6;
+  double largest = kLeast;
+  for (std::size_t i = 0; i < distances.count(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::isfinite(distances(i, j))) largest = std::max(largest, distances(i, j));
+  return kTimes * largest;
 }
 
 }  // namespace nacre::families

@@ -15,14 +15,17 @@ using Groups = std::vector<std::vector<std::size_t>>;
 
 constexpr double kLeastSilhouette = 0.25;
 
-/// Multiplies by what makes the mean of all pairs 1; pairs that are all zero stay.
+/// Multiplies by what makes the mean of all finite pairs 1; pairs that are all zero stay. A pattern without soft pixels
+/// is infinitely far from the others: far away, and no more than that.
 void normalise(DistanceMatrix& distances) {
+  const double far = far_away(distances);
   double sum = 0.0, pairs = 0.0;
   for (std::size_t i = 0; i < distances.count(); ++i)
-    for (std::size_t j = 0; j < i; ++j) sum += distances(i, j), pairs += 1.0;
-  if (sum <= 0.0) return;
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::isfinite(distances(i, j))) sum += distances(i, j), pairs += 1.0;
+  const double factor = sum > 0.0 ? pairs / sum : 1.0;
   for (std::size_t i = 0; i < distances.count(); ++i)
-    for (std::size_t j = 0; j < i; ++j) distances.set(i, j, distances(i, j) * pairs / sum);
+    for (std::size_t j = 0; j < i; ++j) distances.set(i, j, factor * std::min(distances(i, j), far));
 }
 
 double range(std::span<const Member> designs, double optimize::Performance::*property) {

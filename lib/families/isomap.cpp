@@ -18,7 +18,6 @@
 namespace nacre::families {
 namespace {
 
-constexpr double kFarAway = 10.0;  // times the largest finite distance
 constexpr Eigen::Index kDenseSize = 200, kLanczosVectors = 20;
 
 struct Edge {
@@ -27,15 +26,7 @@ struct Edge {
 };
 using Graph = std::vector<std::vector<Edge>>;
 
-double largest_finite(const DistanceMatrix& distances) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < distances.count(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (std::isfinite(distances(i, j))) largest = std::max(largest, distances(i, j));
-  return largest;
-}
-
-Graph neighbour_graph(const DistanceMatrix& distances, std::size_t neighbours, double far_away) {
+Graph neighbour_graph(const DistanceMatrix& distances, std::size_t neighbours, double far) {
   const std::size_t count = distances.count();
   Graph graph(count);
   std::vector<std::size_t> order(count);
@@ -48,7 +39,7 @@ Graph neighbour_graph(const DistanceMatrix& distances, std::size_t neighbours, d
                         return std::tuple(to_a, a != i, a) < std::tuple(to_b, b != i, b);
                       });
     for (std::size_t k = 0; k < near; ++k) {
-      const double length = std::min(distances(i, order[k]), far_away);
+      const double length = std::min(distances(i, order[k]), far);
       if (order[k] == i) continue;
       graph[i].push_back({order[k], length});
       graph[order[k]].push_back({i, length});
@@ -81,7 +72,7 @@ std::vector<std::size_t> parts_of(const Graph& graph, std::size_t& count) {
 }
 
 /// Joins the two parts that lie nearest to each other until one is left. Returns the bridges built.
-int bridge_parts(Graph& graph, const DistanceMatrix& distances, double far_away) {
+int bridge_parts(Graph& graph, const DistanceMatrix& distances, double far) {
   for (int bridges = 0;; ++bridges) {
     std::size_t parts = 0;
     const std::vector<std::size_t> part = parts_of(graph, parts);
@@ -90,8 +81,8 @@ int bridge_parts(Graph& graph, const DistanceMatrix& distances, double far_away)
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < graph.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (part[i] != part[j] && std::min(distances(i, j), far_away) < shortest)
-          shortest = std::min(distances(i, j), far_away), from = i, to = j;
+        if (part[i] != part[j] && std::min(distances(i, j), far) < shortest)
+          shortest = std::min(distances(i, j), far), from = i, to = j;
     graph[from].push_back({to, shortest});
     graph[to].push_back({from, shortest});
   }
@@ -176,10 +167,10 @@ Embedding isomap(const DistanceMatrix& distances, int neighbours) {
   if (distances.count() < 4 || neighbours < 1)
     throw InputError::format("isomap: expected at least four patterns and one neighbour, not {} and {}",
                              distances.count(), neighbours);
-  const double far_away = kFarAway * std::max(largest_finite(distances), 1e-6);
-  Graph graph = neighbour_graph(distances, static_cast<std::size_t>(neighbours), far_away);
+  const double far = far_away(distances);
+  Graph graph = neighbour_graph(distances, static_cast<std::size_t>(neighbours), far);
   Embedding embedding;
-  embedding.bridges = bridge_parts(graph, distances, far_away);
+  embedding.bridges = bridge_parts(graph, distances, far);
   const Eigen::Index count = static_cast<Eigen::Index>(distances.count());
   Eigen::MatrixXd geodesics(count, count);
   parallel_for(static_cast<int>(count),

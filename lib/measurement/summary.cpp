@@ -89,10 +89,20 @@ std::optional<double> slope_of_chord(const tester::Curve& curve) {
   return rise_pa / (kLastStrain - kFirstStrain);
 }
 
+/// How many points lie before the strain leaves the interval, or falls for good: what comes back into it later is
+/// unloaded or broken.
+std::size_t points_of_loading(const std::vector<double>& strain) {
+  const auto beyond = std::find_if(strain.begin(), strain.end(), [](double e) { return e > kLastStrain; });
+  if (beyond != strain.end()) return static_cast<std::size_t>(beyond - strain.begin());
+  const auto largest = std::max_element(strain.begin(), strain.end());
+  return static_cast<std::size_t>(largest - strain.begin()) + (strain.empty() ? 0 : 1);
+}
+
 /// Least-squares slope over the interval's points where there are three, else that of the chord.
 std::optional<double> initial_slope(const tester::Curve& curve) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < curve.size(); ++i) {
+  const std::size_t loading = points_of_loading(curve.strain);
+  for (std::size_t i = 0; i < loading; ++i) {
     const double strain = curve.strain[i], stress = curve.stress_pa[i];
     if (strain < kFirstStrain || strain > kLastStrain) continue;
     n += 1.0;

@@ -40,7 +40,8 @@ struct Candidate {
 
 struct BaseCalibration::State {
   struct Material {
-    std::optional<std::size_t> item;  ///< index into the measured designs
+    /// Indices into the measured designs: those of one material are two where its tests ran under different conditions.
+    std::optional<std::size_t> modulus_item, toughness_item;
     std::optional<RatioSearch> modulus;
     std::optional<double> modulus_prediction_pa;  ///< at modulus->best()
     int modulus_evaluations = 0;
@@ -81,16 +82,17 @@ struct BaseCalibration::State {
     ask();
   }
 
+  /// Of a test under several conditions the first ones count.
   void begin_material(int m, std::size_t item) {
     Material& material = materials[at(0, m)];
-    if (material.item) return;  // measured under several conditions: the first ones count
-    material.item = item;
     const measurement::Replicates& base = measured[item];
-    if (base.modulus_count > 0 && settings.modulus_budget > 0) {
-      const ParameterRange& range = theta_ranges()[at(kE0, m)];
-      material.modulus.emplace(RatioSearch::Settings{
-          .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
-    }
+    if (base.toughness_count > 0 && !material.toughness_item) material.toughness_item = item;
+    if (base.modulus_count == 0 || material.modulus_item) return;
+    material.modulus_item = item;
+    if (settings.modulus_budget == 0) return;
+    const ParameterRange& range = theta_ranges()[at(kE0, m)];
+    material.modulus.emplace(RatioSearch::Settings{
+        .lower = range.minimum, .upper = range.maximum, .first = base.modulus_pa, .tolerance = kModulusTolerance});
   }
 
   /// Start, the ends of the range above and below it, and what lies between: a specimen that rings is judged broken too
@@ -108,10 +110,10 @@ struct BaseCalibration::State {
     const material::ToughnessVector eta = to_vector(centred_start().toughness);
     for (int m = 0; m < kMaterials; ++m) {
       Material& material = materials[at(0, m)];
-      if (!material.item || measured[*material.item].toughness_count == 0 || settings.toughness_budget == 0) continue;
-      const measurement::Replicates& base = measured[*material.item];
+      if (!material.toughness_item || settings.toughness_budget == 0) continue;
+      const measurement::Replicates& base = measured[*material.toughness_item];
       const MaterialRanges ranges = {eta_ranges()[at(kE0, m)], eta_ranges()[at(kW0, m)], eta_ranges()[at(kGamma, 0)]};
-      const double e_pa = base.modulus_count > 0 ? base.modulus_pa : eta[at(kE0, m)];
+      const double e_pa = material.modulus_item ? measured[*material.modulus_item].modulus_pa : eta[at(kE0, m)];
       const double w = material.toughness.empty() ? eta[at(kW0, m)] : material.toughness.back().best().w_j_per_m3;
       material.toughness.emplace_back(base, ranges, MaterialTrial{e_pa, w, dampings_per_s[damping]},
                                       std::max(1, settings.toughness_budget - used_by(material)));
@@ -199,9 +201,7 @@ struct BaseCalibration::State {
   std::vector<std::size_t> items_with(bool modulus) const {
     std::vector<std::size_t> items;
     for (const Material& material : materials) {
-      if (!material.item) continue;
-      const measurement::Replicates& base = measured[*material.item];
-      if ((modulus ? base.modulus_count : base.toughness_count) > 0) items.push_back(*material.item);
+      if (const auto item = modulus ? material.modulus_item : material.toughness_item) items.push_back(*item);
     }
     return items;
   }
@@ -243,7 +243,8 @@ struct BaseCalibration::State {
       wanted.push_back({"", base, modulus, !modulus, {}});
       candidates.emplace_back();
     }
-    wanted[k].items.push_back(*materials[at(0, candidate.material)].item);
+    const Material& material = materials[at(0, candidate.material)];
+    wanted[k].items.push_back(modulus ? *material.modulus_item : *material.toughness_item);
     candidates[k].push_back(candidate);
     if (modulus) {
       material::ModulusVector theta = to_vector(wanted[k].parameters.modulus);
@@ -313,15 +314,15 @@ struct BaseCalibration::State {
       const Material& material = materials[at(0, m)];
       if (material.modulus && material.modulus->best()) {
         theta[at(kE0, m)] = *material.modulus->best();
-        after[*material.item].modulus_pa = material.modulus_prediction_pa;
+        after[*material.modulus_item].modulus_pa = material.modulus_prediction_pa;
       }
       if (material.toughness.empty()) continue;
       const MaterialFit& fit = material.toughness[damping];
       eta[at(kE0, m)] = fit.best().e_pa;
       eta[at(kW0, m)] = fit.best().w_j_per_m3;
       eta[at(kGamma, 0)] = dampings_per_s[damping];
-      after[*material.item].toughness_pa = fit.best_prediction().toughness_pa;
-      after[*material.item].curve = fit.best_prediction().curve;
+      after[*material.toughness_item].toughness_pa = fit.best_prediction().toughness_pa;
+      after[*material.toughness_item].curve = fit.best_prediction().curve;
     }
     result.parameters.modulus = material::modulus_from_vector(theta);
     result.parameters.toughness = material::toughness_from_vector(eta);

@@ -64,6 +64,8 @@ enum class ToughnessSearch {
   cma_es,
 };
 std::string_view to_string(ToughnessSearch search);
+/// Whether the seed decides where a search goes: several of one that does not are all the same.
+bool draws(ToughnessSearch search);
 Result<ToughnessSearch> toughness_search_from_string(std::string_view name);
 
 /// What remains between two numerics of one truth, so between any laboratory and the testers, beside scatter and

@@ -26,10 +26,8 @@ FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const Numer
     peak_.measured.push_back(peak ? std::log(*peak) : kNone);
     peak_.variances.push_back(peak_variance(scatter, floor));
   }
-  for (std::size_t i = 0; i < data.evidence.size(); ++i) {
-    toughness_.variances[i] /= data.evidence[i];
-    peak_.variances[i] /= data.evidence[i];
-  }
+  evidence_ = data.evidence;
+  evidence_.resize(data.measured.size(), 1.0);
   toughness_.base.assign(data.measured.size(), kNone);
   peak_.base = toughness_.base;
 }
@@ -42,17 +40,15 @@ void FeaturePosterior::set_base(const Trial& trial) {
   }
 }
 
-/// Of residuals over their prior deviations.
-double FeaturePosterior::Feature::sum_of_squares(int& count) const {
-  double sum = 0.0;
-  count = 0;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    const double residual = base[i] - measured[i];
+double FeaturePosterior::learnt_factor(const Feature& feature) const {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < feature.measured.size(); ++i) {
+    const double residual = feature.base[i] - feature.measured[i];
     if (std::isnan(residual)) continue;
-    sum += square(residual) / variances[i];
-    ++count;
+    sum += evidence_[i] * square(residual) / feature.variances[i];
+    count += evidence_[i];
   }
-  return sum;
+  return (kPriorFreedom + sum) / (kPriorFreedom + count);
 }
 
 double FeaturePosterior::operator()(const Point& point, std::span<const FeatureChange> changes) const {
@@ -73,9 +69,9 @@ double FeaturePosterior::operator()(const Point& point, std::span<const FeatureC
           feature.base[index] + changes[index].*change - offsets[first + i] - feature.measured[index];
       if (std::isnan(residual)) continue;
       const double variance = feature.variances[index] + square(deviation);
-      sum += square(residual) / variance;
-      if (deviation > 0.0) cost += 0.5 * std::log(variance / feature.variances[index]);
-      count += 1.0;
+      sum += evidence_[index] * square(residual) / variance;
+      if (deviation > 0.0) cost += 0.5 * evidence_[index] * std::log(variance / feature.variances[index]);
+      count += evidence_[index];
     }
     cost += 0.5 * (count + kPriorFreedom) * std::log(kPriorFreedom + sum);
   };
@@ -89,13 +85,11 @@ Eigen::VectorXd FeaturePosterior::learnt_precisions() const {
   const Eigen::Index designs = static_cast<Eigen::Index>(toughness_.measured.size());
   Eigen::VectorXd variances = Eigen::VectorXd::Constant(2 * designs, std::numeric_limits<double>::infinity());
   const auto fill = [&](const Feature& feature, Eigen::Index first) {
-    int count = 0;
-    const double sum = feature.sum_of_squares(count);
-    const double factor = (kPriorFreedom + sum) / (kPriorFreedom + count);
+    const double factor = learnt_factor(feature);
     for (Eigen::Index i = 0; i < designs; ++i) {
       const std::size_t index = static_cast<std::size_t>(i);
       if (!std::isnan(feature.base[index] - feature.measured[index]))
-        variances[first + i] = factor * feature.variances[index];
+        variances[first + i] = factor * feature.variances[index] / evidence_[index];
     }
   };
   fill(toughness_, 0);

@@ -9,7 +9,8 @@ namespace nacre::sysid {
 
 /// Residuals of log T and log peak stress are normal and independent, each feature with a variance of its own that is
 /// not known: the prior of the variances (scaled inverse chi squared) stands at scatter of replicates plus floor and is
-/// integrated out, which leaves Student's t. The start is the centre of a normal prior as wide as the cube.
+/// integrated out, which leaves Student's t. A design of less evidence counts as that share of one. The start is the
+/// centre of a normal prior as wide as the cube.
 class FeaturePosterior {
  public:
   FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor);
@@ -36,11 +37,13 @@ class FeaturePosterior {
     std::vector<double> measured;   ///< log; not a number where there is none
     std::vector<double> variances;  ///< prior
     std::vector<double> base;       ///< log, of the base trial; not a number where it failed
-    double sum_of_squares(int& count) const;
   };
+  /// By which the residuals at the base suggest to multiply the prior variances.
+  double learnt_factor(const Feature& feature) const;
   Eigen::MatrixXd information(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& precisions) const;
 
   Point start_;
+  std::vector<double> evidence_;  ///< as how many designs each one counts
   Feature toughness_, peak_;
   Eigen::MatrixXd shared_errors_;
 };

@@ -109,7 +109,14 @@ Calibrated calibrate_cheaply_first(const std::vector<Replicates>& measured, cons
   const Calibrated begun = run_calibration(measured, first, cheaper, progress);
   second.start = begun.parameters;
   second.other_starts = begun.ensemble;
-  return run_calibration(measured, second, simulator, progress);
+  Calibrated result = run_calibration(measured, second, simulator, progress);
+  // What it was before is what the start given was, not where the second calibration began.
+  const std::vector<Prediction> before = predict({settings.start}, measured, simulator).front();
+  const std::vector<double> weights = settings.weights.empty() ? sample_weights(measured) : settings.weights;
+  result.before = prediction_errors(measured, before);
+  result.modulus_objective_before = modulus_objective(measured, weights, before);
+  result.toughness_objective_before = toughness_objective(measured, weights, before);
+  return result;
 }
 
 std::vector<std::vector<Prediction>> predict(const std::vector<material::ParameterSet>& parameters,

@@ -52,15 +52,19 @@ std::vector<double> floats_at(const char* bytes, std::size_t count) {
 
 PredictionStore::PredictionStore(const std::filesystem::path& file) {
   const bool exists = std::filesystem::exists(file);
-  if (exists) read(file);
+  const bool begun = exists && read(file);
   if (!exists && file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   file_.emplace(file, std::ios::binary | std::ios::app);
-  if (!exists) file_->write(kMagic.data(), static_cast<std::streamsize>(kMagic.size())).flush();
+  if (!begun) file_->write(kMagic.data(), static_cast<std::streamsize>(kMagic.size())).flush();
   if (!*file_) throw InputError::format("{}: cannot be written", file.string());
 }
 
-void PredictionStore::read(const std::filesystem::path& file) {
+bool PredictionStore::read(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
+  if (kMagic.starts_with(bytes) && bytes != kMagic) {  // its first line was cut off by a crash
+    std::filesystem::resize_file(file, 0);
+    return false;
+  }
   if (!bytes.starts_with(kMagic))
     throw InputError::format("{}: no file of predictions, expected it to begin \"nacre predictions 1\"", file.string());
   std::size_t at = kMagic.size();
@@ -79,6 +83,7 @@ void PredictionStore::read(const std::filesystem::path& file) {
     at = end;
   }
   if (at < bytes.size()) std::filesystem::resize_file(file, at);
+  return true;
 }
 
 const Prediction* PredictionStore::find(const std::string& key) const {

@@ -26,7 +26,8 @@ class PredictionStore {
   std::size_t size() const { return known_.size(); }
 
  private:
-  void read(const std::filesystem::path& file);
+  /// False when not even the first line is whole.
+  bool read(const std::filesystem::path& file);
 
   std::map<std::string, Prediction> known_;
   std::optional<std::ofstream> file_;

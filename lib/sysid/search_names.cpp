@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sysid/calibration.hpp"
 
 namespace nacre::sysid {
@@ -6,16 +8,17 @@ namespace {
 struct NamedSearch {
   ToughnessSearch search;
   std::string_view name;
+  bool draws;
 };
-constexpr NamedSearch kNames[] = {{ToughnessSearch::posterior, "posterior"},
-                                  {ToughnessSearch::emulator, "emulator"},
-                                  {ToughnessSearch::gauss_newton, "gauss_newton"},
-                                  {ToughnessSearch::bayesian, "bayesian"},
-                                  {ToughnessSearch::trust_region, "trust_region"},
-                                  {ToughnessSearch::random, "random"},
-                                  {ToughnessSearch::direct_l, "direct_l"},
-                                  {ToughnessSearch::crs2, "crs2"},
-                                  {ToughnessSearch::cma_es, "cma_es"}};
+constexpr NamedSearch kNames[] = {{ToughnessSearch::posterior, "posterior", true},
+                                  {ToughnessSearch::emulator, "emulator", false},
+                                  {ToughnessSearch::gauss_newton, "gauss_newton", false},
+                                  {ToughnessSearch::bayesian, "bayesian", true},
+                                  {ToughnessSearch::trust_region, "trust_region", false},
+                                  {ToughnessSearch::random, "random", true},
+                                  {ToughnessSearch::direct_l, "direct_l", false},
+                                  {ToughnessSearch::crs2, "crs2", true},
+                                  {ToughnessSearch::cma_es, "cma_es", true}};
 
 }  // namespace
 
@@ -24,6 +27,10 @@ std::string_view to_string(ToughnessSearch search) {
     if (entry.search == search) return entry.name;
   }
   return "unknown";
+}
+
+bool draws(ToughnessSearch search) {
+  return std::ranges::any_of(kNames, [&](const NamedSearch& entry) { return entry.search == search && entry.draws; });
 }
 
 Result<ToughnessSearch> toughness_search_from_string(std::string_view name) {

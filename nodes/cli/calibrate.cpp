@@ -196,6 +196,9 @@ int calibrate(const Options& options) {
   settings.calibration.seed = options.seed;
   const auto search = sysid::toughness_search_from_string(options.search);
   if (!search) throw InputError("--search: " + search.error().message);
+  if (options.searches > 1 && !sysid::draws(*search))
+    throw InputError::format("--searches: {} draws nothing, so that several are all the same; expected 1",
+                             options.search);
   settings.calibration.toughness_search = *search;
   settings.calibration.searches = options.searches;
   settings.calibration.ensemble_size = options.ensemble;
@@ -249,7 +252,9 @@ void add_calibrate(CLI::App& app, Action& action) {
           "How the toughness parameters are searched: posterior, emulator, gauss_newton, bayesian, trust_region, "
           "random, direct_l, crs2, cma_es")
       ->capture_default_str();
-  command.add_option("--searches", options->searches, "Searches side by side, each with a seed of its own")
+  command
+      .add_option("--searches", options->searches,
+                  "Searches side by side, each with a seed of its own; of those that draw")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command

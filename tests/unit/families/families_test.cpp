@@ -124,10 +124,11 @@ TEST(Interpolation, AddsFeasiblePatternsNearTheSeedThatAreNew) {
   }
 }
 
-TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
+/// Six neighbours of a soft, a middle and a stiff pattern, one after another.
+std::vector<Member> three_kinds() {
   const std::vector<Pattern> seeds = random_patterns(12);
   std::vector<Member> designs;
-  for (const std::size_t kind : {0u, 5u, 11u}) {  // soft, middle and stiff strata
+  for (const std::size_t kind : {0u, 5u, 11u}) {  // strata
     DenseSampler sampler({seeds[kind]}, {.seed = kind + 1});
     sampler.next();
     for (std::size_t i = 0; i < 6; ++i)
@@ -135,6 +136,11 @@ TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
                          {1e9 * (1.0 + static_cast<double>(kind)) + 1e7 * static_cast<double>(i),
                           1e5 * (12.0 - static_cast<double>(kind))}});
   }
+  return designs;
+}
+
+TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
+  const std::vector<Member> designs = three_kinds();
   const std::vector<Family> families = proposed_families(designs);
   ASSERT_EQ(families.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -142,6 +148,20 @@ TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
     for (std::size_t i = 0; i < 6; ++i)
       EXPECT_EQ(families[k].seeds[i], designs[6 * (2 - k) + i].pattern) << "by falling modulus";
   }
+}
+
+TEST(Grouping, APatternWithoutSoftPixelsStandsAsideAndDisturbsNobody) {
+  std::vector<Member> designs = three_kinds();
+  for (Member& design : designs) design.performance = {2e9, 5e5};  // shape alone tells
+  const std::vector<Family> without = proposed_families(designs);
+  Pattern rigid;
+  for (int i = 0; i < pattern::kQuarter; ++i)
+    for (int j = 0; j < pattern::kQuarter; ++j) rigid.set(i, j, true);
+  designs.push_back({rigid, {2e9, 5e5}});
+  const std::vector<Family> with = proposed_families(designs);
+  ASSERT_EQ(with.size(), without.size() + 1);
+  for (const Family& family : without)
+    EXPECT_TRUE(std::ranges::any_of(with, [&](const Family& each) { return each.seeds == family.seeds; }));
 }
 
 TEST(Grouping, SeesOneFamilyWhereNothingParts) {

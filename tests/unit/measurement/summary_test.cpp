@@ -94,6 +94,27 @@ TEST(Values, ModulusIsGivenOrTheInitialSlope) {
   EXPECT_NEAR(modulus_of(record).value(), 1e9, 1.0);
 }
 
+TEST(Values, WhatComesBackIntoTheIntervalSaysNothingOfTheModulus) {
+  SpecimenRecord record = modulus_specimen("a", 5.0);
+  record.modulus_pa.reset();
+  const auto add = [&](double strain, double stress_pa) {
+    record.curve.strain.push_back(strain);
+    record.curve.stress_pa.push_back(stress_pa);
+  };
+  const auto load_to = [&](double strain) {
+    record.curve = {};
+    for (double at = 0.0; at <= strain; at += 1e-4) add(at, 2e9 * at);
+  };
+  load_to(0.01);
+  for (double at = 0.01; at > 1e-3; at -= 1e-4) add(at, 2e9 * (at - 1e-3));
+  EXPECT_NEAR(modulus_of(record).value(), 2e9, 10.0) << "unloaded with a set of 0.1 %";
+  for (const double broken_at : {0.01, 0.0021}) {
+    load_to(broken_at);
+    for (int k = 0; k < 40; ++k) add(8e-4, 0.0);
+    EXPECT_NEAR(modulus_of(record).value(), 2e9, 10.0) << "broken at " << broken_at;
+  }
+}
+
 TEST(Values, ACoarseCurveIsReadByItsFirstChords) {
   SpecimenRecord record = modulus_specimen("a", 5.0);
   record.modulus_pa.reset();

@@ -581,6 +581,26 @@ TEST(BaseCalibration, MeetsEveryMaterialByItself) {
   for (const ParameterEstimate& each : result.estimates) EXPECT_FALSE(each.determined) << each.name;
 }
 
+TEST(BaseCalibration, TakesModulusAndToughnessThatWereMeasuredUnderDifferentConditions) {
+  std::vector<Replicates> measured;
+  for (const Replicates& together : base_materials()) {
+    Replicates modulus = together, toughness = together;
+    modulus.toughness_count = 0;
+    toughness.modulus_count = 0;
+    toughness.conditions.strain_rate_per_s *= 3.0;
+    measured.push_back(modulus);
+    measured.push_back(toughness);
+  }
+  CalibrationSettings base = settings();
+  base.target = material::FitTarget::base;
+  BaseCalibration calibration(measured, base);
+  const Calibrated result = finish_by(calibration, measured, base_answer);
+  EXPECT_EQ(result.after.modulus_count, 3);
+  EXPECT_LT(result.after.modulus_max, 3e-4);
+  EXPECT_EQ(result.after.toughness_count, 3);
+  EXPECT_LT(result.after.toughness_max, 0.01);
+}
+
 TEST(BaseCalibration, GoesAsFarAsTheRangesItIsGiven) {
   const std::vector<Replicates> measured = base_materials();
   CalibrationSettings base = settings();

@@ -41,7 +41,8 @@ TEST(RelativeScatter, IsTheDeclaredOneWithoutReplicates) {
 
 TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
   const std::vector<Replicates> measured = {measured_modulus(1e9, 2e7, 4), measured_modulus(1e9, 2e7, 4)};
-  const NumericsFloor floor{.log_modulus_sd = 0.03};
+  NumericsFloor floor = NumericsFloor::none();
+  floor.log_modulus_sd = 0.03;
   const double e = std::exp(0.05) * 1e9, variance = 1e-4 + 9e-4;
   const Likelihood likelihood = modulus_likelihood_of(measured, {modulus(e), modulus(1e9)}, floor, 1);
   EXPECT_EQ(likelihood.fit.count, 2);
@@ -49,6 +50,49 @@ TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
   EXPECT_NEAR(likelihood.fit.chi_squared, 25e-4 / variance, 1e-9);
   EXPECT_NEAR(likelihood.fit.chi_squared_replicates, 25.0, 1e-9);
   EXPECT_NEAR(likelihood.deviance, 25e-4 / variance + 2 * std::log(variance), 1e-9);
+}
+
+TEST(Likelihood, KnowsWhatTheFloorShiftsInAllDesignsAtOnce) {
+  const std::vector<Replicates> measured(2, measured_modulus(1e9, 2e7, 4));
+  NumericsFloor floor = NumericsFloor::none();
+  floor.log_modulus_common_sd = 0.05;
+  const auto told = [&](double first, double second) {
+    return modulus_likelihood_of(measured, {modulus(1e9 * std::exp(first)), modulus(1e9 * std::exp(second))}, floor, 0);
+  };
+  // Covariance a on the diagonal and c beside it: eigenvalues a + c of what is alike, a - c of what differs.
+  const double replicates = 1e-4, a = replicates + 25e-4, c = 25e-4, r = 0.05;
+  EXPECT_NEAR(told(r, r).fit.chi_squared, 2 * r * r / (a + c), 1e-9);
+  EXPECT_NEAR(told(r, -r).fit.chi_squared, 2 * r * r / replicates, 1e-9);
+  EXPECT_NEAR(told(r, r).deviance, 2 * r * r / (a + c) + std::log((a + c) * (a - c)), 1e-9);
+  EXPECT_FALSE(told(r, r).fit.misfit());
+  EXPECT_TRUE(told(r, -r).fit.misfit());
+}
+
+TEST(GoodnessOfFit, CallsNoMisfitWhereNothingWasFittedAndTheFloorExplainsAll) {
+  RandomStream random(7, "floor");
+  NumericsFloor floor = NumericsFloor::none();
+  floor.log_modulus_sd = 0.005;
+  floor.log_modulus_common_sd = 0.05;
+  floor.log_toughness_sd = 0.2;
+  floor.log_toughness_common_sd = 0.3;
+  int of_modulus = 0, of_toughness = 0;
+  for (int set = 0; set < 400; ++set) {
+    const double modulus_shift = 0.05 * random.normal(), toughness_shift = 0.3 * random.normal();
+    std::vector<Replicates> measured;
+    std::vector<Prediction> predictions;
+    for (int i = 0; i < 12; ++i) {
+      measured.push_back(measured_modulus(1e9 * std::exp(0.005 * random.normal() + modulus_shift), 1e5, 4));
+      measured.back().toughness_count = 4;
+      measured.back().toughness_pa = 2e5 * std::exp(0.2 * random.normal() + toughness_shift);
+      measured.back().toughness_sd_pa = 1e2;
+      predictions.push_back(modulus(1e9));
+      predictions.back().toughness_pa = 2e5;
+    }
+    of_modulus += modulus_likelihood_of(measured, predictions, floor, 0).fit.misfit();
+    of_toughness += toughness_likelihood_of(measured, predictions, floor, 0).fit.misfit();
+  }
+  EXPECT_LE(of_modulus, 10);
+  EXPECT_LE(of_toughness, 10);
 }
 
 TEST(Likelihood, TestsNothingWhereTheFitLeavesLessThanOneDegreeOfFreedom) {
@@ -212,16 +256,25 @@ TEST(FeaturePosterior, WhatTheEmulatorMayBeWrongByIsNoEvidence) {
   EXPECT_GT(cost_of(problem, {}, none, Eigen::VectorXd(), 1.0), cost_of(problem, {}, none, Eigen::VectorXd(), 0.0));
 }
 
-TEST(FeaturePosterior, ADesignOfATenthOfTheWeightCountsATenth) {
+TEST(FeaturePosterior, TenDesignsOfATenthOfTheWeightCountAsOne) {
   const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
-  const auto information = [&](double evidence) {  // of 40 designs on the parameter that acts
-    OneSlope problem(40);
-    problem.data.evidence.assign(40, evidence);
+  struct Told {
+    double information, cost;  // on the parameter that acts; of a change of all toughnesses
+  };
+  const auto told = [&](int designs, double evidence) {
+    OneSlope problem(designs);
+    for (measurement::Replicates& design : problem.data.measured) design.toughness_pa *= 1.5;
+    problem.data.evidence.assign(problem.data.measured.size(), evidence);
     FeaturePosterior posterior(problem.data, problem.start, floor);
     posterior.set_base(problem.trial);
-    return 1.0 / posterior.posterior_covariance(problem.slopes)(kW0 + 2, kW0 + 2) - 12.0;
+    const std::vector<FeatureChange> changes(problem.data.measured.size(), FeatureChange{0.1, 0.0});
+    return Told{1.0 / posterior.posterior_covariance(problem.slopes)(kW0 + 2, kW0 + 2),
+                posterior(problem.start, changes, 0.1, Eigen::VectorXd())};
   };
-  EXPECT_NEAR(information(0.1) / information(1.0), 0.1, 1e-6);
+  const Told whole = told(4, 1.0), tenths = told(40, 0.1);
+  EXPECT_NEAR(tenths.information / whole.information, 1.0, 1e-9);
+  EXPECT_NEAR(tenths.cost, whole.cost, 1e-9);
+  EXPECT_GT(told(40, 1.0).information / whole.information, 2.0);
 }
 
 TEST(FeaturePosterior, NorIsAnErrorThatGrowsWithTheRigidFraction) {

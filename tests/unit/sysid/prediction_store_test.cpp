@@ -67,6 +67,15 @@ TEST(PredictionStore, ARecordCutOffByACrashIsDroppedAndTheRestKept) {
   EXPECT_EQ(again.find("c")->toughness_pa, 3e5);
 }
 
+TEST(PredictionStore, AFileWhoseFirstLineWasCutOffIsBegunAgain) {
+  for (const char* left : {"", "nacre pred"}) {
+    const auto file = fresh_file("begun");
+    write_file_atomically(file, left);
+    PredictionStore(file).put("a", fracture(1e5));
+    EXPECT_EQ(PredictionStore(file).size(), 1u) << left;
+  }
+}
+
 TEST(PredictionStore, RefusesAFileOfSomethingElse) {
   const auto file = fresh_file("other");
   write_file_atomically(file, "measurements");
