@@ -43,7 +43,7 @@ struct Judgement {
 /// The run as its laboratory sees it.
 struct Laboratory {
   game::LaboratoryFacts facts;
-  std::optional<wire::Proposal> newest_proposal;
+  std::optional<wire::Proposal> open_proposal;
 };
 
 /// What a node last said of itself.

@@ -96,7 +96,7 @@ Json states_json(const game::LaboratoryFacts& facts) {
   return states;
 }
 
-Json newest_proposal_json(const std::optional<wire::Proposal>& proposal) {
+Json open_proposal_json(const std::optional<wire::Proposal>& proposal) {
   if (!proposal) return nullptr;
   Json designs = Json::array();
   for (const wire::ProposedDesign& each : proposal->designs) {
@@ -116,7 +116,7 @@ Json laboratory_json(const Laboratory& laboratory) {
   for (const auto& group :
        measurement::review_replicates(laboratory.facts.book.specimens(), game::consistency_settings(laboratory.facts)))
     groups.push_back(group_json(group));
-  return {{"proposal", newest_proposal_json(laboratory.newest_proposal)},
+  return {{"proposal", open_proposal_json(laboratory.open_proposal)},
           {"designs", states_json(laboratory.facts)},
           {"orders", orders_json(laboratory.facts)},
           {"specimens", specimens_json(laboratory.facts.book)},

@@ -1,9 +1,12 @@
 #include "fem/explicit_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "material/extended_law.hpp"
 
@@ -237,6 +240,25 @@ void ExplicitSolver<Real>::set_node(int node, const Eigen::Vector2d& displacemen
   state_.qy[at] = static_cast<Real>(q.y() - strain() * row);
   state_.vx[at] = static_cast<Real>(v.x());
   state_.vy[at] = static_cast<Real>(v.y() - state_.grip_step * row / grid_.rows);
+}
+
+template <class Real>
+void ExplicitSolver<Real>::relax() {
+  if (!extended_ || state_.overstress == Real{0}) return;
+  // A step that keeps nothing of Q leaves B = r f S, with which Q is 0 as long as S stays (extended_state.hpp). It is
+  // no step of the test: nodes go back, and its Q, which was never there, softens nothing.
+  const std::size_t nodes = static_cast<std::size_t>(grid_.rows + 1) * static_cast<std::size_t>(state_.stride);
+  const std::array<Real*, 4> moved = {state_.qx, state_.qy, state_.vx, state_.vy};
+  std::array<std::vector<Real>, 4> before;
+  for (std::size_t k = 0; k < moved.size(); ++k) before[k].assign(moved[k], moved[k] + nodes);
+  const Real kept = std::exchange(state_.branch_kept, Real{0});
+  Real* const onset = std::exchange(state_.onset, nullptr);
+  state_.strain = static_cast<Real>(strain());
+  extended_kernel_->advance(state_);
+  state_.failed_count = 0;
+  state_.branch_kept = kept;
+  state_.onset = onset;
+  for (std::size_t k = 0; k < moved.size(); ++k) std::ranges::copy(before[k], moved[k]);
 }
 
 /// Calls visit(H) with the displacement gradient at the four Gauss points of an element, `steps_ago` (0 to 1) of the

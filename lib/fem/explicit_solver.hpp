@@ -100,6 +100,8 @@ class ExplicitSolver {
   Eigen::Vector2d velocity_m_per_s(int node) const;
   /// Replaces displacement and velocity of a node, for verification.
   void set_node(int node, const Eigen::Vector2d& displacement_m, const Eigen::Vector2d& velocity_m_per_s);
+  /// What stands where it is long enough has relaxed: the Maxwell branch holds no overstress, wherever the nodes are.
+  void relax();
 
   /// Largest elastic energy density of Eq. 2.1 at the quadrature points of an element, less its eigenstrain, J/m^3; 0
   /// when it is empty.

@@ -23,6 +23,7 @@ constexpr std::size_t kFixedBytes = 16;  // magic, version, length of the header
 constexpr std::size_t kLargestFile = 256u << 20;
 constexpr int kLargestSide = 4096, kMostFrames = 1000;
 constexpr std::size_t kMostValues = 64u << 20;
+constexpr double kLargestStrain = 100.0, kLargestStress = 1e13;  // as of measured curves
 
 Json crack_json(const crack::Record& crack) {
   Json value = {
@@ -131,6 +132,13 @@ std::string header_fault(const Film& film) {
   if (film.frames.size() * static_cast<std::size_t>(elements) > kMostValues)
     return fmt::format("{} frames of {} elements, expected {} values in all", film.frames.size(), elements,
                        kMostValues);
+  if (!(film.failure_strain >= 0.0 && film.failure_strain <= kLargestStrain))
+    return fmt::format("a failure strain of {}, expected 0 to {}", film.failure_strain, kLargestStrain);
+  std::vector<double> stresses = film.curve.stress_pa;
+  stresses.insert(stresses.end(), {film.toughness_pa, film.peak_stress_pa});
+  for (const double value : stresses)
+    if (!(std::abs(value) <= kLargestStress))
+      return fmt::format("a toughness or stress of {} Pa, expected at most {} either way", value, kLargestStress);
   if (film.curve.strain.size() != film.curve.stress_pa.size()) return "strain and stress of the curve differ in length";
   for (const Frame& frame : film.frames)
     if (frame.broken > static_cast<int>(film.crack.order.size()))

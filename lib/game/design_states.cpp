@@ -20,6 +20,15 @@ bool is_proposed(const LaboratoryFacts& facts, const StatedDecision& decision) {
   });
 }
 
+/// Proposed, not decided on and not ordered, whatever was printed or measured of it already.
+bool waits_for_an_answer(const LaboratoryFacts& facts, const pattern::Design& design) {
+  return !is_ordered(facts, design) && std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
+    return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedDecision& each) {
+             return each.proposal_round == proposed.round && each.design == design;
+           });
+  });
+}
+
 DesignStage stage_of(const DesignState& state, bool all_complete) {
   if (state.ordered > 0 ? all_complete : state.valid > 0) return DesignStage::measured;
   if (state.printed > 0) return DesignStage::printed;
@@ -81,10 +90,8 @@ std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDe
   const std::string name = decision.design.name();
   if (decision.proposal_round < 0) {
     if (!decision.approved) return fmt::format("{}: a design of one's own is not refused, but not added", name);
-    for (const DesignState& state : design_states(facts)) {
-      if (state.design == decision.design && state.stage == DesignStage::pending)
-        return fmt::format("{} is proposed and waits for an answer: say yes to the proposal", name);
-    }
+    if (asks_for_approvals && waits_for_an_answer(facts, decision.design))
+      return fmt::format("{} is proposed and waits for an answer: say yes to the proposal", name);
     if (is_ordered(facts, decision.design)) return fmt::format("{} was ordered before: that stands", name);
     return std::nullopt;
   }
@@ -96,8 +103,7 @@ std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDe
 }
 
 bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design) {
-  return std::any_of(facts.orders.begin(), facts.orders.end(),
-                     [&](const Order& order) { return order.design == design && answers(order.conditions, {}); });
+  return are_both_ordered(facts.orders, design);
 }
 
 measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts) {

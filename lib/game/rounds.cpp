@@ -149,4 +149,13 @@ bool answers(const tester::TestConditions& tested, const tester::TestConditions&
   return measurement::same_conditions(tested, ordered);
 }
 
+bool are_both_ordered(std::span<const Order> orders, const pattern::Design& design) {
+  const auto is_ordered = [&](tester::TestKind test) {
+    return std::ranges::any_of(orders, [&](const Order& order) {
+      return order.design == design && order.test == test && answers(order.conditions, {});
+    });
+  };
+  return is_ordered(tester::TestKind::modulus) && is_ordered(tester::TestKind::toughness);
+}
+
 }  // namespace nacre::game

@@ -66,4 +66,7 @@ std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns
 /// thickness within a tenth (a person's callipers never show 3.2 exactly).
 bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered);
 
+/// Whether E and T of the design itself are ordered: not only one of them, or a twin that is turned or pulled faster.
+bool are_both_ordered(std::span<const Order> orders, const pattern::Design& design);
+
 }  // namespace nacre::game

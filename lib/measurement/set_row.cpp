@@ -28,6 +28,8 @@ class RowParser {
     if (record.specimen.size() > kLongestName)
       reject(kSpecimen,
              fmt::format("has {} bytes, expected a name of at most {}", record.specimen.size(), kLongestName));
+    if (std::ranges::any_of(record.specimen, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }))
+      reject(kSpecimen, "holds a control character, expected a name that fits on a label");
     record.test = test_kind();
     record.design = design();
     record.conditions = conditions();

@@ -48,6 +48,10 @@ class BusReplay {
   void feed(const LogRecord& record) {
     const wire::Channel* channel = wire::find_channel(record.channel);
     if (!channel || !channel->reliable) return;
+    if (wire::fingerprint_of(record.data) != channel->fingerprint) {
+      ++of_another_version_;
+      return;
+    }
     const Result<wire::Blanked> blanked = wire::blank_header(record.channel, record.data);
     if (!blanked || !channel->validate(blanked->payload)) return;  // a receiver would have dropped it
     const std::string hash = wire::message_hash(record.channel, blanked->payload);
@@ -59,6 +63,9 @@ class BusReplay {
   }
 
   void compare() {
+    if (of_another_version_ > 0)
+      differs(fmt::format("messages of another version of nacre (manifest.json names it), which cannot be read: {}",
+                          of_another_version_));
     for (const auto& [hash, channel] : said_) {
       if (!now_.count(hash)) differs(fmt::format("a message on {} was said then and is not now", channel));
     }
@@ -101,6 +108,7 @@ class BusReplay {
   const std::map<std::string, WorkFunction>& work_;
   ReplayReport& report_;
   std::set<std::string> heard_;
+  std::int64_t of_another_version_ = 0;
   std::map<std::string, std::string> said_, now_;  ///< hash -> channel
 };
 

@@ -133,11 +133,16 @@ PortReservation::~PortReservation() {
 
 namespace {
 
+constexpr std::string_view kLatest = "latest";  // in the folder of runs
+
 /// A run's name is a folder's name and stands in every message; empty: the launcher makes one.
 void check_name(const std::string& name) {
-  if (name.empty() || (is_plain_name(name, wire::kMaximumName, ".") && !name.starts_with('.'))) return;
-  throw InputError::format("run name \"{}\", expected at most {} letters, digits, '-', '_' and '.', not '.' first",
-                           name, wire::kMaximumName);
+  if (name.empty()) return;
+  if (!is_plain_name(name, wire::kMaximumName, ".") || name.starts_with('.'))
+    throw InputError::format("run name \"{}\", expected at most {} letters, digits, '-', '_' and '.', not '.' first",
+                             name, wire::kMaximumName);
+  if (name == kLatest)
+    throw InputError::format("run name \"{0}\", expected another: {0} is the link to the newest run", name);
 }
 
 }  // namespace
@@ -181,7 +186,7 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
                    .schema_version = kSchemaVersion,
                    .commit = source_commit()};
   run.write_manifest();
-  point_link_at(logs / "latest", chosen);
+  point_link_at(logs / kLatest, chosen);
   return run;
 }
 

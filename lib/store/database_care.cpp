@@ -28,6 +28,10 @@ SQLite::Database opened(const fs::path& path) {
   return database;
 }
 
+void expect_new(const fs::path& to) {
+  if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new file", to.string());
+}
+
 /// The next row, where one can be read. What lies beyond a page that cannot is reached from the other end.
 bool step(std::optional<SQLite::Statement>& query, SQLite::Database& from, const std::string& sql) {
   try {
@@ -103,9 +107,12 @@ int schema_version(const fs::path& path) {
 }
 
 void copy_database(const fs::path& from, const fs::path& to) {
+  expect_new(to);
   const fs::path aside = to.string() + ".part";
   std::error_code ignored;
   fs::remove(aside, ignored);
+  // Of a file that is gone: a log like this would be played into the copy by whoever opens it first.
+  for (const char* companion : {"-wal", "-shm"}) fs::remove(to.string() + companion, ignored);
   try {
     SQLite::Database source = opened(from);
     {
@@ -140,7 +147,11 @@ fs::path move_aside(const fs::path& path) {
 }
 
 Salvage salvage_simulations(const fs::path& from, const fs::path& to) {
-  if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new file", to.string());
+  expect_new(to);
+  return add_simulations(from, to);
+}
+
+Salvage add_simulations(const fs::path& from, const fs::path& to) {
   constexpr int kFirstWithChecksums = 3;
   if (const int version = schema_version(from); version < kFirstWithChecksums) {
     throw InputError::format(
@@ -150,11 +161,11 @@ Salvage salvage_simulations(const fs::path& from, const fs::path& to) {
   }
   { const SimulationCache makes_the_tables(to); }
   try {
-    SQLite::Database damaged = opened(from);
-    SQLite::Database saved(to.string(), SQLite::OPEN_READWRITE);
-    SQLite::Transaction transaction(saved);
-    salvage_table(damaged, saved, "simulation", checksum_of_simulation);
-    salvage_table(damaged, saved, "breaks", [](SQLite::Statement& row) {
+    SQLite::Database source = opened(from);
+    SQLite::Database saved(to.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
+    SQLite::Transaction transaction(saved, SQLite::TransactionBehavior::IMMEDIATE);
+    salvage_table(source, saved, "simulation", checksum_of_simulation);
+    salvage_table(source, saved, "breaks", [](SQLite::Statement& row) {
       return breaks_checksum(row.getColumn(0).getString(), bytes_in(row.getColumn(1)));
     });
     transaction.commit();

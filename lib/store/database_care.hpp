@@ -26,15 +26,15 @@ Result<void> check_database(const std::filesystem::path& path);
 /// PRAGMA user_version: which of our schemas the file has. Throws InputError when it cannot be read.
 int schema_version(const std::filesystem::path& path);
 
-/// Writes the database as it is at one moment to `to` (a new file, replaced whole), while others go on using it. Throws
-/// InputError.
+/// Writes the database as it is at one moment to `to` while others go on using it. Throws InputError, as where `to`
+/// exists.
 void copy_database(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Renames a damaged file, with its -wal and -shm, to FILE.damaged, FILE.damaged-2 ... and returns the new name. Throws
 /// InputError.
 std::filesystem::path move_aside(const std::filesystem::path& path);
 
-/// What was saved of a damaged cache of simulations.
+/// What a cache of simulations holds that was saved of another.
 struct Salvage {
   std::int64_t simulations = 0;
   std::int64_t breaks = 0;
@@ -43,5 +43,9 @@ struct Salvage {
 /// Copies every row that can still be read of a cache of simulations to a new cache. Throws InputError when `from` is
 /// no database at all or `to` exists.
 Salvage salvage_simulations(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Adds to the cache `to`, which is made where there is none and may be in use, what `from` knows beyond it. Throws
+/// InputError.
+Salvage add_simulations(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace nacre::store

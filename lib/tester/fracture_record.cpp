@@ -20,7 +20,8 @@ void FractureRecord::MovingMean::add(double value) {
 
 FractureRecord::FractureRecord(const Plan& plan)
     : plan_(plan), transit_(std::max(plan.transit_steps, 4)), quarter_(std::max(plan.transit_steps / 4, 1)) {
-  const double samples = plan.strain_limit / (plan.strain_per_step * plan.steps_per_sample);
+  const double steps = std::min(plan.strain_limit / plan.strain_per_step, static_cast<double>(thesis::kStepLimit));
+  const double samples = steps / plan.steps_per_sample;
   curve_.strain.reserve(static_cast<std::size_t>(samples) + 4);
   curve_.stress_pa.reserve(static_cast<std::size_t>(samples) + 4);
   curve_.strain.push_back(0.0);

@@ -49,7 +49,7 @@ bool FractureWatch::add(double strain, double stress_pa, std::int64_t steps) {
   } else if (strain >= strain_limit_) {
     result_.end = limit_is_no_failure_ ? EndReason::no_failure : EndReason::strain_limit;
   } else if (steps >= thesis::kStepLimit) {
-    result_.end = limit_is_no_failure_ ? EndReason::no_failure : EndReason::step_limit;
+    result_.end = EndReason::step_limit;
   } else {
     return false;
   }

@@ -71,6 +71,7 @@ void round_notch_root(fem::Grid& grid, int refinement, double root_radius) {
       } else if (area < 1.0) {
         grid.young_pa[element] *= area;
         grid.threshold_j_per_m3[element] *= area;
+        if (!grid.laws.yield_pa.empty()) grid.laws.yield_pa[element] *= area;
       }
     }
 }

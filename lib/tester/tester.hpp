@@ -16,7 +16,7 @@
 namespace nacre::tester {
 
 /// Raised when a golden result changes, so that caches never mix results of different kernels.
-inline constexpr int kKernelVersion = 7;
+inline constexpr int kKernelVersion = 8;
 
 /// Named sizes of the virtual specimens. Values of different fidelity are never compared with each other.
 enum class Fidelity {

@@ -79,6 +79,10 @@ Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>
   return result;
 }
 
+double strain_within_steps(const FractureTest& test) {
+  return test.settings.strain_rate_per_s * test.settings.time_step_s * static_cast<double>(thesis::kStepLimit);
+}
+
 /// What tells one specimen's voxels from another's.
 std::string specimen_name(const Simulation& simulation, int specimen) {
   return fmt::format("{} at {} degrees, {}, specimen {}", simulation.design.name(),
@@ -135,6 +139,7 @@ Result<MountedSpecimen<Real>> mount(const FractureTest& test) {
     const int at = static_cast<int>(node);
     solver->set_node(at, displacement * test.grid.element_size_m, solver->velocity_m_per_s(at));
   }
+  if (!rest->displacement.empty()) solver->relax();
   return MountedSpecimen<Real>{*std::move(solver), rest->rest_strain};
 }
 
@@ -146,6 +151,7 @@ Result<ToughnessResult> run_fracture_test(const FractureTest& given) {
   for (int halvings = 0; !result && test.limit_is_no_failure && halvings < kMostHalvings; ++halvings) {
     test.settings.time_step_s *= 0.5;
     test.steps_per_sample *= 2;
+    if (strain_within_steps(test) < test.strain_limit) break;  // the limit is out of reach
     result = pull<Real>(test, test.frame_strains);
   }
   if (!result || test.frame_count == 0) return result;

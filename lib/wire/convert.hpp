@@ -163,6 +163,8 @@ struct DiagnoseRequest {
   bool operator==(const DiagnoseRequest&) const = default;
 };
 
+inline constexpr std::size_t kMostFamilyDesigns = 500;  ///< of a message below 60 kB
+
 /// FAMILY: a family of the stage after the game (thesis 2.4.1).
 struct Family {
   using Wire = family_t;
@@ -175,7 +177,7 @@ struct Family {
   material::ParameterSet parameters;        ///< of the family's own model
   int simulations = 0;                      ///< spent on its calibration
   int samples = 0;                          ///< patterns simulated around the seeds
-  std::vector<game::FamilyDesign> designs;  ///< seeds, then chosen ones
+  std::vector<game::FamilyDesign> designs;  ///< seeds, then chosen ones; at most kMostFamilyDesigns
   bool operator==(const Family&) const = default;
 };
 

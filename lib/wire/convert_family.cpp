@@ -8,8 +8,6 @@ namespace {
 
 using game::FamilyDesign;
 
-constexpr std::size_t kMostDesigns = 500;  // of a message below 60 kB
-
 std::optional<double> value_or_none(double value_pa) {
   return value_pa > 0.0 ? std::optional<double>(value_pa) : std::nullopt;
 }
@@ -63,7 +61,7 @@ Result<Family> from_wire(const family_t& message) {
              expect_index("number", message.number, message.count), expect_name("name", message.name),
              expect_range("simulations", message.simulations, 0, kLargestCount),
              expect_range("samples", message.samples, 0, kLargestCount),
-             expect_count("designs", message.designs.size(), kMostDesigns));
+             expect_count("designs", message.designs.size(), kMostFamilyDesigns));
   if (!sound) return in_type(type, sound.error());
   const Result<tester::Fidelity> fidelity = fidelity_from_wire(message.fidelity);
   if (!fidelity) return in_type(type, fidelity.error());

@@ -62,7 +62,8 @@ std::string residual_figure(const Diagnosis& d, const diagnosis::Contrast& contr
   const ContrastView& view = contrast.view;
   const std::vector<const ResidualRow*> rows = rows_of(d, view);
   const std::vector<double> xs = abscissae(d, view, rows);
-  std::vector<Point> base, extended, bars;
+  std::vector<Point> base, extended;
+  std::vector<Range> bars;
   std::vector<std::string> hints;
   std::vector<double> ys = {0.0};
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -70,9 +71,11 @@ std::string residual_figure(const Diagnosis& d, const diagnosis::Contrast& contr
     const double x = xs[i];
     base.push_back({x, shown(view.feature, row->measured - row->base)});
     extended.push_back({x, shown(view.feature, row->measured - row->extended)});
-    bars.push_back({0.0, 100.0 * row->standard_error});
+    const double residual = row->measured - row->base;
+    bars.push_back(
+        {shown(view.feature, residual - row->standard_error), shown(view.feature, residual + row->standard_error)});
     hints.push_back(row->design);
-    for (const double sign : {-1.0, 1.0}) ys.push_back(base.back().y + sign * bars.back().y);
+    ys.insert(ys.end(), {bars.back().low, bars.back().high});
     ys.push_back(extended.back().y);
   }
   Plot plot({.title = fmt::format("{}: {:.3g} σ", in_words(view.feature), contrast.statistic),
@@ -81,7 +84,7 @@ std::string residual_figure(const Diagnosis& d, const diagnosis::Contrast& contr
              .x = padded(xs),
              .y = padded(ys)});
   plot.zero_line();
-  plot.error_bars(base, bars, Ink::measured);
+  plot.error_bars(xs, bars, Ink::measured);
   plot.dots(base, Ink::measured, "base model", hints);
   if (d.extended_fit != d.base_fit) plot.rings(extended, Ink::simulated, "extended model", hints);
   return plot.svg();

@@ -50,8 +50,9 @@ Exhibit appendix(const PaperSource& source, const std::string& id, const std::st
     table.add(std::move(row));
   }
   exhibit.notes.push_back(
-      fmt::format("{}; a model's column beside designs of a later round holds predictions made before they were "
-                  "measured, as the thesis' blue figures.",
+      fmt::format("{}; a model's column beside designs of a later round holds what that model, which does not know "
+                  "them, says of them, as the thesis' blue figures. What was foretold of proposals is a mean over "
+                  "redraws (Table 3.5).",
                   is_modulus ? "E in GPa" : "T in MPa"));
   if (missing > 0)
     exhibit.notes.push_back(

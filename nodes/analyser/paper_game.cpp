@@ -12,6 +12,7 @@
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
 #include "analyser/thesis_figures.hpp"
+#include "game/standings.hpp"
 #include "optimize/pareto.hpp"
 
 namespace nacre::analyser {
@@ -60,10 +61,10 @@ PaperTable hypervolume_data(const PaperSource& source) {
   PaperTable table{.name = "figure-3-3",
                    .columns = {{"round", "round"},
                                {"measured_gpa_mpa", "measured"},
-                               {"standard_error", "± error"},
+                               {"hypervolume_error_gpa_mpa", "± error"},
                                {"gamut_gpa_mpa", "gamut"},
-                               {"gap", "gap"},
-                               {"signed_gap", "signed gap"},
+                               {"gap_gpa_mpa", "gap"},
+                               {"signed_gap_gpa_mpa", "signed gap"},
                                {"decided_by", "equilibrium"}},
                    .rows = {},
                    .is_thesis = {},
@@ -78,8 +79,8 @@ PaperTable hypervolume_data(const PaperSource& source) {
   for (int round = 0; round <= 4; ++round) {
     const auto measured = thesis_hypervolume(source, round);
     if (measured)
-      table.add({text_cell(fmt::format("thesis {}", round)), number_cell(measured), text_cell("–"), text_cell("–"),
-                 text_cell("–"), text_cell("–"), text_cell("")},
+      table.add({text_cell(fmt::format("thesis {}", round)), number_cell(measured), number_cell(std::nullopt),
+                 number_cell(std::nullopt), number_cell(std::nullopt), number_cell(std::nullopt), text_cell("")},
                 true);
   }
   return table;
@@ -112,6 +113,7 @@ std::optional<double> tougher_base_pa(const store::RunRecord& run) {
     std::vector<double> values;
     for (const store::MeasuredSpecimen& m : run.specimens) {
       if (!m.record.valid || m.record.test != tester::TestKind::toughness || m.record.design.name() != name) continue;
+      if (!game::is_standard(m.record.conditions)) continue;
       if (const auto toughness = measurement::toughness_of(m.record)) values.push_back(*toughness);
     }
     if (!values.empty())

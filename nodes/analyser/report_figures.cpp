@@ -1,4 +1,5 @@
 #include "analyser/report_figures.hpp"
+#include "game/standings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ std::map<std::string, std::vector<tester::Curve>> measured_curves(const store::R
   std::map<std::string, std::vector<tester::Curve>> curves;
   for (const store::MeasuredSpecimen& m : run.specimens) {
     const measurement::SpecimenRecord& r = m.record;
-    if (r.test == tester::TestKind::toughness && r.valid && !r.curve.empty() && r.conditions.orientation_deg == 0.0)
+    if (r.test == tester::TestKind::toughness && r.valid && !r.curve.empty() && game::is_standard(r.conditions))
       curves[r.design.name()].push_back(r.curve);
   }
   return curves;
@@ -200,14 +201,14 @@ DesignCurves& entry_of(std::vector<DesignCurves>& all, const std::string& design
   return all.back();
 }
 
-/// Notched specimens printed upright; the simulated curve as the testing machine would show it.
+/// Notched specimens tested under standard conditions; the simulated curve as the testing machine would show it.
 std::vector<DesignCurves> collect_curves(const store::RunRecord& run) {
   std::vector<DesignCurves> all;
   const int newest = newest_round(run).value_or(0);
   for (const store::MeasuredSpecimen& m : run.specimens) {
     const measurement::SpecimenRecord& r = m.record;
-    const bool upright = r.conditions.orientation_deg == 0.0;
-    if (r.test != tester::TestKind::toughness || r.curve.empty() || !upright || !r.design.layout()) continue;
+    if (r.test != tester::TestKind::toughness || r.curve.empty() || !r.design.layout()) continue;
+    if (!game::is_standard(r.conditions)) continue;
     DesignCurves& entry = entry_of(all, r.design.name());
     (r.valid ? entry.valid : entry.invalid).push_back(r.curve);
     entry.measured_in = std::max(entry.measured_in, m.round < 0 ? newest : m.round);

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "analyser/report_style.hpp"
-
 namespace nacre::analyser {
 namespace {
 
@@ -94,14 +92,6 @@ std::string sample_line(Ink ink, std::string_view classes) {
 Ink family_ink(std::size_t family) {
   constexpr std::size_t kInks = 6;
   return static_cast<Ink>(static_cast<std::size_t>(Ink::family_1) + family % kInks);
-}
-
-std::string standalone(const std::string& svg) {
-  const std::size_t end = svg.find('>');
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg.substr(0, end) +
-         " xmlns=\"http://www.w3.org/2000/svg\" style=\"background: #fff; font-family: Helvetica, Arial, "
-         "sans-serif\">\n<style>" +
-         std::string(kLightColours) + std::string(kFigureStyle) + "</style>" + svg.substr(end + 1);
 }
 
 std::vector<double> round_ticks(const Range& range, int wanted) {
@@ -238,6 +228,14 @@ void Plot::error_bars(std::span<const Point> points, std::span<const Point> half
     if (h.x > 0.0) path += fmt::format("M{:.1f} {:.1f}H{:.1f}", px(p.x - h.x), py(p.y), px(p.x + h.x));
     if (h.y > 0.0) path += fmt::format("M{:.1f} {:.1f}V{:.1f}", px(p.x), py(p.y - h.y), py(p.y + h.y));
   }
+  if (!path.empty()) marks_ += fmt::format("<path class=\"{} bar\" d=\"{}\"/>\n", ink_class(ink), path);
+}
+
+void Plot::error_bars(std::span<const double> xs, std::span<const Range> ends, Ink ink) {
+  std::string path;
+  for (std::size_t i = 0; i < xs.size() && i < ends.size(); ++i)
+    if (is_finite({xs[i], ends[i].low}) && is_finite({xs[i], ends[i].high}))
+      path += fmt::format("M{:.1f} {:.1f}V{:.1f}", px(xs[i]), py(ends[i].low), py(ends[i].high));
   if (!path.empty()) marks_ += fmt::format("<path class=\"{} bar\" d=\"{}\"/>\n", ink_class(ink), path);
 }
 

@@ -70,6 +70,8 @@ class Plot {
   void rings(std::span<const Point> points, Ink ink, std::string_view label, std::span<const std::string> hints = {});
   /// Bars of half_widths[i] to either side of points[i], in both directions; 0: no bar.
   void error_bars(std::span<const Point> points, std::span<const Point> half_widths, Ink ink);
+  /// Upright bars, one for each abscissa.
+  void error_bars(std::span<const double> xs, std::span<const Range> ends, Ink ink);
   void line(std::span<const Point> points, Ink ink, Stroke stroke, std::string_view label);
   /// The boundary of what a front dominates with respect to (0, 0); `front` by increasing x and decreasing y.
   void staircase(std::span<const Point> front, Ink ink, std::string_view label);

@@ -51,15 +51,10 @@ std::optional<wire::Proposal> variants_to_approve(const RunAccess& run) {
   return proposal;
 }
 
-/// The newest proposal that the validation agent has.
-std::optional<wire::Proposal> newest_proposal(const RunAccess& run) {
-  std::optional<wire::Proposal> newest;
-  for (const std::string& payload : received_by_validation_agent(run, "PROPOSAL")) {
-    auto proposal = wire::read<wire::Proposal>(payload);
-    if (proposal && (!newest || proposal->round >= newest->round)) newest = std::move(*proposal);
-  }
+/// What the validation agent wants decided now.
+std::optional<wire::Proposal> open_proposal(const RunAccess& run) {
   const std::optional<wire::Proposal> variants = variants_to_approve(run);
-  return variants ? variants : newest;
+  return variants ? variants : view_laboratory(run).open_proposal;
 }
 
 std::vector<pattern::Design> designs_meant(const ApproveOptions& options, const wire::Proposal& proposal) {
@@ -196,7 +191,7 @@ int approve(const ApproveOptions& options) {
   check_designs_meant(options);
   const RunAccess run = open_run(options.run);
   if (options.add) return add_own(options, run);
-  const auto proposal = newest_proposal(run);
+  const auto proposal = open_proposal(run);
   if (!proposal) {
     remark("there is no proposal yet");
     return 1;

@@ -58,6 +58,8 @@ nlohmann::ordered_json with_words(const nlohmann::ordered_json& message) {
 nlohmann::ordered_json to_json(std::string_view channel, std::string_view payload) {
   const wire::Channel* known = wire::find_channel(channel);
   if (known == nullptr) return {{"error", fmt::format("unknown channel, {} bytes", payload.size())}};
+  if (wire::fingerprint_of(payload) != known->fingerprint)
+    return {{"error", fmt::format("of another version of {}, {} bytes", known->type, payload.size())}};
   auto message = wire::to_json(known->type, payload);
   if (!message) return {{"error", message.error().message}};
   message->erase("header");

@@ -105,9 +105,11 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
   game::LaboratoryFacts& facts = view.facts;
   facts.replicates = run.scenario.validation.replicates;
   facts.enough_valid = run.scenario.validation.enough_valid;
+  std::map<int, wire::Proposal> proposals;
+  int last_round = -1;
   const auto take_proposal = [&](const wire::Proposal& proposal) {
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
-    if (!view.newest_proposal || proposal.round >= view.newest_proposal->round) view.newest_proposal = proposal;
+    proposals[proposal.round] = proposal;
   };
   const auto take_family = [&](const wire::Family& family) {
     for (const game::FamilyDesign& design : family.designs)
@@ -118,6 +120,7 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
     if (one.fidelity == run.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
   };
   const auto take_model = [&](const wire::AdoptedModel& model) { view.model = model.parameters; };
+  const auto take_round = [&](const wire::RoundSummary& round) { last_round = std::max(last_round, round.round); };
   read_validation_agent(run,
                         {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
                          {"MEASUREMENT",
@@ -129,7 +132,11 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
                          {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
                         {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
                          {"FAMILY", each<wire::Family>(take_family)},
-                         {"PARAMETERS", each<wire::AdoptedModel>(take_model)}});
+                         {"PARAMETERS", each<wire::AdoptedModel>(take_model)},
+                         {"ROUND", each<wire::RoundSummary>(take_round)}});
+  // Later ones may be there: an agent that begins anew without its journal is offered all of them again.
+  if (const auto later = proposals.upper_bound(last_round); later != proposals.begin())
+    view.open_proposal = std::prev(later)->second;
   for (const auto& [specimen, by] : read_printed(run)) facts.printed.push_back(specimen);
   const auto progress = facts.book.progress(facts.orders, facts.enough_valid);
   const auto printed = game::printed_for(facts.orders, facts.printed);

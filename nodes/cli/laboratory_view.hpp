@@ -25,7 +25,7 @@ struct OrderState {
 struct LaboratoryView {
   game::LaboratoryFacts facts;
   std::vector<OrderState> orders;
-  std::optional<wire::Proposal> newest_proposal;
+  std::optional<wire::Proposal> open_proposal;  ///< that of the last round that is over: decided on now
   std::optional<material::ParameterSet> model;  ///< that the validation agent adopted last
 };
 

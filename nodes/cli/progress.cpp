@@ -2,18 +2,26 @@
 
 #include <unistd.h>
 
+#include <cstdio>
+
 #include <fmt/format.h>
 
 #include "runtime/terminal.hpp"
 
 namespace nacre::cli {
+namespace {
+
+/// Work must not end because nobody can read how far it is: fmt::print would throw.
+void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+}  // namespace
 
 Progress::Progress(std::string task, std::int64_t total)
     : task_(std::move(task)), total_(total), columns_(runtime::terminal_columns(STDERR_FILENO)) {}
 
 void Progress::end() {
   const std::lock_guard lock(mutex_);
-  if (is_drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (is_drawn_) say("\r\x1b[K");
   is_drawn_ = false;
 }
 
@@ -54,10 +62,10 @@ void Progress::show() {
   if (now - shown_ < (columns_ > 0 ? Clock::duration(kRedraw) : Clock::duration(kPlainLine))) return;
   shown_ = now;
   if (columns_ > 0) {
-    fmt::print(stderr, "\r{}\x1b[K", runtime::fitted(line(), columns_ - 1));
+    say(fmt::format("\r{}\x1b[K", runtime::fitted(line(), columns_ - 1)));
     is_drawn_ = true;
   } else {
-    fmt::print(stderr, "{}\n", line());
+    say(line() + "\n");
   }
 }
 

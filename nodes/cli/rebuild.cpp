@@ -82,7 +82,12 @@ int backup(const BackupOptions& options) {
   for (const char* name : {"simulations.db", "simulations-cuda.db"}) {  // of threads and of a CUDA device
     const fs::path cache = run.folder.parent_path() / name;
     if (!fs::exists(cache)) continue;
-    store::copy_database(cache, fs::path(options.to) / name);
+    const fs::path copied = fs::path(options.to) / name;
+    if (fs::exists(copied)) {
+      store::add_simulations(cache, copied);
+    } else {
+      store::copy_database(cache, copied);
+    }
     has_cache = true;
   }
   if (options.json) {

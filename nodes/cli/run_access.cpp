@@ -81,8 +81,8 @@ void say_unanswered(const std::set<std::string>& nodes, double timeout_s) {
                   fmt::join(nodes, ", "), timeout_s));
 }
 
-void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent) {
-  const auto journal = run.folder / "nodes" / "validation_agent" / "journal.lcm";
+void read_journal(const RunAccess& run, const std::string& node, const Takers& received, const Takers& sent) {
+  const auto journal = run.folder / "nodes" / node / "journal.lcm";
   if (!std::filesystem::exists(journal)) return;
   runtime::LogReader reader(journal);
   while (const auto record = reader.next()) {
@@ -96,10 +96,18 @@ void read_validation_agent(const RunAccess& run, const Takers& received, const T
   }
 }
 
-std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel) {
+void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent) {
+  read_journal(run, "validation_agent", received, sent);
+}
+
+std::vector<std::string> received_by(const RunAccess& run, const std::string& node, const std::string& channel) {
   std::vector<std::string> payloads;
-  read_validation_agent(run, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}}, {});
+  read_journal(run, node, {{channel, [&](const std::string& payload) { payloads.push_back(payload); }}}, {});
   return payloads;
+}
+
+std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel) {
+  return received_by(run, "validation_agent", channel);
 }
 
 std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const std::string& channel) {

@@ -51,11 +51,16 @@ void say_unanswered(const std::set<std::string>& nodes, double timeout_s);
 /// Who takes a payload (with blank header), by channel.
 using Takers = std::map<std::string, std::function<void(const std::string& payload)>, std::less<>>;
 
-/// Hands out what the validation agent has received and sent so far on these channels, oldest first, in one reading of
-/// its journal; nothing before its first message and on machines that do not hold the run's folder.
+/// Hands out what a node has received and sent so far on these channels, oldest first, in one reading of its journal;
+/// nothing before its first message and on machines that do not hold the run's folder.
+void read_journal(const RunAccess& run, const std::string& node, const Takers& received, const Takers& sent);
+
+/// What a node has received on `channel` alone.
+std::vector<std::string> received_by(const RunAccess& run, const std::string& node, const std::string& channel);
+
+/// The validation agent's.
 void read_validation_agent(const RunAccess& run, const Takers& received, const Takers& sent);
 
-/// What it has received on `channel` alone.
 std::vector<std::string> received_by_validation_agent(const RunAccess& run, const std::string& channel);
 
 /// The same for what it has sent.

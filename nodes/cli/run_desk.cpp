@@ -33,7 +33,7 @@ RunAccess RunDesk::now() const {
 
 dashboard::Laboratory RunDesk::laboratory() {
   LaboratoryView view = view_laboratory(run_);
-  return {std::move(view.facts), std::move(view.newest_proposal)};
+  return {std::move(view.facts), std::move(view.open_proposal)};
 }
 
 std::optional<material::ParameterSet> RunDesk::model(int round) {

@@ -88,14 +88,7 @@ void enter(std::map<std::string, std::string>& held, const std::string& payload,
 
 std::map<std::string, std::string> held_by_analyser(const RunAccess& run) {
   std::map<std::string, std::string> held;
-  const auto journal = run.folder / "nodes" / "analyser" / "journal.lcm";
-  if (!std::filesystem::exists(journal)) return held;
-  runtime::LogReader reader(journal);
-  while (const auto record = reader.next()) {
-    if (record->channel != kChannel) continue;
-    if (const auto blanked = wire::blank_header(kChannel, record->data))
-      enter(held, blanked->payload, run.scenario.fidelity);
-  }
+  for (const std::string& payload : received_by(run, "analyser", kChannel)) enter(held, payload, run.scenario.fidelity);
   return held;
 }
 
@@ -133,10 +126,12 @@ std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
 
 int next_revision(const RunAccess& run, const std::string& specimen) {
   int highest = 0;
-  for (const std::string& payload : received_by_validation_agent(run, "REVIEW")) {
-    const auto review = wire::decode_safe<review_t>(payload);
-    if (review && review->specimen == specimen) highest = std::max<int>(highest, review->revision);
-  }
+  // Either journal may be lost: the node that keeps the other holds the higher revision, and to it a lower one is old.
+  for (const char* node : {"validation_agent", "analyser"})
+    for (const std::string& payload : received_by(run, node, "REVIEW")) {
+      const auto review = wire::decode_safe<review_t>(payload);
+      if (review && review->specimen == specimen) highest = std::max<int>(highest, review->revision);
+    }
   return highest + 1;
 }
 

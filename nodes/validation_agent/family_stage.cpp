@@ -1,6 +1,7 @@
 #include "validation_agent/family_stage.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -138,7 +139,12 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
   family.number = static_cast<int>(families_.size()) - 1;
   family.count = static_cast<int>(groups_.size());
   family.name = group.name;
-  for (const pattern::Pattern& seed : group.seeds)
+  const std::size_t room = wire::kMostFamilyDesigns - static_cast<std::size_t>(scenario_.families.designs);
+  if (group.seeds.size() > room)
+    say(outputs, LogLevel::warning,
+        fmt::format("{}: the first {} of its {} seeds, which a message has room for", family.name, room,
+                    group.seeds.size()));
+  for (const pattern::Pattern& seed : group.seeds | std::views::take(static_cast<std::ptrdiff_t>(room)))
     family.designs.push_back(
         {.pattern = seed, .is_seed = true, .measured = measured_values(seed), .global_model = {}, .family_model = {}});
   sysid::CalibrationSettings settings;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
-#include "game/standings.hpp"
 #include "pattern/random_pattern.hpp"
 
 namespace nacre::validation_agent {
@@ -16,12 +15,6 @@ namespace {
 std::vector<pattern::Pattern> draw_random_patterns(const game::Scenario& scenario) {
   RandomStream random(scenario.seed, "stratified random patterns");
   return pattern::stratified_patterns(scenario.validation.random_patterns, random);
-}
-
-/// Whether the design itself is among the orders, not only a twin turned or pulled faster.
-bool hold(const std::vector<game::Order>& orders, const pattern::Design& design) {
-  return std::ranges::any_of(
-      orders, [&](const game::Order& order) { return order.design == design && game::is_standard(order.conditions); });
 }
 
 /// What was tested, or is to be.
@@ -78,7 +71,7 @@ std::vector<game::Order> OrderDesk::take_own(const std::vector<pattern::Design>&
                                              const std::vector<game::Order>& opened) {
   std::vector<game::Order> orders;
   for (const pattern::Design& each : std::exchange(own_, {})) {
-    if (std::ranges::count(proposed, each) > 0 || hold(opened, each)) continue;
+    if (std::ranges::count(proposed, each) > 0 || game::are_both_ordered(opened, each)) continue;
     std::ranges::move(game::person_orders(scenario_, round_, each), std::back_inserter(orders));
   }
   return orders;
@@ -122,7 +115,7 @@ Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pat
 
 Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& design, bool now) {
   const bool queued = std::find(own_.begin(), own_.end(), design) != own_.end();
-  if (hold(orders_, design) || queued) return fail("{} is ordered already", design.name());
+  if (game::are_both_ordered(orders_, design) || queued) return fail("{} is ordered already", design.name());
   if (std::find(waiting_.begin(), waiting_.end(), design) != waiting_.end())
     return fail("{} is proposed and waits for a plain yes", design.name());
   if (now) return place(game::person_orders(scenario_, round_, design));

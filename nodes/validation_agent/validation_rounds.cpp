@@ -230,7 +230,12 @@ void ValidationCore::publish_model() {
   adopted.provenance = provenance_;
   adopted.benchmark = benchmark();
   const std::set<pattern::Pattern> settled = settled_patterns();
-  adopted.measured.assign(settled.begin(), settled.end());
+  const std::size_t room = (wire::kMaximumBlankPayload - wire::write(adopted).size()) / sizeof(std::int64_t);
+  if (settled.size() > room)
+    say(LogLevel::warning, fmt::format("round {}: a message has room for {} of {} patterns that were measured: others "
+                                       "may be proposed again",
+                                       round_, room, settled.size()));
+  adopted.measured.assign(settled.begin(), std::next(settled.begin(), std::min(room, settled.size())));
   phase_ = Phase::waiting_for_proposal;
   send("PARAMETERS", adopted);
   close_round_when_proposed();  // where both were said before this agent's journal was lost

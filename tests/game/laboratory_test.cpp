@@ -390,6 +390,17 @@ TEST(OwnDesigns, WhatOpensTheGameIsNotOrderedOnceMore) {
   EXPECT_THAT(desk.own(), IsEmpty());
 }
 
+TEST(OwnDesigns, AnExperimentOnOneDoesNotStandForIt) {
+  validation_agent::OrderDesk desk(small_scenario());
+  const pattern::Design coupon = pattern::Mixture{0.7};
+  const game::Experiment experiment{.design = coupon, .test = tester::TestKind::tensile, .replicates = 1};
+  ASSERT_EQ(std::ranges::count(desk.open_round(2, {}, {experiment}), coupon, &game::Order::design), 1);
+  const auto orders = desk.add_own(coupon, true);
+  ASSERT_TRUE(orders) << orders.error().message;
+  EXPECT_EQ(orders->size(), 2u);
+  EXPECT_FALSE(desk.add_own(coupon, true)) << "now it is ordered";
+}
+
 TEST(Approval, TheOrderOfDecisionsDoesNotMatter) {
   game::Scenario scenario = small_scenario();
   scenario.rounds = 1;

@@ -111,6 +111,29 @@ TEST(BlowUp, PureSoftMaterialIsPulledAgainWithAShorterStep) {
   EXPECT_NEAR(result->toughness_pa, half->toughness_pa, 0.02 * half->toughness_pa);
 }
 
+// The filter's step is so short that the steps allowed end at a quarter of the strain to which pure soft is pulled.
+TEST(BlowUp, PureSoftMaterialThatRunsOutOfStepsGivesAReasonAndNoNumber) {
+  tester::Simulation simulation = specimen(pattern::Mixture{0.0});
+  simulation.fidelity = tester::Fidelity::tiny;
+  simulation.parameters.toughness.e_tb_pa = 1e5;
+  simulation.parameters.toughness.w_tb_j_per_m3 = 1e6;
+  simulation.parameters.toughness.gamma_per_s = 3e6;
+  const auto result = tester::test_toughness(simulation);
+  ASSERT_FALSE(result) << result->toughness_pa << " at strain " << result->failure_strain;
+  EXPECT_THAT(result.error().message, testing::AnyOf(testing::HasSubstr("no end after 400000 steps"),
+                                                     testing::HasSubstr("the solution blew up")));
+}
+
+// A step as short as this law asks for would make a plan of more samples than there is memory.
+TEST(BlowUp, AStepThatIsNextToNothingGivesAReasonToo) {
+  tester::Simulation simulation = specimen(patterns(1)[0]);
+  simulation.fidelity = tester::Fidelity::tiny;
+  simulation.parameters.toughness.e_tb_pa = 1e6;
+  simulation.parameters.toughness.w_tb_j_per_m3 = 1e6;
+  simulation.parameters.extensions["soft_stiffening"] = {0.2};
+  EXPECT_FALSE(tester::test_toughness(simulation));
+}
+
 TEST(BlowUp, ATimeStepBeyondStabilityIsRefused) {
   const auto result = tester::test_toughness(specimen(pattern::Mixture{1.0}), {.time_step_scale = 1.3});
   ASSERT_FALSE(result);

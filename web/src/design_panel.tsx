@@ -64,7 +64,7 @@ export function useFilm({ design, model, map }: Pick<Chosen, "design" | "model" 
 }
 
 function CurveChart({ design, film, frame }: { design: Design | null; film?: Film; frame: number }) {
-  const measured = design?.specimens.filter((s) => s.curve && s.test === "toughness") ?? [];
+  const measured = design?.specimens.filter((s) => s.curve && s.test === "toughness" && isStandard(s)) ?? [];
   const simulated = design?.simulated.filter((s) => s.curve) ?? [];
   const points = (c: { strain: number[]; stress_pa: number[] }) =>
     c.strain.map((s, i) => [100 * s, c.stress_pa[i] * MPA]);
@@ -157,19 +157,32 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
   );
 }
 
+interface Told {
+  modulus_pa?: number | null;
+  toughness_pa?: number | null;
+}
+
+/** What the model that is looked at says of the design; the newest round's only where that one says nothing. */
+function toldOf(chosen: Chosen, design: Design | null): Told {
+  const byModel = (each: { round: number }) => each.round === chosen.model;
+  const told: Told | undefined = design?.simulated.find(byModel) ?? design?.proposals.find(byModel);
+  if (told) return told;
+  if (!chosen.of.startsWith("measured") && !Number.isNaN(chosen.modulus))
+    return { modulus_pa: chosen.modulus, toughness_pa: chosen.toughness };
+  const isOfRound = typeof chosen.model === "number";
+  return (isOfRound && (design?.simulated.at(-1) ?? design?.proposals.at(-1))) || {};
+}
+
+/** What was pulled faster, thicker or turned answers another question. */
+const isStandard = (s: Design["specimens"][number]) => s.orientation_deg === 0 && s.standard !== false;
+
 function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | null; state: FilmState }) {
-  // What was pulled faster, thicker or turned answers another question.
-  const counted = design?.specimens.filter((s) => s.valid && s.orientation_deg === 0 && s.standard !== false) ?? [];
+  const counted = design?.specimens.filter((s) => s.valid && isStandard(s)) ?? [];
   const measuredE = mean(counted.filter((s) => s.test === "modulus").map((s) => s.modulus_pa));
   const measuredT = mean(counted.filter((s) => s.test === "toughness").map((s) => s.toughness_pa));
-  const last = design?.simulated[design.simulated.length - 1];
-  const simE =
-    state.simulation?.modulus_pa ??
-    last?.modulus_pa ??
-    design?.proposals.at(-1)?.modulus_pa ??
-    (chosen.of.startsWith("measured") ? null : chosen.modulus);
-  const simT =
-    state.film?.toughness ?? last?.toughness_pa ?? (chosen.of.startsWith("measured") ? null : chosen.toughness);
+  const told = toldOf(chosen, design);
+  const simE = state.simulation?.modulus_pa ?? told.modulus_pa;
+  const simT = state.film?.toughness ?? told.toughness_pa;
   return (
     <table class="facts">
       <thead>

@@ -19,7 +19,7 @@ interface Trend {
   colour: string;
   dashed?: boolean;
   value: (round: Rounds["rounds"][number]) => number | null | undefined;
-  error?: (round: Rounds["rounds"][number]) => number;
+  error?: (round: Rounds["rounds"][number]) => number | null;
   csvOfError?: string;
 }
 
@@ -61,8 +61,8 @@ function TrendChart({
           ? closed
               .filter((r) => trend.value(r))
               .map((r) => [
-                [r.round, trend.value(r)! - trend.error!(r)],
-                [r.round, trend.value(r)! + trend.error!(r)],
+                [r.round, trend.value(r)! - trend.error!(r)!],
+                [r.round, trend.value(r)! + trend.error!(r)!],
               ])
           : [];
         return [
@@ -134,6 +134,9 @@ const CSV = {
   afterT: "toughness_error_after",
 };
 
+/** Of a round before anything was measured nothing is known of these. */
+const ofMeasured = (r: Rounds["rounds"][number], value: number) => (r.summary!.measured_hypervolume > 0 ? value : null);
+
 const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
   e && e.modulus_count > 0 ? e.modulus_mean : null;
 const someT = (e: { toughness_count: number; toughness_mean: number } | null) =>
@@ -153,12 +156,12 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
           name: "measured",
           csv: CSV.measured,
           colour: meas,
-          value: (r) => r.summary!.measured_hypervolume,
-          error: (r) => r.summary!.hypervolume_error,
+          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume),
+          error: (r) => ofMeasured(r, r.summary!.hypervolume_error),
           csvOfError: CSV.hypervolumeError,
         },
       ] as Trend[],
-      gap: [{ name: "gap", csv: CSV.gap, colour: homo, value: (r) => r.summary!.gap }] as Trend[],
+      gap: [{ name: "gap", csv: CSV.gap, colour: homo, value: (r) => ofMeasured(r, r.summary!.gap) }] as Trend[],
       errors: [
         { name: "E, held out", csv: CSV.heldOutE, colour: sim, value: (r) => someE(r.summary!.held_out) },
         { name: "T, held out", csv: CSV.heldOutT, colour: meas, value: (r) => someT(r.summary!.held_out) },
@@ -349,15 +352,15 @@ function RoundTable({ rounds }: { rounds: Rounds }) {
         {
           heading: `measured hv / ${AREA}`,
           csv: CSV.measured,
-          show: (r) => withError(r.summary!.measured_hypervolume, r.summary!.hypervolume_error),
-          value: (r) => r.summary!.measured_hypervolume,
+          show: (r) => r.summary!.measured_hypervolume > 0 ? withError(r.summary!.measured_hypervolume, r.summary!.hypervolume_error) : "–",
+          value: (r) => ofMeasured(r, r.summary!.measured_hypervolume),
         },
-        { heading: CSV.hypervolumeError, value: (r) => r.summary!.hypervolume_error },
+        { heading: CSV.hypervolumeError, value: (r) => ofMeasured(r, r.summary!.hypervolume_error) },
         {
           heading: `gap / ${AREA}`,
           csv: CSV.gap,
-          show: (r) => figure(r.summary!.gap),
-          value: (r) => r.summary!.gap,
+          show: (r) => figure(ofMeasured(r, r.summary!.gap)),
+          value: (r) => ofMeasured(r, r.summary!.gap),
         },
         {
           heading: "E held out",

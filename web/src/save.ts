@@ -20,7 +20,10 @@ export function csvOf(heading: string[], rows: unknown[][]): string {
 
 export const saveCsv = (name: string, heading: string[], rows: unknown[][]) =>
   save(`${name}.csv`, csvOf(heading, rows), "text/csv");
-export const saveSvg = (name: string, svg: string) => save(`${name}.svg`, svg, "image/svg+xml");
+/** What no XML file may hold, and names from elsewhere might. */
+const NOT_XML = /[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g;
+export const saveSvg = (name: string, svg: string) =>
+  save(`${name}.svg`, svg.replace(NOT_XML, "\ufffd"), "image/svg+xml");
 
 export function saveCanvas(name: string, canvas: HTMLCanvasElement): void {
   canvas.toBlob((blob) => blob && save(`${name}.png`, blob), "image/png");

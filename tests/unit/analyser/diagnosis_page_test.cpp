@@ -92,6 +92,33 @@ TEST(DiagnosisPage, ShowsTheStrongestTrendsFirst) {
   EXPECT_THAT(page, HasSubstr("modulus predicted, MPa"));
 }
 
+TEST(DiagnosisPage, BarsEndAtOneStandardErrorOfTheLogarithm) {
+  Diagnosis d = named_with({});
+  d.descriptors = {"rigid fraction"};
+  for (const double x : {0.5, 0.6, 0.7}) {
+    diagnosis::ResidualRow row;
+    row.measured = 20.0 + std::log(3.0);
+    row.base = row.extended = 20.0;
+    row.standard_error = std::log(1.5);
+    row.descriptors = {x};
+    d.residuals.push_back(row);
+  }
+  diagnosis::ContrastView fraction{Feature::log_modulus, tester::TestKind::modulus, ""};
+  fraction.against = "rigid fraction";
+  d.contrasts = {{"fraction", fraction, 7.0, 0.0}};
+  const std::string page = render_diagnosis_page(d, "a-set", tester::Fidelity::full);
+  // +200 %, from 3 / 1.5 - 1 = 100 % to 3 x 1.5 - 1 = 350 %: the bar reaches 1.5 times as far up as down.
+  const auto number_after = [&](std::string_view mark, std::size_t from) {
+    return std::stod(page.substr(page.find(mark, from) + mark.size()));
+  };
+  const std::size_t bar = page.find("meas bar\""), dot = page.find("class=\"meas dot\"");
+  ASSERT_NE(bar, std::string::npos);
+  ASSERT_NE(dot, std::string::npos);
+  const double middle = number_after("cy=\"", dot), from = number_after(" ", page.find("d=\"M", bar)),
+               to = number_after("V", bar);
+  EXPECT_NEAR((middle - to) / (from - middle), 1.5, 0.02);
+}
+
 TEST(DiagnosisPage, TooFewDataClaimNothing) {
   const std::string page = render_diagnosis_page(diagnosis::undecided("three groups of layouts have a valid test"),
                                                  "a-set", tester::Fidelity::full);

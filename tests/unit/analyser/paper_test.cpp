@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "analyser/svg.hpp"
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "sample_run.hpp"
@@ -13,6 +14,7 @@
 namespace nacre::analyser {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -122,12 +124,43 @@ TEST(Paper, ErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
   EXPECT_EQ(figure(run, "toughness"), "");
 }
 
+TEST(Paper, EveryPictureHoldsItsColoursItself) {
+  std::size_t pictures = 0;
+  for (const Exhibit& each : exhibits_of(source()))
+    for (const PaperFigure& figure : each.figures) {
+      if (figure.svg.empty()) continue;
+      const std::string file = standalone(figure.svg);
+      EXPECT_THAT(file, AllOf(Not(HasSubstr("var(")), HasSubstr(".line.sim { stroke: #2a66a8;"))) << figure.name;
+      ++pictures;
+    }
+  EXPECT_GT(pictures, 5U);
+}
+
+TEST(Paper, ATwinPulledFasterIsNoMeasurementOfTheBaseMaterial) {
+  PaperSource run = source();
+  const auto base_note = [&] {
+    const auto all = exhibits_of(run);
+    for (const std::string& note : exhibit(all, "figure-3-4").notes)
+      if (note.starts_with("Base:")) return note;
+    return std::string();
+  };
+  run.run.specimens.push_back(sample::specimen(pattern::Mixture{1.0}, {2.6e9, 2e5}, tester::TestKind::toughness, 1, 1));
+  const std::string before = base_note();
+  ASSERT_THAT(before, HasSubstr("MPa"));
+  run.run.specimens.push_back(sample::specimen(pattern::Mixture{1.0}, {2.6e9, 2e6}, tester::TestKind::toughness, 1, 2));
+  run.run.specimens.back().record.conditions.strain_rate_per_s *= 100.0;
+  EXPECT_EQ(base_note(), before);
+}
+
 TEST(Paper, TheThesisHypervolumesComeOutOfItsAppendix) {
   const auto all = exhibits_of(source());
   const PaperTable& table = exhibit(all, "figure-3-3").tables.front();
   const double expected[] = {0.655, 0.698, 0.911, 0.911, 0.911};
   ASSERT_EQ(table.rows.size(), 9U);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(std::stod(table.rows[4 + i][1].kept), expected[i], 0.001);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(std::stod(table.rows[4 + i][1].kept), expected[i], 0.001);
+    EXPECT_EQ(table.rows[4 + i][2].kept, "") << "what the thesis does not say is no text in a column of numbers";
+  }
 }
 
 TEST(Paper, FamilyTablesOfTheThesisComeOutOfItsAppendix) {

@@ -25,7 +25,7 @@ const fs::path kKept = fs::path(NACRE_SOURCE_DIR) / "bench/search_study";
 using Evaluations = std::unordered_map<std::string, optimize::Performance>;
 
 Evaluations kept_evaluations(const std::string& set) {
-  std::ifstream file(kKept / ("evaluations-preview-" + set + "-kernel7.csv"));
+  std::ifstream file(kKept / ("evaluations-preview-" + set + "-kernel8.csv"));
   std::string line;
   std::getline(file, line);
   Evaluations evaluations;

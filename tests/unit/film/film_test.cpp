@@ -115,6 +115,15 @@ TEST(Film, BreaksThatCannotBeAreRefused) {
   EXPECT_THAT(decode(encode(film)).error().message, HasSubstr("is empty and cannot fail"));
 }
 
+TEST(Film, NumbersThatNoTestHasAreRefused) {
+  Film film = sample();
+  film.failure_strain = 1e307;
+  EXPECT_THAT(decode(encode(film)).error().message, HasSubstr("a failure strain of 1e+307, expected 0 to 100"));
+  film = sample();
+  film.curve.stress_pa.back() = 1e300;
+  EXPECT_THAT(decode(encode(film)).error().message, HasSubstr("1e+300 Pa"));
+}
+
 TEST(Film, AnotherScaleOfEnergiesIsRefused) {
   std::string bytes = encode(sample());
   const std::size_t at = bytes.find("\"decades\":") + 10;

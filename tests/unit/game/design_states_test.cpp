@@ -21,6 +21,10 @@ Order order_of(const pattern::Design& design, tester::TestKind test = tester::Te
           .reason = OrderReason::proposal};
 }
 
+std::vector<Order> both_orders_of(const pattern::Design& design) {
+  return {order_of(design), order_of(design, tester::TestKind::toughness)};
+}
+
 measurement::SpecimenRecord specimen_of(const std::string& name, const pattern::Design& design,
                                         tester::TestKind test = tester::TestKind::modulus) {
   measurement::SpecimenRecord record;
@@ -129,16 +133,30 @@ TEST(DesignStates, ADecisionThatWouldChangeNothingSaysWhy) {
   EXPECT_NE(reason({-1, kOther, false, "lab", ""}), "");
   facts.decisions = {{0, kDesign, false, "Ada", "islands"}};
   EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "577fffe9fffdef was rejected before by Ada: that stands");
-  facts.orders = {order_of(kOther)};
+  facts.orders = both_orders_of(kOther);
   EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "3ffc9b4ad4d2d9 was ordered before: that stands");
 }
 
-TEST(DesignStates, AnOrderOfATurnedSpecimenIsNoneOfTheDesignAsAPersonAddsIt) {
+TEST(DesignStates, WhatWaitsForAnAnswerWaitsWhateverWasPrintedOfIt) {
   LaboratoryFacts facts;
-  facts.orders = {order_of(kDesign)};
-  facts.orders[0].conditions.orientation_deg = 90.0;
+  facts.proposed = {{0, kDesign}};
+  facts.printed = {{"look-1", kDesign, tester::TestKind::modulus, 0.0, ""}};
+  const StatedDecision own{-1, kDesign, true, "lab", ""};
+  EXPECT_NE(why_void(facts, own, true).value_or(""), "") << "a printed look";
+  facts.book.enter(specimen_of("look-1", kDesign), "");
+  EXPECT_NE(why_void(facts, own, true).value_or(""), "") << "a measured one";
+  facts.decisions = {{0, kDesign, false, "lab", "no"}};
+  EXPECT_EQ(why_void(facts, own, true), std::nullopt) << "refused as a proposal, and wanted all the same";
+}
+
+TEST(DesignStates, AnOrderOfATurnedSpecimenOrOfOneTestIsNoneOfTheDesignAsAPersonAddsIt) {
+  LaboratoryFacts facts;
+  facts.orders = both_orders_of(kDesign);
+  for (Order& order : facts.orders) order.conditions.orientation_deg = 90.0;
   EXPECT_FALSE(is_ordered(facts, kDesign));
   facts.orders.push_back(order_of(kDesign));
+  EXPECT_FALSE(is_ordered(facts, kDesign)) << "an experiment of the diagnosis may be of its modulus alone";
+  facts.orders.push_back(order_of(kDesign, tester::TestKind::toughness));
   EXPECT_TRUE(is_ordered(facts, kDesign));
   EXPECT_FALSE(is_ordered(facts, kOther));
 }

@@ -209,5 +209,21 @@ TEST(Replay, OfABusLogComparesWhatWasSaid) {
   EXPECT_FALSE(replay_bus_log(path, "analyser", other, kWork).equal);
 }
 
+TEST(Replay, OfABusLogWithMessagesOfAnotherVersionIsNoAgreement) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run.lcm";
+  {
+    LogWriter writer(path);
+    std::string message = wire::stamp_header("REVIEW", wire::encode(review_t{}), {1, "person", 1, 1, "run"});
+    message[0] = static_cast<char>(message[0] ^ 1);
+    ASSERT_TRUE(writer.append(1, "REVIEW", message));
+  }
+  CountingCore core;
+  const ReplayReport report = replay_bus_log(path, "analyser", core, kWork);
+  EXPECT_FALSE(report.equal);
+  EXPECT_THAT(report.difference,
+              HasSubstr("of another version of nacre (manifest.json names it), which cannot be read: 1"));
+}
+
 }  // namespace
 }  // namespace nacre::runtime

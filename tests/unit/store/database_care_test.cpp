@@ -71,6 +71,34 @@ TEST_F(DatabaseFile, ACopyHoldsWhatWasCommittedAndNotWhatIsBeingWritten) {
   EXPECT_FALSE(fs::exists(folder_ / "copy.db.part"));
 }
 
+TEST_F(DatabaseFile, CopiesNeitherOverAFileNorIntoTheLogOfOneThatIsGone) {
+  fill(50);
+  const fs::path copy = folder_ / "copy.db";
+  {
+    SQLite::Database other(copy.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    other.exec("PRAGMA journal_mode = WAL");
+    other.exec("CREATE TABLE other (x INTEGER)");
+    fs::copy_file(copy.string() + "-wal", folder_ / "left-wal");
+    EXPECT_THROW(copy_database(file_, copy), InputError);
+  }
+  fs::remove(copy);
+  fs::copy_file(folder_ / "left-wal", copy.string() + "-wal", fs::copy_options::overwrite_existing);
+  copy_database(file_, copy);
+  EXPECT_TRUE(check_database(copy));
+  EXPECT_EQ(SimulationCache(copy).size(), 50);
+}
+
+TEST_F(DatabaseFile, OneCacheIsAddedToAnother) {
+  fill(50);
+  const fs::path other = folder_ / "other.db";
+  EXPECT_EQ(add_simulations(file_, other).simulations, 50);
+  SimulationCache used(other);  // by a farm, say
+  fill(80);
+  EXPECT_EQ(add_simulations(file_, other).simulations, 80);
+  EXPECT_EQ(used.size(), 80);
+  EXPECT_EQ(used.find("key00079")->modulus_pa, 80.0);
+}
+
 /// Somebody who takes a file for themselves as it is opened for the first time, and lets go of it at the second.
 struct Rival {
   std::string file;

@@ -203,6 +203,16 @@ TEST(BluntNotch, DrillsACircleWhoseFrontStaysWhereTheNotchEnds) {
   EXPECT_NEAR(matter(notched(0.03, 2), 2), matter(round), 1.0) << "the same hole on a finer mesh";
 }
 
+TEST(BluntNotch, ElementsThatItCutsYieldByTheAreaLeftToo) {
+  Grid grid = assemble(pattern::Mixture{1.0}, material::default_parameters(), {}, AssemblyTarget::toughness, 5, 4, 1);
+  grid.laws.yield_pa.assign(grid.phase.size(), 2e7);
+  round_notch_root(grid, 1, 0.03);
+  for (std::size_t e = 0; e < grid.phase.size(); ++e) {
+    if (grid.phase[e] == fem::Phase::empty) continue;
+    EXPECT_NEAR(grid.laws.yield_pa[e] / 2e7, grid.young_pa[e] / material::default_parameters().toughness.e_vw_pa, 1e-9);
+  }
+}
+
 TEST(BluntNotch, GrowsSteadilyOnceItIsLargerThanTheNotchIsHigh) {
   double last = matter(notched(0.0));
   EXPECT_EQ(matter(notched(0.002)), last);
