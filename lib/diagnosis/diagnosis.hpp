@@ -201,8 +201,8 @@ class TooFewSpecimens : public InputError {
 };
 
 /// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws TooFewSpecimens when
-/// fewer than eight groups of layouts have a valid test and fewer than four coupons a curve, InputError when there are
-/// too few bootstraps for the level of a name.
+/// fewer than eight groups of layouts have a valid test and fewer than four coupons, that differ in material, rate or
+/// thickness (replicates count once), a curve; InputError when there are too few bootstraps for the level of a name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
 /// What is said where nothing can be computed: `ambiguous`, nothing claimed, and why.

@@ -156,6 +156,7 @@ int plan(const Options& options) {
     return 0;
   }
   fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and named\n", plan.specimens, plan.groups);
+  if (!plan.too_few.empty()) fmt::print("too few as they are: {}\n", plan.too_few);
   for (const diagnosis::PlannedEffect& e : plan.effects) {
     fmt::print("  {:<22} {:<10} seen from {:>9}  named from {:>9}  {:<24} most like {} ({:.2f})\n", e.name, e.status,
                size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,

@@ -255,6 +255,19 @@ TEST(Diagnosis, ModuliOfCouponsAreNoCurves) {
   EXPECT_THROW(diagnose(specimens, tiny_settings()), TooFewSpecimens);
 }
 
+TEST(CouponDiagnosis, ReplicatesCountOnce) {
+  auto specimens = synthetic_coupons(synthetic_truth(), {1e-3}, 3, 0.01, 5);
+  specimens.resize(9);
+  try {
+    diagnose(specimens, tiny_settings());
+    FAIL() << "three coupons are too few, however often each is pulled";
+  } catch (const TooFewSpecimens& problem) {
+    const std::string words = problem.what();
+    EXPECT_NE(words.find("(replicates count once)"), std::string::npos) << words;
+    EXPECT_TRUE(words.ends_with("there are 0 and 3")) << words;
+  }
+}
+
 TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {
   SyntheticSet set;
   set.patterns = 3;
