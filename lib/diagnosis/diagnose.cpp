@@ -27,10 +27,20 @@ std::string names_of(const std::vector<Fit>& fits) {
   return text;
 }
 
-/// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)"
+/// "0.5 pixels (90 % interval 0.45 to 0.55)"
+std::string with_interval(const FittedNumber& number, std::string_view unit) {
+  return fmt::format("{:.3g}{} (90 % interval {:.3g} to {:.3g})", number.value, material::unit_behind_number(unit),
+                     number.interval_low, number.interval_high);
+}
+
+/// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and what an effect takes beside it.
 std::string size_in_words(const NamedEffect& e) {
-  return fmt::format("{} = {:.3g}{} (90 % interval {:.3g} to {:.3g})", material::effect_in_words(e.name), e.parameter,
-                     material::unit_behind_number(e.unit), e.interval_low, e.interval_high);
+  std::string words = fmt::format("{} = {}", material::effect_in_words(e.name),
+                                  with_interval({e.parameter, e.interval_low, e.interval_high}, e.unit));
+  const auto& numbers = material::find_effect(e.name)->parameters;
+  for (std::size_t p = 0; p < e.further.size(); ++p)
+    words += fmt::format(", {} {}", numbers[p + 1].meaning, with_interval(e.further[p], numbers[p + 1].unit));
+  return words;
 }
 
 std::string summary_of(const Diagnosis& d, const Decision& decision) {

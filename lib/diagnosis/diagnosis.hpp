@@ -26,6 +26,11 @@ enum class Verdict {
 };
 std::string_view to_string(Verdict verdict);
 
+/// A fitted number with its 90 % interval, in the unit of the effect library.
+struct FittedNumber {
+  double value = 0.0, interval_low = 0.0, interval_high = 0.0;
+};
+
 /// An effect that was named, with its fitted parameter and 90 % interval in the unit of the effect library.
 struct NamedEffect {
   std::string name;
@@ -33,7 +38,7 @@ struct NamedEffect {
   double parameter = 0.0;
   double interval_low = 0.0, interval_high = 0.0;
   std::string unit;
-  std::vector<double> further = {};  ///< what an effect takes beside its parameter, in the order of the library
+  std::vector<FittedNumber> further = {};  ///< what an effect takes beside its parameter, in the order of the library
 };
 
 /// What became of one effect of the library.

@@ -14,7 +14,10 @@ ordered_json json_of(const NamedEffect& e) {
                        {"parameter", e.parameter},
                        {"interval90", {e.interval_low, e.interval_high}},
                        {"unit", e.unit}};
-  if (!e.further.empty()) json["further"] = e.further;
+  for (const FittedNumber& number : e.further) {
+    json["further"].push_back(number.value);
+    json["further_interval90"].push_back({number.interval_low, number.interval_high});
+  }
   return json;
 }
 

@@ -84,6 +84,13 @@ std::string curve_part(const Diagnosis& d) {
                                                          "quiet"));
 }
 
+/// A number that an effect takes beside its size.
+std::string further_in_words(const material::EffectParameter& parameter, const diagnosis::FittedNumber& number) {
+  return fmt::format("With it: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
+                     quantity(number.value), escaped(material::unit_behind_number(parameter.unit)),
+                     quantity(number.interval_low), quantity(number.interval_high), escaped(parameter.meaning));
+}
+
 std::string cause_section(const Diagnosis& d) {
   std::string content;
   for (const auto& named : d.effects) {
@@ -95,6 +102,8 @@ std::string cause_section(const Diagnosis& d) {
         paragraph(fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
                               quantity(named.parameter), escaped(material::unit_behind_number(named.unit)),
                               quantity(named.interval_low), quantity(named.interval_high), meaning));
+    for (std::size_t p = 0; effect != nullptr && p < named.further.size(); ++p)
+      content += paragraph(further_in_words(effect->parameters[p + 1], named.further[p]));
     if (effect != nullptr)
       content +=
           paragraph(effect->side == material::EffectSide::measurement
