@@ -151,6 +151,15 @@ struct SanityCheck {
   bool numerical = false;  ///< more than twice that: a misfit of this size is not to be called physics
 };
 
+/// Constants of a fit, of those kinds of specimens that took part.
+struct FittedConstants {
+  std::optional<material::ModulusParameters> modulus;      ///< moduli of layouts
+  std::optional<material::ToughnessParameters> toughness;  ///< fracture tests
+  std::optional<material::ModulusParameters> coupon;       ///< the bulk of homogeneous coupons
+  material::Extensions extensions;
+  bool operator==(const FittedConstants&) const = default;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::base_sufficient;
   std::string summary;               ///< for a person, a few sentences
@@ -169,10 +178,10 @@ struct Diagnosis {
       1.0;  ///< chance that a cause outside the library would lead to a name as surely; 1 when no name was in question
   double replicate_sd = 0.0;        ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
   double numerics_sd = 0.0;         ///< what numerics leave of log E: independent part, per layout
-  double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over groups
-  bool noise_known = true;          ///< false: no test has replicates, relative statements only
-  material::ParameterSet base_fit;
-  material::ParameterSet extended_fit;  ///< of what is named, else of the best that stays possible or comes nearest
+  double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over these
+  bool noise_known = true;          ///< false: that test has no replicates, replicate_sd is assumed
+  FittedConstants base_fit;
+  FittedConstants extended_fit;  ///< of what is named, else of the best that stays possible or comes nearest
   std::vector<ResidualRow> residuals;
   std::vector<SanityCheck> sanity;       ///< what other numerics change, before anything is called physics
   std::vector<std::string> descriptors;  ///< names of what residuals are shown against
