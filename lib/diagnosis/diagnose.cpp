@@ -7,6 +7,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/looked_for.hpp"
 #include "diagnosis/named_size.hpp"
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
@@ -27,10 +28,20 @@ std::string names_of(const std::vector<Fit>& fits) {
   return text;
 }
 
-/// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)"
+/// "0.5 pixels (90 % interval 0.45 to 0.55)"
+std::string with_interval(const FittedNumber& number, std::string_view unit) {
+  return fmt::format("{:.3g}{} (90 % interval {:.3g} to {:.3g})", number.value, material::unit_behind_number(unit),
+                     number.interval_low, number.interval_high);
+}
+
+/// "droplet mixing = 0.5 pixels (90 % interval 0.45 to 0.55)", and what an effect takes beside it.
 std::string size_in_words(const NamedEffect& e) {
-  return fmt::format("{} = {:.3g}{} (90 % interval {:.3g} to {:.3g})", material::effect_in_words(e.name), e.parameter,
-                     material::unit_behind_number(e.unit), e.interval_low, e.interval_high);
+  std::string words = fmt::format("{} = {}", material::effect_in_words(e.name),
+                                  with_interval({e.parameter, e.interval_low, e.interval_high}, e.unit));
+  const auto& numbers = material::find_effect(e.name)->parameters;
+  for (std::size_t p = 0; p < e.further.size(); ++p)
+    words += fmt::format(", {} {}", numbers[p + 1].meaning, with_interval(e.further[p], numbers[p + 1].unit));
+  return words;
 }
 
 std::string summary_of(const Diagnosis& d, const Decision& decision) {
@@ -106,12 +117,12 @@ std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observation
   return curves;
 }
 
-double shown_replicate_sd(const Observations& observations) {
+/// The feature whose scatter is told to a person, and its test.
+std::pair<Feature, tester::TestKind> shown_scatter(const Observations& observations) {
   using tester::TestKind;
-  if (observations.has(TestKind::modulus)) return observations.replicate_sd(Feature::log_modulus, TestKind::modulus);
-  if (observations.has(TestKind::toughness))
-    return observations.replicate_sd(Feature::log_toughness, TestKind::toughness);
-  return observations.replicate_sd(Feature::log_peak, TestKind::tensile);
+  if (observations.has(TestKind::modulus)) return {Feature::log_modulus, TestKind::modulus};
+  if (observations.has(TestKind::toughness)) return {Feature::log_toughness, TestKind::toughness};
+  return {Feature::log_peak, TestKind::tensile};
 }
 
 std::vector<tester::TestKind> tests_in(const Observations& observations) {
@@ -127,9 +138,10 @@ std::vector<tester::TestKind> tests_without_replicates(const Observations& obser
   return tests;
 }
 
-std::string assumption_in_words(const std::vector<tester::TestKind>& unreplicated, bool others_have_replicates) {
+std::string assumption_in_words(const Observations& observations) {
+  const std::vector<tester::TestKind> unreplicated = tests_without_replicates(observations);
   if (unreplicated.empty()) return "";
-  if (!others_have_replicates)
+  if (unreplicated == tests_in(observations))
     return " There are no replicates: a scatter of 2 % was assumed, and every statement is relative to it.";
   std::string tests;
   for (const tester::TestKind test : unreplicated)
@@ -149,6 +161,24 @@ std::vector<Fit> models_to_separate(const Evidence& evidence, const Decision& de
   return models;
 }
 
+FittedConstants constants_of(const Evidence& evidence, const Fit& fit) {
+  const Basis& basis = evidence.model.basis();
+  FittedConstants constants;
+  if (basis.modulus) constants.modulus = fit.parameters.modulus;
+  if (basis.toughness) constants.toughness = fit.parameters.toughness;
+  if (basis.coupon) constants.coupon = evidence.model.map(fit.effects).coupon_parameters(fit.u).modulus;
+  constants.extensions = fit.parameters.extensions;
+  return constants;
+}
+
+/// What finer elements change of a modulus along the shared directions, root mean square over the layouts: other rows
+/// know nothing of them.
+double shared_numerics_sd(const Observations& observations) {
+  int moduli = 0;
+  for (int row = 0; row < observations.size(); ++row) moduli += is_modulus_of_layout(observations, row) ? 1 : 0;
+  return moduli > 0 ? observations.numerics_shared.norm() / std::sqrt(moduli) : 0.0;
+}
+
 /// What the data are like, and what was tried on them.
 void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& decision) {
   const Observations& observations = evidence.observations;
@@ -156,11 +186,12 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.p_misfit = decision.p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
-  diagnosis.replicate_sd = shown_replicate_sd(observations);
+  const auto [feature, test] = shown_scatter(observations);
+  diagnosis.replicate_sd = observations.replicate_sd(feature, test);
+  diagnosis.noise_known = observations.replicate_dof(test) > 0;
   diagnosis.numerics_sd = observations.numerics_sd;
-  diagnosis.numerics_shared_sd = observations.numerics_shared.norm() / std::sqrt(observations.size());
-  diagnosis.noise_known = tests_without_replicates(observations).size() < tests_in(observations).size();
-  diagnosis.base_fit = evidence.base.fit.parameters;
+  diagnosis.numerics_shared_sd = shared_numerics_sd(observations);
+  diagnosis.base_fit = constants_of(evidence, evidence.base.fit);
   diagnosis.candidates = candidates_of(evidence, decision);
   for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
   diagnosis.common_ground = common_ground(diagnosis.possible);
@@ -207,7 +238,7 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
         "their own (docs/FORMATS.md, \"Reference tables\").",
         fmt::join(at_an_end, ", "), at_an_end.size() == 1 ? "stands" : "stand");
   }
-  return text + assumption_in_words(tests_without_replicates(observations), diagnosis.noise_known);
+  return text + assumption_in_words(observations);
 }
 
 }  // namespace
@@ -294,7 +325,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
     extended = std::move(named.fit);
     diagnosis.effects = std::move(named.effects);
   }
-  diagnosis.extended_fit = extended.parameters;
+  diagnosis.extended_fit = constants_of(evidence, extended);
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
   diagnosis.curves = curves_of(workbench, observations, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {

@@ -26,6 +26,11 @@ enum class Verdict {
 };
 std::string_view to_string(Verdict verdict);
 
+/// A fitted number with its 90 % interval, in the unit of the effect library.
+struct FittedNumber {
+  double value = 0.0, interval_low = 0.0, interval_high = 0.0;
+};
+
 /// An effect that was named, with its fitted parameter and 90 % interval in the unit of the effect library.
 struct NamedEffect {
   std::string name;
@@ -33,7 +38,7 @@ struct NamedEffect {
   double parameter = 0.0;
   double interval_low = 0.0, interval_high = 0.0;
   std::string unit;
-  std::vector<double> further = {};  ///< what an effect takes beside its parameter, in the order of the library
+  std::vector<FittedNumber> further = {};  ///< what an effect takes beside its parameter, in the order of the library
 };
 
 /// What became of one effect of the library.
@@ -146,6 +151,15 @@ struct SanityCheck {
   bool numerical = false;  ///< more than twice that: a misfit of this size is not to be called physics
 };
 
+/// Constants of a fit, of those kinds of specimens that took part.
+struct FittedConstants {
+  std::optional<material::ModulusParameters> modulus;      ///< moduli of layouts
+  std::optional<material::ToughnessParameters> toughness;  ///< fracture tests
+  std::optional<material::ModulusParameters> coupon;       ///< the bulk of homogeneous coupons
+  material::Extensions extensions;
+  bool operator==(const FittedConstants&) const = default;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::base_sufficient;
   std::string summary;               ///< for a person, a few sentences
@@ -164,10 +178,10 @@ struct Diagnosis {
       1.0;  ///< chance that a cause outside the library would lead to a name as surely; 1 when no name was in question
   double replicate_sd = 0.0;        ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
   double numerics_sd = 0.0;         ///< what numerics leave of log E: independent part, per layout
-  double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over groups
-  bool noise_known = true;          ///< false: no test has replicates, relative statements only
-  material::ParameterSet base_fit;
-  material::ParameterSet extended_fit;  ///< of what is named, else of the best that stays possible or comes nearest
+  double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over these
+  bool noise_known = true;          ///< false: that test has no replicates, replicate_sd is assumed
+  FittedConstants base_fit;
+  FittedConstants extended_fit;  ///< of what is named, else of the best that stays possible or comes nearest
   std::vector<ResidualRow> residuals;
   std::vector<SanityCheck> sanity;       ///< what other numerics change, before anything is called physics
   std::vector<std::string> descriptors;  ///< names of what residuals are shown against
@@ -201,8 +215,8 @@ class TooFewSpecimens : public InputError {
 };
 
 /// Diagnoses a set of specimens: moduli and fracture tests of layouts, coupons with curves. Throws TooFewSpecimens when
-/// fewer than eight groups of layouts have a valid test and fewer than four coupons a curve, InputError when there are
-/// too few bootstraps for the level of a name.
+/// fewer than eight groups of layouts have a valid test and fewer than four coupons, that differ in material, rate or
+/// thickness (replicates count once), a curve; InputError when there are too few bootstraps for the level of a name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
 
 /// What is said where nothing can be computed: `ambiguous`, nothing claimed, and why.

@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "diagnosis/diagnosis.hpp"
 
@@ -14,7 +15,10 @@ ordered_json json_of(const NamedEffect& e) {
                        {"parameter", e.parameter},
                        {"interval90", {e.interval_low, e.interval_high}},
                        {"unit", e.unit}};
-  if (!e.further.empty()) json["further"] = e.further;
+  for (const FittedNumber& number : e.further) {
+    json["further"].push_back(number.value);
+    json["further_interval90"].push_back({number.interval_low, number.interval_high});
+  }
   return json;
 }
 
@@ -93,17 +97,19 @@ ordered_json json_of(const ResidualRow& r) {
           {"standard_error", r.standard_error}};
 }
 
-/// Parameters of the tests that took part, by name.
-ordered_json json_of(const material::ParameterSet& set) {
+ordered_json by_name(std::span<const double> values, std::span<const std::string_view> names) {
   ordered_json object = ordered_json::object();
-  const auto theta = to_vector(set.modulus);
-  const auto eta = to_vector(set.toughness);
-  for (std::size_t i = 0; i < theta.size(); ++i)
-    object["modulus"][std::string(material::modulus_parameter_names()[i])] = theta[i];
-  for (std::size_t i = 0; i < eta.size(); ++i)
-    object["toughness"][std::string(material::toughness_parameter_names()[i])] = eta[i];
-  object["extensions"] = ordered_json::object();
-  for (const auto& [name, values] : set.extensions) object["extensions"][name] = values;
+  for (std::size_t i = 0; i < values.size(); ++i) object[std::string(names[i])] = values[i];
+  return object;
+}
+
+/// Constants of the kinds of specimens that took part, by name.
+ordered_json json_of(const FittedConstants& fit) {
+  ordered_json object = ordered_json::object();
+  if (fit.modulus) object["modulus"] = by_name(to_vector(*fit.modulus), material::modulus_parameter_names());
+  if (fit.toughness) object["toughness"] = by_name(to_vector(*fit.toughness), material::toughness_parameter_names());
+  if (fit.coupon) object["coupon"] = by_name(to_vector(*fit.coupon), material::modulus_parameter_names());
+  object["extensions"] = fit.extensions;
   return object;
 }
 

@@ -138,16 +138,10 @@ Interval by_covariance(const Evidence& evidence, Fit named, int i) {
   return {named.u[i] - half, named.u[i], named.u[i] + half};
 }
 
-NamedEffect in_units(const CoordinateMap& map, const material::Effect& effect, int i, const Interval& u,
-                     const Eigen::VectorXd& fitted) {
+FittedNumber in_units(const CoordinateMap& map, int i, const Interval& u) {
   // A limit falls as its effect grows stronger.
   const double a = map.value(i, std::max(u.low, map.lower(i))), b = map.value(i, std::min(u.high, map.upper(i)));
-  NamedEffect named{std::string(effect.name), std::string(effect.family),
-                    map.value(i, u.middle),   std::min(a, b),
-                    std::max(a, b),           std::string(effect.parameters.front().unit)};
-  for (int p = 1; p < static_cast<int>(effect.parameters.size()); ++p)
-    named.further.push_back(map.value(i + p, fitted[i + p]));
-  return named;
+  return {map.value(i, u.middle), std::min(a, b), std::max(a, b)};
 }
 
 }  // namespace
@@ -163,7 +157,11 @@ NamedModel measure_size(const Evidence& evidence, const Fit& named) {
     const bool moves_elements =
         evidence.observations.has_shared_numerics() && effect.side == material::EffectSide::material;
     const Interval interval = moves_elements ? by_likelihood(evidence, named, i) : by_covariance(evidence, named, i);
-    model.effects.push_back(in_units(map, effect, i, interval, named.u));
+    const FittedNumber size = in_units(map, i, interval);
+    model.effects.push_back({std::string(effect.name), std::string(effect.family), size.value, size.interval_low,
+                             size.interval_high, std::string(effect.parameters.front().unit)});
+    for (int p = 1; p < static_cast<int>(effect.parameters.size()); ++p)
+      model.effects.back().further.push_back(in_units(map, i + p, by_covariance(evidence, named, i + p)));
     middles[i] = interval.middle;
     held.push_back(i);
   }

@@ -18,7 +18,7 @@ struct NamedModel {
 /// size, base constants fitted and numerics taken anew at every size, because what elements cost goes up and down with
 /// where the edges of changed regions fall between them (several hills, the base's own numerics on none of them). Of
 /// others: from the local covariance, with every base constant free (one that stands on a bound is not known any better
-/// for it).
+/// for it). What an effect takes beside its size always comes from the local covariance.
 NamedModel measure_size(const Evidence& evidence, const Fit& named);
 
 }  // namespace nacre::diagnosis

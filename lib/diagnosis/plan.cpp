@@ -4,10 +4,12 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/features.hpp"
+#include "diagnosis/looked_for.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
 
@@ -63,14 +65,19 @@ void fill_in(std::vector<SpecimenRecord>& specimens, const DiagnosisSettings& se
   }
 }
 
+/// Behind every name in UTF-8. Groups have the conditions of the first specimen by name among those that differ within
+/// the tolerance: that must be one of the set, never one that is only proposed.
+constexpr std::string_view kBehindAllNames = "\xff";
+
 SpecimenRecord specimen_of(const PossibleTest& test, int replicate) {
   SpecimenRecord specimen;
   specimen.design = test.design;
   specimen.test = test.test;
   specimen.conditions = test.conditions;
-  specimen.specimen = fmt::format("added {} {} {} {} {} {}", test.design.name(), tester::to_string(test.test),
-                                  test.conditions.orientation_deg, test.conditions.strain_rate_per_s,
-                                  test.conditions.thickness_mm, replicate);
+  specimen.specimen = kBehindAllNames;
+  specimen.specimen += fmt::format("{} {} {} {} {} {}", test.design.name(), tester::to_string(test.test),
+                                   test.conditions.orientation_deg, test.conditions.strain_rate_per_s,
+                                   test.conditions.thickness_mm, replicate);
   return specimen;
 }
 
@@ -140,7 +147,8 @@ void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenReco
   }
 }
 
-/// Signatures of all effects in some rows, whitened and projected off what the base imitates there.
+/// Signatures of all effects in some rows, whitened and projected off what the base imitates there; zero where the
+/// effect would not be looked for on these rows alone.
 struct Traces {
   std::vector<Eigen::MatrixXd> projected;  ///< rows x kPlannedSizes, per signature
   std::vector<double> absorption;          ///< at a typical size
@@ -150,9 +158,11 @@ Traces traces_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
   const Fit base = sheet.base.restricted(rows);
   const Whitener whitener(sheet.covariance(rows, rows));
   Traces traces;
+  const auto sizes = static_cast<Eigen::Index>(std::size(kPlannedSizes));
   for (const Signature& signature : sheet.signatures) {
-    const Eigen::MatrixXd changes =
-        signature.changes(rows, Eigen::seqN(0, static_cast<Eigen::Index>(std::size(kPlannedSizes))));
+    Eigen::MatrixXd changes = signature.changes(rows, Eigen::seqN(0, sizes));
+    const Eigen::VectorXd most = signature.changes.leftCols(sizes).cwiseAbs().rowwise().maxCoeff();
+    if (!leaves_traces(*material::find_effect(signature.effect), most, sheet.observations, rows)) changes.setZero();
     traces.projected.push_back(projected_signatures(base, changes, whitener));
     traces.absorption.push_back(signature_size(base, changes.col(kPlannedTypical), whitener).absorption());
   }
@@ -192,7 +202,19 @@ PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const Traces& tr
   return planned;
 }
 
+/// Groups that some rows are of.
+std::vector<Observation> groups_in(const Observations& observations, const std::vector<Eigen::Index>& rows) {
+  std::set<int> indices;
+  for (const Eigen::Index row : rows) indices.insert(observations.rows[static_cast<std::size_t>(row)].group);
+  std::vector<Observation> groups;
+  for (const int index : indices)
+    if (index >= 0) groups.push_back(observations.groups[static_cast<std::size_t>(index)]);
+  return groups;
+}
+
+/// Every effect, as a diagnosis of these rows alone would judge it: nothing is shown by rows that are too few for one.
 std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
+  const bool enough = !why_too_few(groups_in(sheet.observations, rows));
   const Traces traces = traces_of(sheet, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
@@ -203,7 +225,7 @@ std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::In
     planned.status = "not_shown";
     const auto found = std::ranges::find(sheet.signatures, effect.name, &Signature::effect);
     const auto k = static_cast<std::size_t>(found - sheet.signatures.begin());
-    const bool shown = found != sheet.signatures.end() && traces.projected[k].norm() >= 1e-6;
+    const bool shown = enough && found != sheet.signatures.end() && traces.projected[k].norm() >= 1e-6;
     effects.push_back(shown ? judged(std::move(planned), sheet, traces, k) : std::move(planned));
   }
   return effects;
@@ -273,6 +295,7 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   Plan plan;
   plan.specimens = static_cast<int>(specimens.size());
   plan.groups = static_cast<int>(alone.groups.size());
+  plan.too_few = why_too_few(alone.groups).value_or("");
   plan.effects = judge(sheet, rows_with({}));
   for (const auto& [words, tests] : added) {
     PlannedAddition addition = compare(words, tests, plan.effects, judge(sheet, rows_with(tests)));
@@ -324,8 +347,11 @@ std::string to_json(const Plan& plan) {
                          {"score", a.score},
                          {"changes", changes}});
   }
-  return ordered_json{
-      {"specimens", plan.specimens}, {"groups", plan.groups}, {"effects", effects}, {"additions", additions}}
+  return ordered_json{{"specimens", plan.specimens},
+                      {"groups", plan.groups},
+                      {"too_few", plan.too_few},
+                      {"effects", effects},
+                      {"additions", additions}}
       .dump(2);
 }
 

@@ -41,11 +41,13 @@ struct Plan {
   std::vector<PlannedEffect> effects;      ///< in the order of the library
   std::vector<PlannedAddition> additions;  ///< the most helpful first; those that change nothing are left out
   int specimens = 0, groups = 0;
+  std::string too_few;  ///< why a diagnosis of the set as it is would say nothing; empty: it would not
 };
 
 /// `specimens`: with or without measured values; only what they are and how they are tested is used. Start parameters
 /// stand for the truth; fracture tests are simulated around them as in a diagnosis (and kept in the store). Without
-/// `additions` only what the specimens themselves can tell. Throws InputError as diagnose() does.
+/// `additions` only what the specimens themselves can tell. Specimens that are too few for a diagnosis show no effect;
+/// what to add is said all the same. Throws TooFewSpecimens where not even additions make them enough.
 Plan plan_diagnosis(std::vector<measurement::SpecimenRecord> specimens, const DiagnosisSettings& settings,
                     const AssumedScatter& scatter = {}, bool additions = true);
 

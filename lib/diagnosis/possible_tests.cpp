@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "measurement/conditions.hpp"
 #include "pattern/coupons.hpp"
 
 namespace nacre::diagnosis {
@@ -111,7 +112,8 @@ std::vector<double> unload_history() {
 }
 
 bool answers(const PossibleTest& test, const Observation& group) {
-  return test.design == group.design && test.test == group.test && test.conditions == group.conditions &&
+  return test.test == group.test && test.design == group.design &&
+         measurement::same_conditions(test.conditions, group.conditions) &&
          (test.test != TestKind::tensile || group.unloaded);
 }
 
@@ -126,23 +128,21 @@ Observation group_of(const PossibleTest& test, int replicates) {
 }
 
 std::vector<PossibleTest> possible_tests(const Observations& observations) {
-  std::set<std::string> taken;
-  const auto name_of = [](const PossibleTest& t) {
-    return fmt::format("{}/{}/{}/{:.2g}/{:.2g}", t.design.name(), tester::to_string(t.test),
-                       t.conditions.orientation_deg, t.conditions.strain_rate_per_s, t.conditions.thickness_mm);
-  };
-  for (const Observation& g : observations.groups) {
-    const PossibleTest measured{{}, g.design, g.test, g.conditions, ""};
-    if (answers(measured, g)) taken.insert(name_of(measured));
-  }
   std::vector<PossibleTest> possible = twins(observations);
   for (const TestKind test : {TestKind::modulus, TestKind::toughness})
     if (std::ranges::any_of(observations.groups,
                             [&](const Observation& g) { return g.test == test && g.design.layout(); }))
       std::ranges::move(layout_coupons(test, usual_conditions(observations, test)), std::back_inserter(possible));
   std::ranges::move(homogeneous_coupons(observations), std::back_inserter(possible));
-  std::erase_if(possible, [&](const PossibleTest& test) { return !taken.insert(name_of(test)).second; });
-  return possible;
+  std::vector<PossibleTest> left;
+  for (PossibleTest& test : possible) {
+    const bool measured =
+        std::ranges::any_of(observations.groups, [&](const Observation& g) { return answers(test, g); });
+    const bool listed =
+        std::ranges::any_of(left, [&](const PossibleTest& other) { return answers(test, group_of(other, 1)); });
+    if (!measured && !listed) left.push_back(std::move(test));
+  }
+  return left;
 }
 
 }  // namespace nacre::diagnosis

@@ -20,7 +20,8 @@ struct PossibleTest {
   std::string words;  ///< "a twin printed turned by 90 degrees", ...
 };
 
-/// Whether a measured group is that test already: homogeneous coupons are to be unloaded.
+/// Whether replicates of the test would join the group (measurement::same_conditions): homogeneous coupons are to be
+/// unloaded.
 bool answers(const PossibleTest& test, const Observation& group);
 
 /// The group that replicates of it would be, before anything is measured.
@@ -29,7 +30,8 @@ Observation group_of(const PossibleTest& test, int replicates);
 /// Tests that a laboratory could add to these: turned twins of measured designs, other rates and half the thickness for
 /// the three most measured ones of each test, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
-/// hundredfold apart the middle of the gap. What is measured already is left out.
+/// hundredfold apart the middle of the gap. What is measured already, at these conditions or within their tolerance, is
+/// left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations);
 
 /// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with.

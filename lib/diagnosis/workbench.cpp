@@ -2,31 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "diagnosis/looked_for.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::diagnosis {
 namespace {
 
-constexpr int kLeastGroups = 8, kLeastCoupons = 4;
 /// Opposite pairs of runs around the centre, and how far they lie, in log units of every constant.
 constexpr int kPairs = 14;
 constexpr double kSpread = 0.3;
 /// Sizes at which effects are simulated, as shares of their range, and how far eta is moved meanwhile.
 constexpr double kRunSizes[] = {0.1, 0.3, 0.6};
 constexpr double kJitter = 0.05;
-
-constexpr double kNothing = 1e-9;
-
-/// Effects that blind trials showed to be told by moduli alone, and those of the machine; the others need a test beside
-/// moduli to be named by.
-bool tells_on_moduli(const material::Effect& effect) {
-  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" ||
-         effect.name == "droplet_mixing" || effect.name == "rigid_overprint";
-}
 
 void moved(material::ToughnessParameters& parameters, double spread, double sign, const std::vector<double>& normal) {
   material::ToughnessVector eta = to_vector(parameters);
@@ -71,20 +63,17 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
   return sets;
 }
 
-/// Effects whose signature is not zero in these rows, in the order of the library.
+/// Effects that leave traces in these rows, in the order of the library.
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
-  // Rows that may show an effect whose traces in moduli of layouts do not count.
-  std::vector<int> others;
-  for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
-    if (row.probe != Probe::mean || row.test != tester::TestKind::modulus || !observations.group_of(i).design.layout())
-      others.push_back(i);
-  }
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(observations.size()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const bool moduli_alone =
+      std::ranges::all_of(rows, [&](Eigen::Index row) { return is_modulus_of_layout(observations, row); });
   std::vector<std::string> acting;
   for (const material::Effect& effect : material::effect_library()) {
-    if (!tells_on_moduli(effect) && others.empty()) continue;
+    if (moduli_alone && !tells_on_moduli(effect)) continue;
     const std::vector<std::string> names = {std::string(effect.name)};
     const CoordinateMap map = model.map(names);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
@@ -96,10 +85,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
       u[own] = std::clamp(size, map.lower(own), map.upper(own));
       change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
     }
-    const bool seen = tells_on_moduli(effect)
-                          ? change.maxCoeff() > kNothing
-                          : std::any_of(others.begin(), others.end(), [&](int i) { return change[i] > kNothing; });
-    if (seen) acting.push_back(names.front());
+    if (leaves_traces(effect, change, observations, rows)) acting.push_back(names.front());
   }
   return acting;
 }
@@ -109,16 +95,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
 Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings)
     : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics)),
       fidelity_(settings.fidelity) {
-  const auto layouts = std::count_if(observations_.groups.begin(), observations_.groups.end(),
-                                     [](const Observation& g) { return g.design.layout() != nullptr; });
-  const auto coupons = std::count_if(observations_.groups.begin(), observations_.groups.end(),
-                                     [](const Observation& g) { return g.test == tester::TestKind::tensile; });
-  if (layouts < kLeastGroups && coupons < kLeastCoupons) {
-    throw TooFewSpecimens(fmt::format(
-        "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
-        "coupons with a curve; there are {} and {}",
-        kLeastGroups, kLeastCoupons, layouts, coupons));
-  }
+  if (const auto why = why_too_few(observations_.groups)) throw TooFewSpecimens(*why);
   material::ParameterSet centre = settings.start;
   centre.extensions.clear();
   if (observations_.has(tester::TestKind::toughness)) {

@@ -84,6 +84,13 @@ std::string curve_part(const Diagnosis& d) {
                                                          "quiet"));
 }
 
+/// A number that an effect takes beside its size.
+std::string further_in_words(const material::EffectParameter& parameter, const diagnosis::FittedNumber& number) {
+  return fmt::format("With it: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
+                     quantity(number.value), escaped(material::unit_behind_number(parameter.unit)),
+                     quantity(number.interval_low), quantity(number.interval_high), escaped(parameter.meaning));
+}
+
 std::string cause_section(const Diagnosis& d) {
   std::string content;
   for (const auto& named : d.effects) {
@@ -95,6 +102,8 @@ std::string cause_section(const Diagnosis& d) {
         paragraph(fmt::format("Its size: <strong>{}{}</strong>, with 90 % certainty between {} and {}. It means: {}.",
                               quantity(named.parameter), escaped(material::unit_behind_number(named.unit)),
                               quantity(named.interval_low), quantity(named.interval_high), meaning));
+    for (std::size_t p = 0; effect != nullptr && p < named.further.size(); ++p)
+      content += paragraph(further_in_words(effect->parameters[p + 1], named.further[p]));
     if (effect != nullptr)
       content +=
           paragraph(effect->side == material::EffectSide::measurement
@@ -202,7 +211,8 @@ std::string next_section(const Diagnosis& d) {
 
 /// How well means are known, where the features are in question.
 std::string noise_in_words(const Diagnosis& d) {
-  std::string words = fmt::format("Replicates scatter by {}", percent(d.replicate_sd));
+  std::string words = d.noise_known ? fmt::format("Replicates scatter by {}", percent(d.replicate_sd))
+                                    : fmt::format("A scatter of {} is assumed", percent(d.replicate_sd));
   const auto error_of = [&](diagnosis::Feature feature) {
     std::vector<double> errors;
     for (const diagnosis::ResidualRow& row : d.residuals)
@@ -236,7 +246,9 @@ std::string render_diagnosis_page(const Diagnosis& d, const std::string& set, te
   page += fmt::format("<p class=\"eyebrow\">{}</p>\n<h1>{}</h1>\n", title, headline(d));
   page += paragraph(escaped(d.summary), "standing");
   if (!d.noise_known)
-    page += paragraph("There are no replicates: all statements hang on an assumed scatter of 2 %.", "warning");
+    page +=
+        paragraph("A scatter of 2 % is assumed where there are no replicates: what is said of those tests hangs on it.",
+                  "warning");
   if (fidelity == tester::Fidelity::tiny)
     page += paragraph("Tiny fidelity: specimens of a single unit. The figures serve tests of the program.", "warning");
   if (!is_undecided(d)) page += findings(d, fidelity);

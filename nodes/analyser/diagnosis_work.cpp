@@ -54,9 +54,11 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
     message.effects.push_back({e.name, e.family, e.parameter, e.interval_low, e.interval_high, e.unit});
     // What an effect takes beside its size follows under the same name.
     const auto& numbers = material::find_effect(e.name)->parameters;
-    for (std::size_t p = 0; p < e.further.size(); ++p)
-      message.effects.push_back(
-          {e.name, e.family, e.further[p], e.further[p], e.further[p], std::string(numbers[p + 1].unit)});
+    for (std::size_t p = 0; p < e.further.size(); ++p) {
+      const diagnosis::FittedNumber& number = e.further[p];
+      message.effects.push_back({e.name, e.family, number.value, number.interval_low, number.interval_high,
+                                 std::string(numbers[p + 1].unit)});
+    }
   }
   for (const diagnosis::Candidate& c : d.candidates) {
     message.candidates.push_back({c.name, c.status, c.statistic, c.p_family_wise, c.absorption});

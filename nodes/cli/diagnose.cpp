@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
+#include "diagnosis/taking_part.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
@@ -99,37 +100,7 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
   return settings;
 }
 
-/// What takes part, and what is to be said of the rest.
-struct TakingPart {
-  std::vector<measurement::SpecimenRecord> specimens;
-  std::string left_out;  ///< a sentence with a space in front; empty: nothing is
-};
-
-/// Fracture tests take part when asked for, or when there is nothing else: their thresholds are not yet proven against
-/// the virtual laboratory.
-TakingPart taking_part(const std::vector<measurement::SpecimenRecord>& specimens, const Options& options) {
-  TakingPart part{specimens, ""};
-  using measurement::SpecimenRecord;
-  using tester::TestKind;
-  const auto is_coupon = [](const SpecimenRecord& s) { return s.valid && s.test == TestKind::tensile; };
-  const auto has_layout = [](const SpecimenRecord& s) { return s.valid && s.design.layout(); };
-  const auto homogeneous = std::ranges::count_if(
-      specimens, [](const SpecimenRecord& s) { return s.valid && s.test == TestKind::modulus && s.design.mixture(); });
-  if (homogeneous > 0 && std::ranges::none_of(specimens, is_coupon) && std::ranges::any_of(specimens, has_layout))
-    part.left_out = fmt::format(
-        " {} moduli of homogeneous specimens were left out: without tensile coupons they say nothing of layouts.",
-        homogeneous);
-  const auto notched = [](const SpecimenRecord& s) { return s.test == TestKind::toughness; };
-  if (options.fracture || std::ranges::all_of(specimens, notched)) return part;
-  if (const auto count = std::erase_if(part.specimens, notched); count > 0)
-    part.left_out += fmt::format(
-        " {} toughness specimens were left out: what acts on fracture alone is not looked for (--fracture takes them "
-        "in).",
-        count);
-  return part;
-}
-
-diagnosis::Diagnosis diagnosis_of(const TakingPart& part, const diagnosis::DiagnosisSettings& settings) {
+diagnosis::Diagnosis diagnosis_of(const diagnosis::TakingPart& part, const diagnosis::DiagnosisSettings& settings) {
   try {
     return diagnosis::diagnose(part.specimens, settings);
   } catch (const diagnosis::TooFewSpecimens& problem) {
@@ -145,7 +116,7 @@ int plan(const Options& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("plan");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const TakingPart part = taking_part(set.specimens, options);
+  const diagnosis::TakingPart part = diagnosis::taking_part(set.specimens, options.fracture);
   const diagnosis::Plan plan = diagnosis::plan_diagnosis(part.specimens, settings);
   progress.end();
   if (!part.left_out.empty()) remark(part.left_out.substr(1));
@@ -156,6 +127,7 @@ int plan(const Options& options) {
     return 0;
   }
   fmt::print("{} specimens in {} groups; sizes from which a cause is seen, and named\n", plan.specimens, plan.groups);
+  if (!plan.too_few.empty()) fmt::print("too few as they are: {}\n", plan.too_few);
   for (const diagnosis::PlannedEffect& e : plan.effects) {
     fmt::print("  {:<22} {:<10} seen from {:>9}  named from {:>9}  {:<24} most like {} ({:.2f})\n", e.name, e.status,
                size_or_dash(e.smallest_seen), size_or_dash(e.smallest_told_apart), e.unit,
@@ -193,7 +165,7 @@ int diagnose(const Options& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const TakingPart part = taking_part(set.specimens, options);
+  const diagnosis::TakingPart part = diagnosis::taking_part(set.specimens, options.fracture);
   diagnosis::Diagnosis d = diagnosis_of(part, settings);
   progress.end();
   d.summary += part.left_out;

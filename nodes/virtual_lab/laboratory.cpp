@@ -154,10 +154,12 @@ tester::Curve shown_curve(const HiddenEffects& effects, double gain, const teste
   return shown;
 }
 
-/// The number at the end of a batch's name, from 0; 0 without one.
+/// How many batches came before: the number at the end of its name, less that of the first one; 0 without a number.
+/// Batches of a game are called by their rounds, which begin at 0; others are counted from 1.
 int batch_step(const std::string& batch) {
   const std::size_t digits = batch.find_last_not_of("0123456789") + 1;
-  return digits < batch.size() ? std::max(0, std::atoi(batch.c_str() + digits) - 1) : 0;
+  const int first = batch.starts_with("round-") ? 0 : 1;
+  return digits < batch.size() ? std::max(0, std::atoi(batch.c_str() + digits) - first) : 0;
 }
 
 /// How far stiffness and stress have drifted where a specimen was printed.

@@ -29,7 +29,8 @@ struct Response {
   double modulus_pa = 0.0;  ///< test `modulus`
   tester::Curve curve;      ///< `toughness` and `tensile`
   std::string remark;       ///< what a lab book would note, or empty
-  /// Where every specimen's voxels have strengths of their own: curves of further specimens beside `curve`.
+  /// Where voxels have strengths of their own: curves of further specimens beside `curve`, as many in all as the truth
+  /// has replicates. Whoever asks for more gets them again: every one costs a simulation.
   std::vector<tester::Curve> other_curves = {};
 };
 
@@ -42,7 +43,7 @@ struct Replicate {
   std::string specimen;  ///< names the streams of its scatter
   std::string batch;
   int print_order = 0;
-  int number = 1;  ///< among the replicates, from 1: which specimen of a Response with several it is
+  int number = 1;  ///< among those of its order, from 1: which specimen of a Response with several it is
 };
 
 /// The record of one specimen: the response with this specimen's scatter, seen through the machine, its curve in at

@@ -8,7 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../diagnosis/synthetic_set.hpp"
 #include "analyser/works.hpp"
+#include "diagnosis/possible_tests.hpp"
 #include "wire/channels.hpp"
 #include "wire/convert.hpp"
 
@@ -291,6 +293,30 @@ TEST(Analyser, CouponsTakePartInADiagnosis) {
   const auto diagnosis = wire::decode_safe<diagnosis_t>(diagnose_work(compute->spec)).value();
   EXPECT_THAT(diagnosis.summary, Not(HasSubstr("cannot tell yet"))) << "four materials with a curve are enough";
   EXPECT_GT(diagnosis.n_candidates, 0);
+}
+
+// What relaxes has a time beside its size, and neither is known exactly.
+TEST(Analyser, EveryNumberOfANamedEffectIsSentWithItsInterval) {
+  DiagnosisTask task;
+  task.request.round = 1;
+  task.request.fidelity = tester::Fidelity::tiny;
+  task.request.parameters = material::default_parameters();
+  task.bootstraps = 1000;
+  material::ParameterSet truth = task.request.parameters;
+  truth.extensions["rate_dependence"] = {0.5, 12.0};
+  for (const auto& record :
+       diagnosis::synthetic_coupons(truth, {1e-3, 1e-2, 1e-1}, 3, 0.01, 5, diagnosis::unload_history())) {
+    task.request.specimens.push_back(record.specimen);
+    task.measurements.push_back(wire::write(
+        wire::Measurement{.round = 1, .order_id = "", .fidelity = tester::Fidelity::tiny, .record = record}));
+  }
+  std::ranges::sort(task.request.specimens);
+  const auto sent = wire::decode_safe<diagnosis_t>(diagnose_work(diagnosis_spec(task))).value();
+  ASSERT_EQ(sent.n_effects, 2) << sent.summary;
+  const effect_t& time_s = sent.effects[1];
+  EXPECT_EQ(time_s.unit, "s");
+  EXPECT_LT(time_s.interval_low, std::min(time_s.parameter, 12.0));
+  EXPECT_GT(time_s.interval_high, std::max(time_s.parameter, 12.0));
 }
 
 TEST(Analyser, QuestionAskedTwiceIsAnsweredOnce) {

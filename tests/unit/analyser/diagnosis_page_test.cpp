@@ -127,6 +127,24 @@ TEST(DiagnosisPage, TooFewDataClaimNothing) {
                           Not(HasSubstr("scatter by")), Not(HasSubstr("Procedure"))));
 }
 
+TEST(DiagnosisPage, WhatAnEffectTakesBesideItsSizeHasItsInterval) {
+  Diagnosis d = named_with({});
+  d.effects = {{"rate_dependence", "rate", 0.5, 0.45, 0.55, "1", {{11.9, 9.7, 14.6}}}};
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full),
+              HasSubstr("<strong>11.9 s</strong>, with 90 % certainty between 9.70 and 14.6"));
+}
+
+TEST(DiagnosisPage, AnAssumedScatterIsNotSaidToBeThatOfReplicates) {
+  Diagnosis d;
+  d.replicate_sd = 0.02;
+  d.noise_known = false;
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full),
+              AllOf(HasSubstr("A scatter of 2.0 % is assumed"), Not(HasSubstr("Replicates scatter"))));
+  d.noise_known = true;
+  EXPECT_THAT(render_diagnosis_page(d, "a-set", tester::Fidelity::full),
+              AllOf(HasSubstr("Replicates scatter by 2.0 %"), Not(HasSubstr("is assumed"))));
+}
+
 TEST(DiagnosisPage, SeveralCausesAreListed) {
   Diagnosis d;
   d.verdict = diagnosis::Verdict::ambiguous;

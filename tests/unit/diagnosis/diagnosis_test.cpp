@@ -242,6 +242,57 @@ TEST(CouponDiagnosis, AYieldPointIsNamedFromCurvesAlone) {
   EXPECT_NEAR(diagnosis.effects[0].parameter, 2.5e7, 2e6);
 }
 
+// Coupons have constants of their own; those of layouts and of fracture tests were not fitted, and are not told.
+TEST(CouponDiagnosis, TheConstantsThatAreToldAreThoseThatWereFitted) {
+  material::ParameterSet truth = synthetic_truth();
+  truth.modulus.e_vw_pa = 3.3e9;
+  DiagnosisSettings settings = tiny_settings();
+  settings.bootstraps = 700;
+  const Diagnosis diagnosis = diagnose(synthetic_coupons(truth, {1e-3}, 3, 0.01, 5), settings);
+  ASSERT_TRUE(diagnosis.base_fit.coupon) << diagnosis.summary;
+  EXPECT_NEAR(diagnosis.base_fit.coupon->e_vw_pa, 3.3e9, 0.1e9);
+  const auto fit = nlohmann::json::parse(to_json(diagnosis))["base_fit"];
+  EXPECT_NEAR(fit["coupon"]["e_vw_pa"].get<double>(), 3.3e9, 0.1e9);
+  EXPECT_FALSE(fit.contains("modulus"));
+  EXPECT_FALSE(fit.contains("toughness"));
+}
+
+// What relaxes has a time beside its size.
+TEST(CouponDiagnosis, EveryNumberOfANamedEffectHasItsInterval) {
+  material::ParameterSet truth = synthetic_truth();
+  truth.extensions["rate_dependence"] = {0.5, 12.0};
+  const Diagnosis diagnosis =
+      diagnose(synthetic_coupons(truth, {1e-3, 1e-2, 1e-1}, 3, 0.01, 5, unload_history()), tiny_settings());
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  ASSERT_EQ(diagnosis.effects[0].name, "rate_dependence");
+  ASSERT_EQ(diagnosis.effects[0].further.size(), 1u);
+  const FittedNumber time_s = diagnosis.effects[0].further[0];
+  EXPECT_LT(time_s.interval_low, time_s.value);
+  EXPECT_GT(time_s.interval_high, time_s.value);
+  EXPECT_LT(time_s.interval_low, 12.0);
+  EXPECT_GT(time_s.interval_high, 12.0);
+  EXPECT_LT(time_s.interval_high / time_s.interval_low, 4.0);
+  const auto effect = nlohmann::json::parse(to_json(diagnosis))["effects"][0];
+  EXPECT_EQ(effect["further"], std::vector{time_s.value});
+  EXPECT_EQ(effect["further_interval90"][0], (std::vector{time_s.interval_low, time_s.interval_high}));
+}
+
+// Coupons know nothing of the elements of layouts, nor of how moduli scatter.
+TEST(Diagnosis, CouponsDoNotChangeWhatIsSaidOfTheNoiseOfModuli) {
+  DiagnosisSettings settings = tiny_settings();
+  settings.bootstraps = 700;
+  settings.check_numerics = false;
+  settings.floor = {.log_modulus_sd = 0.01, .mesh_amplitude = 1.0, .mesh_remainder_sd = 0.002};
+  auto specimens = synthetic_specimens({.patterns = 12, .twins = 0, .replicates = 1, .noise = 0.01}, synthetic_truth());
+  const double alone = diagnose(specimens, settings).numerics_shared_sd;
+  const auto coupons = synthetic_coupons(synthetic_truth(), {1e-3}, 3, 0.01, 5);
+  specimens.insert(specimens.end(), coupons.begin(), coupons.end());
+  const Diagnosis diagnosis = diagnose(specimens, settings);
+  EXPECT_NEAR(diagnosis.numerics_shared_sd, alone, 0.1 * alone);
+  EXPECT_FALSE(diagnosis.noise_known) << "two per cent are assumed of moduli";
+  EXPECT_DOUBLE_EQ(diagnosis.replicate_sd, 0.02);
+}
+
 // Four moduli fit six constants whatever is wrong with them.
 TEST(Diagnosis, ModuliOfCouponsAreNoCurves) {
   std::vector<measurement::SpecimenRecord> specimens;
@@ -253,6 +304,19 @@ TEST(Diagnosis, ModuliOfCouponsAreNoCurves) {
     specimens.push_back(record);
   }
   EXPECT_THROW(diagnose(specimens, tiny_settings()), TooFewSpecimens);
+}
+
+TEST(CouponDiagnosis, ReplicatesCountOnce) {
+  auto specimens = synthetic_coupons(synthetic_truth(), {1e-3}, 3, 0.01, 5);
+  specimens.resize(9);
+  try {
+    diagnose(specimens, tiny_settings());
+    FAIL() << "three coupons are too few, however often each is pulled";
+  } catch (const TooFewSpecimens& problem) {
+    const std::string words = problem.what();
+    EXPECT_NE(words.find("(replicates count once)"), std::string::npos) << words;
+    EXPECT_TRUE(words.ends_with("there are 0 and 3")) << words;
+  }
 }
 
 TEST(Diagnosis, TooFewDesignsAreRefusedWithASentence) {

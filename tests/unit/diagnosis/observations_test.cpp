@@ -222,6 +222,22 @@ TEST(Observations, TwinsUnderOtherConditionsAreOfferedOfBothTests) {
   EXPECT_EQ(faster[tester::TestKind::toughness].front(), "7fffffffffffff") << "the most measured one";
 }
 
+// Callipers say 1.5 mm where 1.6 mm were ordered: nacre takes both for replicates, and a person needs no more of them.
+TEST(Observations, ATwinWithinTheToleranceIsMeasuredAlready) {
+  const auto offers_it = [](double measured_mm) {
+    std::vector<measurement::SpecimenRecord> specimens = {pulled("a", 0, 2e8), pulled("other", 0, 2e8),
+                                                          pulled("thin", 0, 1.9e8)};
+    specimens[1].design = *pattern::design_from_name("3ffc9b4ad4d2d9");
+    specimens[2].conditions.thickness_mm = measured_mm;
+    return std::ranges::any_of(possible_tests(observed(specimens)), [&](const PossibleTest& test) {
+      return test.design == specimens[2].design && test.conditions == tester::TestConditions{.thickness_mm = 1.6};
+    });
+  };
+  EXPECT_FALSE(offers_it(1.6));
+  EXPECT_FALSE(offers_it(1.5));
+  EXPECT_TRUE(offers_it(1.2));
+}
+
 Observations three_groups() {
   Observations observations;
   for (const char* key : {"577fffe9fffdef", "3ffc9b4ad4d2d9", "7fffffffffffff"}) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/looked_for.hpp"
 #include "diagnosis/workbench.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
@@ -87,6 +88,58 @@ TEST_F(Plans, WhatTheBaseMostlyImitatesIsSeenByWhatIsLeft) {
   EXPECT_GT(compliance.absorption, 0.95);
   ASSERT_TRUE(compliance.smallest_seen.has_value());
   EXPECT_NEAR(signal(plain, printed(*compliance.smallest_seen)), kVisibleSignal, 0.1 * kVisibleSignal);
+}
+
+// Thin twins of 1.5 mm, where a plan proposes such of 1.6 mm: what the set shows does not depend on which of the names
+// is the first.
+TEST_F(Plans, ProposalsTakeNothingAwayFromTheSet) {
+  auto specimens = synthetic_specimens({.patterns = 9, .twins = 2, .replicates = 2}, settings_.start);
+  const std::size_t upright = specimens.size();
+  for (std::size_t i = 0; i < upright; i += 4) {
+    specimens.push_back(specimens[i]);
+    specimens.back().specimen = "thin of " + specimens[i].specimen;
+    specimens.back().conditions.thickness_mm = 1.5;
+  }
+  const Plan alone = plan_diagnosis(specimens, settings_, kScatter, false),
+             with_proposals = plan_diagnosis(specimens, settings_, kScatter, true);
+  ASSERT_FALSE(with_proposals.additions.empty());
+  for (std::size_t k = 0; k < alone.effects.size(); ++k) {
+    if (alone.effects[k].status == "not_shown") continue;
+    EXPECT_NEAR(with_proposals.effects[k].signal_to_noise, alone.effects[k].signal_to_noise,
+                1e-6 * alone.effects[k].signal_to_noise)
+        << alone.effects[k].name;
+  }
+}
+
+// A diagnosis of moduli alone looks for a few effects only (METHODS.md, "Diagnosis", 3): a plan promises no others, nor
+// has them as rivals, though coupons are among what it proposes.
+TEST_F(Plans, ModuliAlonePromiseOnlyWhatIsLookedForOnThem) {
+  const auto moduli = synthetic_specimens({.patterns = 10, .twins = 4, .replicates = 2}, settings_.start);
+  const Plan plan = plan_diagnosis(moduli, settings_, kScatter);
+  const auto is_looked_for = [](const std::string& name) { return tells_on_moduli(*material::find_effect(name)); };
+  for (const PlannedEffect& effect : plan.effects) {
+    if (!is_looked_for(effect.name)) EXPECT_EQ(effect.status, "not_shown") << effect.name;
+    if (!effect.nearest_rival.empty()) EXPECT_TRUE(is_looked_for(effect.nearest_rival)) << effect.nearest_rival;
+  }
+  bool coupons_show_more = false;
+  for (const PlannedAddition& addition : plan.additions) {
+    const bool coupons = addition.specimens.front().starts_with("tensile");
+    for (const auto& change : addition.changes) {
+      if (!coupons) EXPECT_TRUE(is_looked_for(change.effect)) << addition.words << ": " << change.effect;
+      coupons_show_more = coupons_show_more || (coupons && !is_looked_for(change.effect));
+    }
+  }
+  EXPECT_TRUE(coupons_show_more);
+}
+
+// What a diagnosis would refuse shows nothing, and the person is told what would make it enough.
+TEST_F(Plans, TooFewSpecimensShowNothingAndAreToldWhatToAdd) {
+  const auto specimens = synthetic_specimens({.patterns = 3, .twins = 0}, settings_.start);
+  const Plan plan = plan_diagnosis(specimens, settings_, kScatter);
+  EXPECT_TRUE(plan.too_few.ends_with("there are 3 and 0")) << plan.too_few;
+  for (const PlannedEffect& effect : plan.effects) EXPECT_EQ(effect.status, "not_shown") << effect.name;
+  EXPECT_FALSE(plan.additions.empty());
+  EXPECT_THROW(plan_diagnosis(specimens, settings_, kScatter, false), TooFewSpecimens);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // in name with the simulator's library mean the same, though no code is shared.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -70,6 +71,23 @@ measurement::SpecimenRecord recorded(const Truth& truth, TestKind test) {
   Response response{.modulus_pa = 1e9, .curve = {{0.0, 0.01, 0.02}, {0.0, 1e6, 2e5}}, .remark = {}};
   return record_specimen(truth, {.design = some_pattern(), .test = test, .conditions = {}, .fidelity = truth.fidelity},
                          response, {.specimen = "s", .batch = "batch-3", .print_order = 7, .number = 3});
+}
+
+// `nacre measure` counts its batches from 1, a game from its round 0.
+TEST(HiddenEffects, BatchesDriftFromTheFirstOne) {
+  Truth truth = plain_truth();
+  truth.effects.batch_drift = 0.1;
+  const auto modulus = [&](const std::string& batch) {
+    return *record_specimen(truth, {.design = some_pattern(), .fidelity = truth.fidelity}, Response{.modulus_pa = 1e9},
+                            {.specimen = "s", .batch = batch, .print_order = 7})
+                .modulus_pa;
+  };
+  for (const auto& [first, second, third] :
+       {std::array{"batch-1", "batch-2", "batch-3"}, std::array{"round-0", "round-1", "round-2"}}) {
+    EXPECT_DOUBLE_EQ(modulus(first), modulus("without a number"));
+    EXPECT_NEAR(modulus(second) / modulus(first), 1.1, 1e-9) << second;
+    EXPECT_NEAR(modulus(third) / modulus(second), 1.1, 1e-9) << third;
+  }
 }
 
 TEST(HiddenEffects, AtZeroAreNothing) {

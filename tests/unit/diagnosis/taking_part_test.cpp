@@ -1,0 +1,62 @@
+#include "diagnosis/taking_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace nacre::diagnosis {
+namespace {
+
+using measurement::SpecimenRecord;
+using tester::TestKind;
+
+SpecimenRecord specimen(const pattern::Design& design, TestKind test, bool valid = true) {
+  SpecimenRecord record;
+  record.design = design;
+  record.test = test;
+  record.valid = valid;
+  return record;
+}
+
+class TakingPartTest : public testing::Test {
+ protected:
+  pattern::Design layout_ = *pattern::design_from_name("577fffe9fffdef"), bulk_ = pattern::Mixture{1.0};
+  std::vector<SpecimenRecord> fractures_ = {specimen(layout_, TestKind::toughness),
+                                            specimen(layout_, TestKind::toughness)};
+  std::vector<SpecimenRecord> fractures_and(const SpecimenRecord& other) const {
+    std::vector<SpecimenRecord> specimens = fractures_;
+    specimens.push_back(other);
+    return specimens;
+  }
+  static bool breaks_any(const TakingPart& part) {
+    return std::ranges::count(part.specimens, TestKind::toughness, &SpecimenRecord::test) > 0;
+  }
+};
+
+TEST_F(TakingPartTest, FracturesAreLeftOutBesideModuli) {
+  const auto specimens = fractures_and(specimen(layout_, TestKind::modulus));
+  const TakingPart part = taking_part(specimens, false);
+  EXPECT_FALSE(breaks_any(part));
+  EXPECT_TRUE(part.left_out.starts_with(" 2 toughness specimens were left out")) << part.left_out;
+  EXPECT_TRUE(breaks_any(taking_part(specimens, true)));
+}
+
+// An unusable modulus, or one that no diagnosis looks at without coupons, is nothing that fractures could stand back
+// for.
+TEST_F(TakingPartTest, FracturesTakePartWhereNothingElseWould) {
+  EXPECT_TRUE(breaks_any(taking_part(fractures_, false)));
+  EXPECT_TRUE(breaks_any(taking_part(fractures_and(specimen(layout_, TestKind::modulus, false)), false)));
+  const TakingPart beside_bulk = taking_part(fractures_and(specimen(bulk_, TestKind::modulus)), false);
+  EXPECT_TRUE(breaks_any(beside_bulk));
+  EXPECT_TRUE(beside_bulk.left_out.starts_with(" 1 moduli of homogeneous")) << beside_bulk.left_out;
+  EXPECT_FALSE(breaks_any(taking_part(fractures_and(specimen(bulk_, TestKind::tensile)), false)));
+}
+
+TEST_F(TakingPartTest, OnlyUsableFracturesAreCountedAsLeftOut) {
+  fractures_.front().valid = false;
+  const TakingPart part = taking_part(fractures_and(specimen(layout_, TestKind::modulus)), false);
+  EXPECT_TRUE(part.left_out.starts_with(" 1 toughness specimens")) << part.left_out;
+}
+
+}  // namespace
+}  // namespace nacre::diagnosis
