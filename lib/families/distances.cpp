@@ -24,13 +24,12 @@ DistanceMatrix earth_movers_distances(std::span<const pattern::Pattern> patterns
   return matrix;
 }
 
-double far_away(const DistanceMatrix& distances) {
-  constexpr double kTimes = 10.0, kLeast = 1e-6;
-  double largest = kLeast;
+double largest_finite(const DistanceMatrix& distances) {
+  double largest = 0.0;
   for (std::size_t i = 0; i < distances.count(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (std::isfinite(distances(i, j))) largest = std::max(largest, distances(i, j));
-  return kTimes * largest;
+  return largest;
 }
 
 }  // namespace nacre::families

@@ -28,7 +28,7 @@ class DistanceMatrix {
 DistanceMatrix earth_movers_distances(std::span<const pattern::Pattern> patterns,
                                       const std::function<void(double)>& progress = {});
 
-/// What stands for an infinite distance: ten times the largest finite one.
-double far_away(const DistanceMatrix& distances);
+/// 0 when there is none.
+double largest_finite(const DistanceMatrix& distances);
 
 }  // namespace nacre::families

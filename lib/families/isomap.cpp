@@ -18,6 +18,7 @@
 namespace nacre::families {
 namespace {
 
+constexpr double kFarAway = 10.0;  // times the largest finite distance
 constexpr Eigen::Index kDenseSize = 200, kLanczosVectors = 20;
 
 struct Edge {
@@ -167,7 +168,7 @@ Embedding isomap(const DistanceMatrix& distances, int neighbours) {
   if (distances.count() < 4 || neighbours < 1)
     throw InputError::format("isomap: expected at least four patterns and one neighbour, not {} and {}",
                              distances.count(), neighbours);
-  const double far = far_away(distances);
+  const double far = kFarAway * std::max(largest_finite(distances), 1e-6);
   Graph graph = neighbour_graph(distances, static_cast<std::size_t>(neighbours), far);
   Embedding embedding;
   embedding.bridges = bridge_parts(graph, distances, far);
