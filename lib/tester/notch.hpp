@@ -13,8 +13,8 @@ namespace nacre::tester {
 void cut_notch(fem::Grid& grid, int refinement);
 
 /// Drills out the root of the notch (extension `blunt_notch`): a circle of `root_radius` (share of the width) whose
-/// front stays where the sharp notch ends. An element that the circle cuts keeps stiffness, strength and yield stress in
-/// proportion to the area left of it. Nothing changes until the circle is larger than the notch is high.
+/// front stays where the sharp notch ends. An element that the circle cuts keeps stiffness, strength and yield stress
+/// in proportion to the area left of it. Nothing changes until the circle is larger than the notch is high.
 void round_notch_root(fem::Grid& grid, int refinement, double root_radius);
 
 }  // namespace nacre::tester
