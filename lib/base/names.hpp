@@ -9,4 +9,7 @@ namespace nacre {
 /// ('.') is allowed beside them; 1 to `most_bytes`.
 bool is_plain_name(std::string_view name, std::size_t most_bytes, std::string_view also = "");
 
+/// A control character of ASCII: nothing that a label, a line of a terminal or XML should hold.
+inline bool is_control(char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; }
+
 }  // namespace nacre

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/files.hpp"
+#include "base/names.hpp"
 #include "measurement/set_files.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/layout.hpp"
@@ -28,7 +29,7 @@ class RowParser {
     if (record.specimen.size() > kLongestName)
       reject(kSpecimen,
              fmt::format("has {} bytes, expected a name of at most {}", record.specimen.size(), kLongestName));
-    if (std::ranges::any_of(record.specimen, [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }))
+    if (std::ranges::any_of(record.specimen, is_control))
       reject(kSpecimen, "holds a control character, expected a name that fits on a label");
     record.test = test_kind();
     record.design = design();

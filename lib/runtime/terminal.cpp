@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/names.hpp"
+
 namespace nacre::runtime {
 
 int terminal_columns(int file_descriptor) {
@@ -39,7 +41,7 @@ std::string fitted(std::string_view text, int columns) {
     const auto byte = static_cast<unsigned char>(c);
     const bool continues_character = (byte & 0xC0) == 0x80;
     if (!continues_character && ++width > columns) break;
-    line += byte < 0x20 || byte == 0x7F ? ' ' : c;
+    line += is_control(c) ? ' ' : c;
   }
   return line;
 }

@@ -14,8 +14,7 @@ struct Likelihood {
 /// Residuals of log E or log T of the designs that were measured and simulated; `freedom_taken`: what the fit
 /// took from these data (Fit::freedom_taken). Their covariance is that of replicates (pooled over designs) and floor,
 /// with what the latter shifts in all designs at once (shared_errors.hpp), and the deviance contains its determinant's
-/// logarithm. Few replicates say little of the scatter: the chance of so large a chi
-/// squared is that of an F.
+/// logarithm. Few replicates say little of the scatter: the chance of so large a chi squared is that of an F.
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
                                  const std::vector<Prediction>& predictions, const NumericsFloor& floor,
                                  double freedom_taken);

@@ -69,9 +69,9 @@ std::string residual_figure(const Diagnosis& d, const diagnosis::Contrast& contr
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ResidualRow* row = rows[i];
     const double x = xs[i];
-    base.push_back({x, shown(view.feature, row->measured - row->base)});
-    extended.push_back({x, shown(view.feature, row->measured - row->extended)});
     const double residual = row->measured - row->base;
+    base.push_back({x, shown(view.feature, residual)});
+    extended.push_back({x, shown(view.feature, row->measured - row->extended)});
     bars.push_back(
         {shown(view.feature, residual - row->standard_error), shown(view.feature, residual + row->standard_error)});
     hints.push_back(row->design);

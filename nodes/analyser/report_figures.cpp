@@ -1,5 +1,4 @@
 #include "analyser/report_figures.hpp"
-#include "game/standings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "analyser/report_text.hpp"
 #include "analyser/svg.hpp"
+#include "game/standings.hpp"
 #include "optimize/pareto.hpp"
 
 namespace nacre::analyser {

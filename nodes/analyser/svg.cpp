@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/names.hpp"
+
 namespace nacre::analyser {
 namespace {
 
@@ -141,7 +143,7 @@ std::string escaped(std::string_view text) {
         safe += ' ';
         break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+        if (is_control(c)) {
           safe += "\uFFFD";
         } else {
           safe += c;

@@ -52,9 +52,9 @@ std::optional<wire::Proposal> variants_to_approve(const RunAccess& run) {
 }
 
 /// What the validation agent wants decided now.
-std::optional<wire::Proposal> open_proposal(const RunAccess& run) {
+std::optional<wire::Proposal> open_proposal(const RunAccess& run, const LaboratoryView& laboratory) {
   const std::optional<wire::Proposal> variants = variants_to_approve(run);
-  return variants ? variants : view_laboratory(run).open_proposal;
+  return variants ? variants : laboratory.open_proposal;
 }
 
 std::vector<pattern::Design> designs_meant(const ApproveOptions& options, const wire::Proposal& proposal) {
@@ -149,9 +149,9 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
 }
 
 /// Says yes or no to designs of a proposal. Status 1 when one of them was decided on before, the other way.
-int decide(const ApproveOptions& options, const RunAccess& run, const wire::Proposal& proposal) {
+int decide(const ApproveOptions& options, const RunAccess& run, const game::LaboratoryFacts& facts,
+           const wire::Proposal& proposal) {
   const std::vector<pattern::Design> designs = designs_meant(options, proposal);
-  const game::LaboratoryFacts facts = view_laboratory(run).facts;
   int status = 0;
   for (const pattern::Design& design : designs) {
     const game::StatedDecision decision{proposal.round, design, !options.reject, options.by, options.why};
@@ -167,8 +167,8 @@ int decide(const ApproveOptions& options, const RunAccess& run, const wire::Prop
 }
 
 /// The designs, each with its state: what was decided needs no second yes.
-void list_designs(const RunAccess& run, const wire::Proposal& proposal) {
-  const std::map<std::string, game::DesignStage> stages = stages_in(view_laboratory(run).facts);
+void list_designs(const game::LaboratoryFacts& facts, const wire::Proposal& proposal) {
+  const std::map<std::string, game::DesignStage> stages = stages_in(facts);
   fmt::print("proposal {}:\n", proposal.round);
   for (const auto& design : proposal.designs) {
     const auto known = stages.find(design.design.name());
@@ -191,16 +191,17 @@ int approve(const ApproveOptions& options) {
   check_designs_meant(options);
   const RunAccess run = open_run(options.run);
   if (options.add) return add_own(options, run);
-  const auto proposal = open_proposal(run);
+  const LaboratoryView laboratory = view_laboratory(run);
+  const auto proposal = open_proposal(run, laboratory);
   if (!proposal) {
     remark("there is no proposal yet");
     return 1;
   }
   if (options.designs.empty() && !options.all) {
-    list_designs(run, *proposal);
+    list_designs(laboratory.facts, *proposal);
     return 0;
   }
-  return decide(options, run, *proposal);
+  return decide(options, run, laboratory.facts, *proposal);
 }
 
 }  // namespace

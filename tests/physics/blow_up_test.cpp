@@ -97,13 +97,19 @@ TEST(BlowUp, ALawThatNeedsTooManyStepsGivesAReasonAndNoNumber) {
   EXPECT_THAT(result.error().message, testing::HasSubstr("no end after 400000 steps"));
 }
 
-// Stretched to three times its length the softest material carries faster waves than at rest.
-TEST(BlowUp, PureSoftMaterialIsPulledAgainWithAShorterStep) {
+/// Pure soft material of the smallest modulus and the largest threshold.
+tester::Simulation softest_specimen(double gamma_per_s) {
   tester::Simulation simulation = specimen(pattern::Mixture{0.0});
   simulation.fidelity = tester::Fidelity::tiny;
   simulation.parameters.toughness.e_tb_pa = 1e5;
   simulation.parameters.toughness.w_tb_j_per_m3 = 1e6;
-  simulation.parameters.toughness.gamma_per_s = 2e4;
+  simulation.parameters.toughness.gamma_per_s = gamma_per_s;
+  return simulation;
+}
+
+// Stretched to three times its length the softest material carries faster waves than at rest.
+TEST(BlowUp, PureSoftMaterialIsPulledAgainWithAShorterStep) {
+  const tester::Simulation simulation = softest_specimen(2e4);
   const auto result = tester::test_toughness(simulation),
              half = tester::test_toughness(simulation, {.time_step_scale = 0.5});
   ASSERT_TRUE(result) << result.error().message;
@@ -113,11 +119,7 @@ TEST(BlowUp, PureSoftMaterialIsPulledAgainWithAShorterStep) {
 
 // The filter's step is so short that the steps allowed end at a quarter of the strain to which pure soft is pulled.
 TEST(BlowUp, PureSoftMaterialThatRunsOutOfStepsGivesAReasonAndNoNumber) {
-  tester::Simulation simulation = specimen(pattern::Mixture{0.0});
-  simulation.fidelity = tester::Fidelity::tiny;
-  simulation.parameters.toughness.e_tb_pa = 1e5;
-  simulation.parameters.toughness.w_tb_j_per_m3 = 1e6;
-  simulation.parameters.toughness.gamma_per_s = 3e6;
+  const tester::Simulation simulation = softest_specimen(3e6);
   const auto result = tester::test_toughness(simulation);
   ASSERT_FALSE(result) << result->toughness_pa << " at strain " << result->failure_strain;
   EXPECT_THAT(result.error().message, testing::AnyOf(testing::HasSubstr("no end after 400000 steps"),
