@@ -1,5 +1,7 @@
 #include "dashboard/entries.hpp"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "base/names.hpp"
@@ -34,8 +36,7 @@ Result<std::string> text_of(const Json& object, const char* name, bool required 
   if (!found->is_string()) return fail("{}: expected a text", name);
   const auto& text = found->get_ref<const std::string&>();
   if (text.size() > kLongestText) return fail("{}: is longer than {} bytes", name, kLongestText);
-  for (const char letter : text)
-    if (static_cast<unsigned char>(letter) < 0x20) return fail("{}: holds a control character", name);
+  if (std::ranges::any_of(text, is_control)) return fail("{}: holds a control character", name);
   if (required && text.find_first_not_of(' ') == std::string::npos) return fail("{}: is empty, expected a text", name);
   return text;
 }

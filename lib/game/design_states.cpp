@@ -22,7 +22,7 @@ bool is_proposed(const LaboratoryFacts& facts, const StatedDecision& decision) {
 
 /// Proposed, not decided on and not ordered, whatever was printed or measured of it already.
 bool waits_for_an_answer(const LaboratoryFacts& facts, const pattern::Design& design) {
-  return !is_ordered(facts, design) && std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
+  return !are_both_ordered(facts.orders, design) && std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
     return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedDecision& each) {
              return each.proposal_round == proposed.round && each.design == design;
            });
@@ -92,7 +92,7 @@ std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDe
     if (!decision.approved) return fmt::format("{}: a design of one's own is not refused, but not added", name);
     if (asks_for_approvals && waits_for_an_answer(facts, decision.design))
       return fmt::format("{} is proposed and waits for an answer: say yes to the proposal", name);
-    if (is_ordered(facts, decision.design)) return fmt::format("{} was ordered before: that stands", name);
+    if (are_both_ordered(facts.orders, decision.design)) return fmt::format("{} was ordered before: that stands", name);
     return std::nullopt;
   }
   if (!asks_for_approvals) return "this game does not ask for approvals: what is proposed is ordered";
@@ -100,10 +100,6 @@ std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDe
   const auto first = decision_against(facts, decision);
   if (!first) return std::nullopt;
   return fmt::format("{} was {} before by {}: that stands", name, first->approved ? "approved" : "rejected", first->by);
-}
-
-bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design) {
-  return are_both_ordered(facts.orders, design);
 }
 
 measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts) {

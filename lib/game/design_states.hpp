@@ -81,9 +81,6 @@ std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, con
 std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDecision& decision,
                                     bool asks_for_approvals);
 
-/// Whether an order asks for the design as a person's own would be ordered, so that adding it changes nothing.
-bool is_ordered(const LaboratoryFacts& facts, const pattern::Design& design);
-
 /// Printed specimens of each order: those that carry its id, then those that fit and carry none.
 std::vector<int> printed_for(std::span<const Order> orders, std::span<const PrintedSpecimen> printed);
 

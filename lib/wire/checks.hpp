@@ -1,10 +1,12 @@
 #pragma once
 // Small checks that the conversions share; each error names the member and what was expected.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
 
+#include "base/names.hpp"
 #include "base/result.hpp"
 #include "measurement/limits.hpp"
 #include "pattern/design.hpp"
@@ -48,8 +50,10 @@ inline Result<void> expect_round(int round, int minimum = 0) {
 }
 
 inline Result<void> expect_name(std::string_view member, std::string_view name) {
-  if (!name.empty() && name.size() <= measurement::kLongestName) return {};
-  return fail("{}: a text of 1 to {} bytes was expected, not {}", member, measurement::kLongestName, name.size());
+  if (name.empty() || name.size() > measurement::kLongestName)
+    return fail("{}: a text of 1 to {} bytes was expected, not {}", member, measurement::kLongestName, name.size());
+  if (std::ranges::any_of(name, is_control)) return fail("{}: holds a control character", member);
+  return {};
 }
 
 inline Result<void> expect_count(std::string_view member, std::size_t count, std::size_t maximum) {

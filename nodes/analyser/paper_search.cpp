@@ -27,10 +27,18 @@ std::vector<Point> growth_of(const SearchPath& path) {
   return points;
 }
 
+/// How many points the searches share from the first on: the last one of a search lies where it ended.
+std::size_t shared_points(const std::vector<std::vector<Point>>& searches) {
+  const std::size_t shortest = std::ranges::min(searches, {}, &std::vector<Point>::size).size();
+  for (std::size_t i = 0; i < shortest; ++i)
+    if (std::ranges::any_of(searches, [&](const auto& search) { return search[i].x != searches[0][i].x; })) return i;
+  return shortest;
+}
+
 /// Mean and range over the searches of a round, as far as all of them go.
 std::string growth_figure(int round, const std::vector<std::vector<Point>>& searches) {
   std::vector<Point> mean, low, high;
-  const std::size_t length = std::ranges::min(searches, {}, &std::vector<Point>::size).size();
+  const std::size_t length = shared_points(searches);
   for (std::size_t i = 0; i < length; ++i) {
     double sum = 0.0, least = searches[0][i].y, most = least;
     for (const auto& search : searches) {
@@ -82,7 +90,8 @@ Exhibit search_exhibit(const PaperSource& source) {
                  number_cell(point.y)});
   }
   for (const auto& [round, searches] : by_round) {
-    if (round == by_round.begin()->first || round == by_round.rbegin()->first)
+    const bool is_first_or_last = round == by_round.begin()->first || round == by_round.rbegin()->first;
+    if (is_first_or_last && shared_points(searches) > 0)
       exhibit.figures.push_back({fmt::format("figure-3-9-round-{}", round), growth_figure(round, searches)});
   }
   exhibit.notes.push_back(

@@ -111,7 +111,7 @@ std::optional<int> round_played(const RunAccess& run) {
 /// What becomes of a design of a person's own that the validation agent has. Status 1 when it is not measured.
 int say_when_measured(const RunAccess& run, const pattern::Design& design) {
   const auto played = round_played(run);
-  if (game::is_ordered(view_laboratory(run).facts, design)) {
+  if (game::are_both_ordered(view_laboratory(run).facts.orders, design)) {
     fmt::print("{} added\n", design.name());
   } else if (played && (*played < run.scenario.rounds || run.scenario.families.enabled)) {
     fmt::print("{} added, for the next round\n", design.name());

@@ -153,12 +153,12 @@ TEST(DesignStates, AnOrderOfATurnedSpecimenOrOfOneTestIsNoneOfTheDesignAsAPerson
   LaboratoryFacts facts;
   facts.orders = both_orders_of(kDesign);
   for (Order& order : facts.orders) order.conditions.orientation_deg = 90.0;
-  EXPECT_FALSE(is_ordered(facts, kDesign));
+  EXPECT_FALSE(are_both_ordered(facts.orders, kDesign));
   facts.orders.push_back(order_of(kDesign));
-  EXPECT_FALSE(is_ordered(facts, kDesign)) << "an experiment of the diagnosis may be of its modulus alone";
+  EXPECT_FALSE(are_both_ordered(facts.orders, kDesign)) << "an experiment of the diagnosis may be of its modulus alone";
   facts.orders.push_back(order_of(kDesign, tester::TestKind::toughness));
-  EXPECT_TRUE(is_ordered(facts, kDesign));
-  EXPECT_FALSE(is_ordered(facts, kOther));
+  EXPECT_TRUE(are_both_ordered(facts.orders, kDesign));
+  EXPECT_FALSE(are_both_ordered(facts.orders, kOther));
 }
 
 TEST(DesignStates, WhatWasMeasuredWithoutAnOrderIsMeasured) {

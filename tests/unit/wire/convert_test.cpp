@@ -153,6 +153,14 @@ TEST(Convert, ValidSpecimensCarryAResult) {
   EXPECT_TRUE(read<Measurement>(write(m)));
 }
 
+TEST(Convert, ANameFitsOnALabel) {
+  for (const std::string& name : {std::string(), std::string(201, 'x'), std::string("a\nb"), std::string("a\x7f")}) {
+    Measurement m = samples::measurement();
+    m.record.specimen = name;
+    EXPECT_FALSE(read<Measurement>(write(m))) << name;
+  }
+}
+
 TEST(Convert, AValueOfAnotherUnitIsNoValidSpecimen) {
   Measurement m = samples::measurement();
   const auto fault = [&] {
