@@ -159,13 +159,17 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::string other_separator(const CsvRow& heading) {
-  if (heading.cells.size() != 1) return "";
+std::string other_separator(std::string_view heading) {
+  if (heading.find(',') != std::string_view::npos) return "";
   for (const auto& [separator, name] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
-    if (heading.cells.front().text.find(separator) != std::string::npos)
+    if (heading.find(separator) != std::string_view::npos)
       return std::string("; it is separated by ") + name + ", expected commas, and decimal points";
   }
   return "";
+}
+
+std::string other_separator(const CsvRow& heading) {
+  return heading.cells.size() == 1 ? other_separator(heading.cells.front().text) : "";
 }
 
 Result<double> number_from_text(std::string_view text) {

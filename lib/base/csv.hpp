@@ -67,6 +67,7 @@ class CsvReader {
 };
 
 /// What a heading says whose columns are not separated by commas, as the end of an error; empty where they are.
+std::string other_separator(std::string_view heading);
 std::string other_separator(const CsvRow& heading);
 
 /// A finite number with a decimal point, surrounding blanks allowed, whatever the locale. The error says what was

@@ -59,6 +59,13 @@ Result<int> round_of(const Json& object, int absent) {
   return static_cast<int>(round);
 }
 
+/// The number of a round, as a number or as text, or the name of a family.
+Result<std::string> model_of(const Json& object) {
+  const auto found = object.find("model");
+  if (found != object.end() && found->is_number_integer()) return found->dump();
+  return text_of(object, "model", true);
+}
+
 Result<pattern::Design> design_of(const Json& object, const char* name) {
   const Result<std::string> text = text_of(object, name, true);
   if (!text) return tl::unexpected(text.error());
@@ -161,7 +168,7 @@ Result<SimulationWish> wish_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
   const auto design = design_of(*object, "design");
-  const auto model = text_of(*object, "model", true);
+  const auto model = model_of(*object);
   if (!design) return tl::unexpected(design.error());
   if (!model) return tl::unexpected(model.error());
   if (!is_model_name(*model)) return fail("model: expected the number of a round or the name of a family");

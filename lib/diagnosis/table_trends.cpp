@@ -43,7 +43,9 @@ std::vector<std::string> read_heading(CsvReader& reader, const std::string& sour
 
 std::size_t position_of(const std::vector<std::string>& names, const std::string& name, const std::string& source) {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError::format("{}: line 1: has no column `{}`", source, name);
+  if (found == names.end())
+    throw InputError::format("{}: line 1: has no column `{}`, only `{}`{}", source, name, fmt::join(names, "`, `"),
+                             names.size() == 1 ? other_separator(names.front()) : "");
   return static_cast<std::size_t>(found - names.begin());
 }
 

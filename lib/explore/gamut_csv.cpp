@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 
@@ -65,7 +66,9 @@ Columns columns_of(std::string_view header, std::string_view source) {
       if (found) throw InputError::format("{}: line 1, column {}: a second column {}", source, i + 1, name);
       found = i;
     }
-    if (!found) throw InputError::format("{}: line 1: no column {}, expected {}", source, name, kHeader);
+    if (!found)
+      throw InputError::format("{}: line 1: no column {}, expected {}{}", source, name, kHeader,
+                               other_separator(header));
     return *found;
   };
   return {names.size(), position("pattern"), position("modulus_pa"), position("toughness_pa")};

@@ -84,6 +84,9 @@ std::optional<double> modulus_of(const SpecimenRecord& specimen);
 /// Toughness of a specimen: the given value, else the area under its curve; nothing when it has neither.
 std::optional<double> toughness_of(const SpecimenRecord& specimen);
 
+inline constexpr std::string_view kTensileIsHomogeneous =
+    "a tensile coupon is homogeneous, expected rigid, soft, interface or mix:F";
+
 /// What a specimen lacks to say anything of what its test tests: a value of that kind or a curve that gives one; a
 /// tensile coupon is homogeneous. Its column and what was expected. Line 0.
 std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen);

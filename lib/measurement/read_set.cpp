@@ -26,6 +26,16 @@ std::string unknown_column(const std::string& table, const CsvCell& cell, const 
   return fmt::format("{}:{}:{}: unknown column `{}` is kept but not used{}", table, cell.line, cell.column, name, hint);
 }
 
+/// The name under which an unknown column is kept: a second `x` is `x~2`, for both hold something.
+std::string name_of_its_own(const Heading& heading, const std::string& name) {
+  const auto is_taken = [&](const std::string& wanted) {
+    return std::ranges::any_of(heading.others, [&](const auto& other) { return other.second == wanted; });
+  };
+  std::string kept = name;
+  for (int number = 2; is_taken(kept); ++number) kept = fmt::format("{}~{}", name, number);
+  return kept;
+}
+
 Heading read_heading(const CsvRow& row, const std::string& table, std::vector<std::string>& warnings) {
   if (!row.fault.empty()) throw InputError::format("{}:{}:{}: {}", table, row.fault_line, row.fault_column, row.fault);
   Heading heading;
@@ -35,19 +45,17 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
     const std::string name(trimmed(row.cells[i].text));
     if (name.empty()) continue;
     const auto known = std::find(kColumns.begin(), kColumns.end(), name);
-    const auto same = [&](const auto& other) { return other.second == name; };
-    std::size_t* position =
-        known == kColumns.end() ? nullptr : &heading.position[std::size_t(known - kColumns.begin())];
-    if (position ? *position != kAbsent : std::any_of(heading.others.begin(), heading.others.end(), same)) {
-      throw InputError::format("{}:{}: column `{}` stands twice, expected once", table, row.line, name);
+    if (known != kColumns.end()) {
+      std::size_t& position = heading.position[std::size_t(known - kColumns.begin())];
+      if (position != kAbsent)
+        throw InputError::format("{}:{}: column `{}` stands twice, expected once", table, row.line, name);
+      position = i;
+      continue;
     }
-    if (position) {
-      *position = i;
-    } else {
-      heading.others.emplace_back(i, name);
-      if (std::find(kHistoryColumns.begin(), kHistoryColumns.end(), name) == kHistoryColumns.end())
-        warnings.push_back(unknown_column(table, row.cells[i], name));
-    }
+    const std::string kept = name_of_its_own(heading, name);
+    heading.others.emplace_back(i, kept);
+    if (std::find(kHistoryColumns.begin(), kHistoryColumns.end(), kept) == kHistoryColumns.end())
+      warnings.push_back(unknown_column(table, row.cells[i], kept));
   }
   return heading;
 }
@@ -108,7 +116,7 @@ std::vector<std::string> doubts_about(const SpecimenRecord& record) {
   const std::optional<double> modulus = modulus_of(record);
   if (const auto doubt = implausible_value(record)) {
     doubts.push_back(fmt::format("column {}: {}", doubt->column, doubt->reason));
-  } else if (modulus && *modulus > kUsualModulusPa.most) {
+  } else if (record.test == tester::TestKind::modulus && modulus && *modulus > kUsualModulusPa.most) {
     doubts.push_back(fmt::format("column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", *modulus));
   }
   collect_curve_doubts(record, doubts);

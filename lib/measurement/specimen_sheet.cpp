@@ -11,6 +11,7 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "base/names.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
@@ -65,11 +66,17 @@ class SheetReader {
   }
 
  private:
+  /// Empty lines, and the line in which a spreadsheet names its separator: `sep=;`.
+  static bool is_before_heading(std::string_view line) {
+    const std::string_view bare = trimmed(line);
+    return bare.empty() || (bare.starts_with("sep=") && bare.size() <= 5);
+  }
+
   /// Cuts the text into rows, the heading first, with the delimiter that gives the heading the most names.
   void cut() {
     for (const char delimiter : {'\t', ';', ','}) {
       std::vector<TextRow> rows = rows_of(text_, delimiter);
-      while (!rows.empty() && trimmed(rows.front().text).empty()) rows.erase(rows.begin());
+      while (!rows.empty() && is_before_heading(rows.front().text)) rows.erase(rows.begin());
       if (rows.empty()) throw InputError::format("{}: is empty, expected a heading and rows", file_);
       std::vector<std::string> names = cells_of(rows.front().text, delimiter);
       if (names.size() <= heading_.size()) continue;
@@ -211,6 +218,8 @@ class SheetReader {
     if (row.record.specimen.empty()) reject("specimen", "is empty, expected a unique name");
     if (row.record.specimen.size() > kLongestName)
       reject("specimen", fmt::format("has {} bytes, expected at most {}", row.record.specimen.size(), kLongestName));
+    if (std::ranges::any_of(row.record.specimen, is_control))
+      reject("specimen", "holds a control character, expected a name that fits on a label");
     if (row.file.empty()) reject("file", "is empty, expected the name of the testing machine's export");
     if (!names_.insert(row.record.specimen).second)
       reject("specimen", fmt::format("`{}` stands twice, expected a unique name", row.record.specimen));
@@ -260,6 +269,8 @@ class SheetReader {
     if (!valid.empty() && valid != "1" && valid != "true" && record.valid)
       reject("valid", fmt::format("`{}`, expected 0, 1, true or false", text("valid")));
     record.note = text("note");
+    if (record.valid && record.test == tester::TestKind::tensile && !record.design.mixture())
+      reject("pattern", fmt::format("`{}`: {}", text("pattern"), kTensileIsHomogeneous));
     row.columns = {text("extension_column"), text("force_column")};
     for (const std::string& name : heading_) {
       if (name.empty() || contains(kRequired, name) || contains(kOptional, name) || contains(kWorkedOut, name))

@@ -201,7 +201,7 @@ std::string_view expected_names(Quantity quantity) {
 
 std::string_view expected_units(Quantity quantity) {
   constexpr std::array<std::string_view, 3> kNames = {"s, ms, min, h", "mm, cm, m, um, in, mil, ft",
-                                                      "N, kN, mN, lbf, kip, kgf, gf"};
+                                                      "N, kN, mN, MN, daN, lbf, kip, kgf, gf"};
   return kNames[static_cast<std::size_t>(quantity)];
 }
 

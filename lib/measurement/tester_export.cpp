@@ -108,9 +108,12 @@ class ExportReader {
     }
     const bool is_empty = std::all_of(lines_.begin(), lines_.end(), [](auto line) { return trimmed(line).empty(); });
     return {file_, 0, "",
-            is_empty ? "is empty, expected a table of time, extension and force"
-                     : fmt::format("no heading with extension and force, expected names such as {}, and {}",
-                                   expected_names(Quantity::extension), expected_names(Quantity::force))};
+            is_empty
+                ? "is empty, expected a table of time, extension and force"
+                : fmt::format("no heading with extension and force, expected names such as {}, and {}, separated by "
+                              "commas, semicolons, tabs or bars; stress and strain go into a measurement set as a "
+                              "curve, strain,stress_pa",
+                              expected_names(Quantity::extension), expected_names(Quantity::force))};
   }
 
   /// A factor for each column from the heading or the row of units below it; true when that row was there.

@@ -52,8 +52,10 @@ Result<Design> design_from_name(std::string_view name) {
   if (layout) return Design(*layout);
   const bool resembles_key = name.size() == 14 || (name.size() == 101 && name[0] == 'L');
   if (resembles_key) return tl::unexpected(layout.error());
-  return fail("design \"{}\": expected a key (14 hex digits, or L and 100 of them), soft, interface, rigid or mix:F",
-              name);
+  return fail(
+      "design \"{}\": expected a key (14 hex digits, or L and 100 of them), soft, interface, rigid or mix:F, or on a "
+      "command line a coupon, checkerboard:P or laminate:x|y:R:S",
+      name);
 }
 
 Result<Design> design_from_word(std::string_view word) {

@@ -210,7 +210,7 @@ void add_approve(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ApproveOptions>();
   CLI::App& command = add_command(app, action, "approve",
                                   "Say yes or no to proposed designs; without designs: list them", options, approve);
-  command.add_option("DESIGN", options->designs, "Pattern file or key of a proposed design");
+  command.add_option("DESIGN", options->designs, std::string("Proposed design; with --add any. ") + kDesignWords);
   add_run_option(command, options->run);
   command.add_flag("--all", options->all, "All designs of the newest proposal");
   command.add_flag("--add", options->add, "Have designs measured that nobody proposed");

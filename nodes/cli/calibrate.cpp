@@ -209,6 +209,9 @@ int calibrate(const Options& options) {
       sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
   if (!options.begin_at.empty()) {
     settings.begin_at = fidelity_from_option(options.begin_at);
+    if (*settings.begin_at >= settings.fidelity)
+      throw InputError::format("--begin-at {}: expected a cheaper fidelity than {}", options.begin_at,
+                               options.fidelity);
     settings.begin_at_floor =
         sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), *settings.begin_at);
   }

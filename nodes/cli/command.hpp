@@ -46,6 +46,10 @@ inline CLI::Option* add_fidelity(CLI::App& command, std::string& fidelity, const
           otherwise);
 }
 
+/// What may stand for a design on the command line (docs/FORMATS.md).
+inline constexpr const char* kDesignWords =
+    "Pattern file, key, soft, interface, rigid, mix:F, checkerboard:P, laminate:x|y:R:S";
+
 /// `--ranges`, where something is fitted.
 inline CLI::Option* add_ranges(CLI::App& command, std::string& file, const std::string& otherwise = "the thesis'") {
   return command.add_option("--ranges", file,

@@ -221,8 +221,7 @@ void add_fabricate(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = add_command(
       app, action, "fabricate", "Make print files: droplet-exact slices, build sheet, preview", options, fabricate_job);
-  command.add_option("DESIGN", options->designs,
-                     "Pattern file, key, soft, interface, rigid, mix:F, checkerboard:P, laminate:x|y:R:S");
+  command.add_option("DESIGN", options->designs, kDesignWords);
   command.add_option("--out", options->out, "Folder of the job")->required();
   command
       .add_option("--test", options->test,

@@ -7,7 +7,6 @@
 #include "film/film_file.hpp"
 #include "film_files.hpp"
 #include "output.hpp"
-#include "output_path.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -20,7 +19,7 @@ struct Options {
 
 int draw(const Options& options) {
   const film::Film film = film::read_film(options.film);
-  is_gif(options.out) ? prepare_output_file(options.out) : prepare_output_folder(options.out);
+  prepare_film_output(options.out);
   draw_film(film, options.out, std::filesystem::path(options.film).stem().string(), options.width);
   return 0;
 }

@@ -133,6 +133,7 @@ Delivery send(const RunAccess& run, const HeldMeasurements& held_before, const m
     ++(!missing.empty() ? delivery.unanswered : repeated.count(hash) > 0 ? delivery.repeated : delivery.accepted);
     delivery.unanswered_by.merge(missing);
   }
+  std::ranges::stable_sort(delivery.rejected, {}, &measurement::RejectedRow::line);
   return delivery;
 }
 

@@ -54,7 +54,7 @@ void add_measure(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command =
       add_command(app, action, "measure", "Measure patterns in the virtual laboratory", options, measure);
-  command.add_option("PATTERN", options->patterns, "Pattern file, key, soft, interface, rigid or mix:F")->required();
+  command.add_option("PATTERN", options->patterns, kDesignWords)->required();
   command.add_option("--lab", options->laboratory, "LAB.toml (docs/FORMATS.md)")->required();
   command.add_option("--out", options->out, "Folder of the measurement set; the sealed truth goes beside it")
       ->required();

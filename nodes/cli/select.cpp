@@ -2,6 +2,7 @@
 
 #include "select/select.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct Options {
 
 /// What is measured already: patterns, and the homogeneous line l1 as a game draws it.
 struct Measured {
-  std::vector<pattern::Pattern> patterns;
+  std::vector<pattern::Pattern> patterns;  ///< sorted
   std::vector<optimize::Performance> benchmark;
 };
 
@@ -40,6 +41,14 @@ Measured read_measured(const std::string& folder) {
   measured.patterns.assign(patterns.begin(), patterns.end());
   measured.benchmark = game::benchmark_line(set.specimens);
   return measured;
+}
+
+std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const Measured& measured) {
+  if (gamut.empty()) return "nothing to select: the gamut holds no sample";
+  if (std::ranges::all_of(
+          gamut, [&](const auto& each) { return std::ranges::binary_search(measured.patterns, each.pattern); }))
+    return "nothing to select: every sample of the gamut was measured already";
+  return "nothing to select: no sample of the gamut lies above the benchmark lines";
 }
 
 int select_samples(const Options& options) {
@@ -63,7 +72,7 @@ int select_samples(const Options& options) {
   if (!selected.empty() && selected.size() < static_cast<std::size_t>(options.count))
     remark(fmt::format("{} of {} designs: no other sample of the gamut is worth a measurement", selected.size(),
                        options.count));
-  if (selected.empty()) remark("nothing to select: no sample of the gamut lies above the benchmark lines");
+  if (selected.empty()) remark(why_nothing(gamut, measured));
   return selected.empty() ? 1 : 0;
 }
 

@@ -209,11 +209,10 @@ void check_output_options(const Options& options) {
   if (!options.curves.empty()) prepare_output_folder(options.curves);
   if (!options.frames.empty()) prepare_output_folder(options.frames);
   if (options.film.empty()) return;
-  if (!is_gif(options.film)) return prepare_output_folder(options.film);
-  if (options.patterns.size() > 1)
+  if (is_gif(options.film) && options.patterns.size() > 1)
     throw InputError::format("--film {}: a GIF shows one specimen, not {}; name a folder for pictures of all",
                              options.film, options.patterns.size());
-  prepare_output_file(options.film);
+  prepare_film_output(options.film);
 }
 
 int simulate(const Options& options) {
@@ -238,7 +237,7 @@ void add_simulate(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command =
       add_command(app, action, "simulate", "Simulate patterns in the two virtual testers", options, simulate);
-  command.add_option("PATTERN", options->patterns, "Pattern file, key, soft, interface, rigid or mix:F")->required();
+  command.add_option("PATTERN", options->patterns, kDesignWords)->required();
   command.add_option("--params", options->params, "Parameter file; default: the built-in parameters");
   command.add_option("--test", options->test, "Which test")
       ->check(CLI::IsMember({"modulus", "toughness", "both"}))

@@ -82,6 +82,7 @@ TEST(Entries, ADecisionNamesADesignAndARound) {
 
 TEST(Entries, AWishNamesAModel) {
   EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":"2"})"));
+  EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":2})"));
   EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":"family-1"})"));
   EXPECT_FALSE(wish_from_json(R"({"design":"577fffe9fffdef","model":"../family-1"})"));
   EXPECT_FALSE(wish_from_json(R"({"design":"577fffe9fffdef"})"));

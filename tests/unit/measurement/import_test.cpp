@@ -389,6 +389,28 @@ TEST_F(ImportedSet, WhatTheSetWorksOutItselfIsNotTakenFromTheSheet) {
   EXPECT_THAT(sheet.warnings[3], HasSubstr("`colour` is kept but not used"));
 }
 
+TEST_F(ImportedSet, ALineThatNamesTheSeparatorIsPassedOver) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import sheet = import(
+      "sep=;\nfile;specimen;pattern;width_mm;thickness_mm;gauge_mm;part\n"
+      "a.csv;A1;rigid;52;3.2;54;\na.csv;A2;rigid;52;3.2;54;1.5\n");
+  EXPECT_EQ(sheet.specimens.size(), 1U);
+  ASSERT_EQ(sheet.rejected.size(), 1U);
+  EXPECT_EQ(sheet.rejected[0].line, 4);
+}
+
+TEST_F(ImportedSet, WhatTheSetWouldRefuseIsRejectedWithTheSheet) {
+  fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
+  const Import sheet = import(
+      "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,test,valid\n"
+      "a.csv,A1,577fffe9fffdef,13,3.2,50,tensile,\na.csv,A2,577fffe9fffdef,13,3.2,50,tensile,0\n"
+      "a.csv,A\a3,rigid,52,3.2,54,,\n");
+  EXPECT_EQ(sheet.specimens.size(), 1U) << "what failed need not have said anything";
+  ASSERT_EQ(sheet.rejected.size(), 2U);
+  EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("a tensile coupon is homogeneous"));
+  EXPECT_THAT(sheet.rejected[1].reason, HasSubstr("control character"));
+}
+
 TEST_F(ImportedSet, PartAndPrintOrderAreIntegers) {
   fs::copy_file(kExports / "clean/plain.csv", folder_ / "a.csv");
   const Import sheet = import(

@@ -159,6 +159,13 @@ TEST_F(SetOnDisk, UnknownColumnsAreWarnedAboutAndKept) {
   EXPECT_EQ(read_measurement_set(folder_ / "copy").specimens, set.specimens);
 }
 
+TEST_F(SetOnDisk, UnknownColumnsOfOneNameAreBothKept) {
+  const MeasurementSet set = read("specimen,pattern,test,modulus_pa,x,x\nS1,rigid,modulus,2e9,left,right\n");
+  ASSERT_EQ(set.warnings.size(), 2u);
+  EXPECT_EQ(set.specimens[0].other_columns.at("x"), "left");
+  EXPECT_EQ(set.specimens[0].other_columns.at("x~2"), "right");
+}
+
 TEST_F(SetOnDisk, OneBadRowDoesNotLoseTheOthers) {
   const MeasurementSet set = read(std::string(kShort) +
                                   "S1,rigid,modulus,2e9\n"
@@ -242,6 +249,16 @@ TEST_F(SetOnDisk, ValuesOfAnotherUnitAreWarnedAbout) {
   EXPECT_EQ(plausible.rejected[0].column, "modulus_pa");
   EXPECT_EQ(rejected("specimen,pattern,test,modulus_pa,toughness_pa", "S,rigid,toughness,,1.65e11").column,
             "toughness_pa");
+}
+
+TEST_F(SetOnDisk, AValueThatIsNotUsedCostsNoRow) {
+  read("specimen,pattern,test,modulus_pa,toughness_pa\nS1,rigid,modulus,2e9,5\nS2,rigid,toughness,3,1e5\n");
+  const MeasurementSet set = read_plausible_set(folder_);
+  EXPECT_EQ(set.specimens.size(), 2u);
+  EXPECT_TRUE(set.rejected.empty());
+  ASSERT_EQ(set.warnings.size(), 2u);
+  EXPECT_THAT(set.warnings[0], HasSubstr("toughness_pa: is not used in a modulus test"));
+  EXPECT_THAT(set.warnings[1], HasSubstr("modulus_pa: is not used in a toughness test"));
 }
 
 TEST_F(SetOnDisk, IdenticalRepeatIsIgnoredAndADifferentOneIsAnError) {
