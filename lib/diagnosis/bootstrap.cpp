@@ -214,6 +214,18 @@ double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatis
   return exceedance(least, -least_observed);
 }
 
+std::size_t loudest_part(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed) {
+  std::size_t loudest = 0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < observed.parts.size(); ++k) {
+    double sum = 0.0;
+    for (const DrawStatistics& draw : draws) sum += draw.parts[k];
+    const double times = sum > 0.0 ? observed.parts[k] * static_cast<double>(draws.size()) / sum : 0.0;
+    if (times > most) most = times, loudest = k;
+  }
+  return loudest;
+}
+
 SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener) {
   const Projector projector(anchor, whitener);
   return {projector.whitened(change).norm(), projector.projected(change).norm()};

@@ -97,6 +97,9 @@ double threshold(std::vector<double> draws, double level);
 /// must not hide what another one shows. Family-wise over whole and parts.
 double omnibus_chance(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed);
 
+/// The part of chi squared that is larger than draws have it, most times over: an index into DrawStatistics::parts.
+std::size_t loudest_part(const std::vector<DrawStatistics>& draws, const DrawStatistics& observed);
+
 /// Norm of a signature after whitening, and after projection off what the anchor's coordinates can imitate.
 struct SignatureSize {
   double whitened = 0.0;

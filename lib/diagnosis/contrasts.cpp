@@ -191,12 +191,16 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
   }
   for (int i = 0; i < observations.size(); ++i) {
     const Row& row = observations.rows[static_cast<std::size_t>(i)];
-    if (row.probe == Probe::mean) continue;
+    if (row.probe == Probe::mean || row.probe == Probe::batch_rest) continue;
     directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),
                                       row.probe == Probe::batch ? "one batch" : "one specimen printed"),
                           {row.feature, row.test, ""},
                           Eigen::VectorXd::Unit(observations.size(), i)});
   }
+  for (const BatchOffset& offset : observations.batch_offsets)
+    directions.push_back({fmt::format("{} of batch \"{}\"", in_words(offset.feature), offset.batch),
+                          {offset.feature, offset.test, ""},
+                          offset.rows.normalized()});
   return directions;
 }
 

@@ -65,11 +65,27 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
       break;
   }
   std::string text = fmt::format("Something is wrong, and no cause can be named: {}.", decision.reason);
-  if (!d.contrasts.empty()) {
+  if (lines_up(d)) {
     text += fmt::format(" The residuals line up most with: {} ({:.1f} standard deviations).", d.contrasts.front().name,
                         d.contrasts.front().statistic);
+  } else {
+    text +=
+        fmt::format(" The residuals line up with nothing that was looked for; the largest are those of {}.", d.loudest);
   }
   return text;
+}
+
+/// Of which specimens the rows are that scatter together.
+std::string specimens_in_words(const Observations& observations, std::size_t scatter) {
+  const auto row = std::ranges::find_if(observations.rows,
+                                        [&](const Row& each) { return each.group >= 0 && each.scatter == scatter; });
+  if (row == observations.rows.end()) return "";
+  if (row->test == tester::TestKind::modulus) return "moduli";
+  if (row->test == tester::TestKind::toughness) return "notched specimens";
+  constexpr std::size_t kTests = 3;  // behind them coupons of one material each
+  return scatter < kTests
+             ? "coupons"
+             : fmt::format("{} coupons", observations.groups[static_cast<std::size_t>(row->group)].material());
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
@@ -186,6 +202,7 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.p_misfit = decision.p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
+  diagnosis.loudest = specimens_in_words(observations, decision.loudest_scatter);
   const auto [feature, test] = shown_scatter(observations);
   diagnosis.replicate_sd = observations.replicate_sd(feature, test);
   diagnosis.noise_known = observations.replicate_dof(test) > 0;
@@ -203,14 +220,15 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
                                   const Observations& observations, const std::vector<std::string>& at_an_end,
                                   const std::vector<std::string>& out_of_line) {
   std::string text = summary_of(diagnosis, decision);
-  if (diagnosis.verdict != Verdict::base_sufficient && !out_of_line.empty()) {
+  if (!out_of_line.empty()) {
     constexpr std::size_t kShown = 3;
     const std::vector<std::string> first(out_of_line.begin(),
                                          out_of_line.begin() + std::min(kShown, out_of_line.size()));
-    text += fmt::format(
-        " Caution: replicates do not agree ({}{}), and one wrong value looks like a cause that nobody knows: `nacre "
-        "review` shows which.",
-        fmt::join(first, ", "), out_of_line.size() > kShown ? ", ..." : "");
+    text +=
+        fmt::format(" Caution: replicates do not agree ({}{}), and one wrong value {}: `nacre review` shows which.",
+                    fmt::join(first, ", "), out_of_line.size() > kShown ? ", ..." : "",
+                    diagnosis.verdict == Verdict::base_sufficient ? "makes scatter so large that it hides what is off"
+                                                                  : "looks like a cause that nobody knows");
   }
   for (const SanityCheck& check : diagnosis.sanity) {
     // Elements are in the noise already, as the floor; the other choices ought not to matter at all.
@@ -242,6 +260,11 @@ std::string summary_with_cautions(const Diagnosis& diagnosis, const Decision& de
 }
 
 }  // namespace
+
+bool lines_up(const Diagnosis& diagnosis) {
+  constexpr double kLevel = 0.05;
+  return !diagnosis.contrasts.empty() && diagnosis.contrasts.front().p_family_wise <= kLevel;
+}
 
 std::string_view to_string(Verdict verdict) {
   switch (verdict) {

@@ -170,6 +170,7 @@ struct Diagnosis {
                               ///< "measurement side"; empty: nothing
   std::vector<Candidate> candidates;  ///< in the order of the library
   std::vector<Contrast> contrasts;    ///< strongest first
+  std::string loudest;                ///< specimens whose residuals are largest against their noise: "soft coupons"
   std::optional<Gain> gain;           ///< of the named model
   std::optional<Gain> partial_gain;   ///< of what comes nearest, when unexplained
   std::vector<NextExperiment> next_experiments;
@@ -218,6 +219,9 @@ class TooFewSpecimens : public InputError {
 /// fewer than eight groups of layouts have a valid test and fewer than four coupons, that differ in material, rate or
 /// thickness (replicates count once), a curve; InputError when there are too few bootstraps for the level of a name.
 Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings);
+
+/// Whether what the base leaves lines up with its strongest contrast beyond chance.
+bool lines_up(const Diagnosis& diagnosis);
 
 /// What is said where nothing can be computed: `ambiguous`, nothing claimed, and why.
 Diagnosis undecided(const std::string& why);

@@ -43,6 +43,27 @@ Fit fit_single(const Evidence& evidence, std::size_t effect) {
       best_start(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
 }
 
+/// First constants, with the size at which the effect promises most there.
+Eigen::VectorXd promising_start(const Evidence& evidence, const Fit& fit) {
+  const Eigen::VectorXd first = at_first_constants(evidence, fit.u);
+  const Eigen::Index own = evidence.base.fit.u.size();
+  const CoordinateMap map = evidence.model.map(fit.effects);
+  const Whitener whitener(evidence.observations.covariance());
+  std::vector<Eigen::VectorXd> starts;
+  for (const double size : {0.3, 0.6, 0.9}) {
+    starts.push_back(first);
+    starts.back()[own] = size;
+  }
+  const Eigen::MatrixXd predicted = evidence.model.predict(map, starts);
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const double chi2 = whitener.chi2(evidence.observations.values - predicted.col(static_cast<Eigen::Index>(i)));
+    if (chi2 < least) least = chi2, best = i;
+  }
+  return starts[best];
+}
+
 /// The base gets the start that the best extended fit ended with: a gain must not be better optimisation. Where that
 /// helps it, every effect begins once more from there.
 void begin_base_again(Evidence& evidence) {
@@ -174,9 +195,14 @@ Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) 
 }
 
 Fit begun_again(const Evidence& evidence, Fit fit) {
-  constexpr double kMuch = 60.0;
-  if (evidence.base.fit.chi2 - fit.chi2 < kMuch) return fit;
-  Fit again = fit_model(evidence.model, evidence.observations, fit.effects, at_first_constants(evidence, fit.u));
+  constexpr double kMuch = 60.0, kNothing = 0.01;
+  const Eigen::Index own = evidence.base.fit.u.size();
+  const bool found_much = evidence.base.fit.chi2 - fit.chi2 >= kMuch;
+  const bool found_nothing = fit.effects.size() == 1 && std::abs(fit.u[own]) < kNothing &&
+                             evidence.base.fit.chi2 > evidence.observations.size() + kMuch;
+  if (!found_much && !found_nothing) return fit;
+  Fit again = fit_model(evidence.model, evidence.observations, fit.effects,
+                        found_much ? at_first_constants(evidence, fit.u) : promising_start(evidence, fit));
   return better_of(std::move(fit), std::move(again));
 }
 

@@ -1,45 +1,45 @@
 #include "diagnosis/history_rows.hpp"
 
+#include <Eigen/Dense>
 #include <map>
+#include <optional>
 
 namespace nacre::diagnosis {
 namespace {
 
 constexpr int kFewest = 6;
 
-/// Deviations of a feature and of a regressor from the means of their groups.
-struct Regression {
-  double squares = 0.0, products = 0.0;
-  int count = 0;
-};
-
 /// One number per specimen, or none where it is not known.
 using Regressor = std::vector<std::optional<double>>;
 
-/// Sum over groups of (x - mean x)(y - mean y).
-Regression regress(const std::vector<Deviation>& deviations, const Regressor& x, Feature feature) {
+/// A regressor and a feature over the specimens that have both, less their means over each group.
+struct Centred {
+  Eigen::VectorXd x, y;
+};
+
+Centred centred(const std::vector<Deviation>& deviations, const Regressor& regressor, Feature feature) {
   struct Sums {
     double x = 0.0, y = 0.0;
     int count = 0;
   };
   std::map<int, Sums> groups;
+  std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const auto& y = value_of(deviations[i].from_mean, feature);
-    if (!y || !x[i]) continue;
+    if (!y || !regressor[i]) continue;
     Sums& sums = groups[deviations[i].group];
-    sums.x += *x[i], sums.y += *y, ++sums.count;
+    sums.x += *regressor[i], sums.y += *y, ++sums.count;
+    shown.push_back(i);
   }
-  Regression sum;
-  for (std::size_t i = 0; i < deviations.size(); ++i) {
-    const auto& y = value_of(deviations[i].from_mean, feature);
-    if (!y || !x[i]) continue;
+  const auto count = static_cast<Eigen::Index>(shown.size());
+  Centred both{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::size_t i = shown[static_cast<std::size_t>(k)];
     const Sums& sums = groups[deviations[i].group];
-    const double from_mean = *x[i] - sums.x / sums.count;
-    sum.squares += from_mean * from_mean;
-    sum.products += from_mean * (*y - sums.y / sums.count);
-    ++sum.count;
+    both.x[k] = *regressor[i] - sums.x / sums.count;
+    both.y[k] = *value_of(deviations[i].from_mean, feature) - sums.y / sums.count;
   }
-  return sum;
+  return both;
 }
 
 /// Print order less its mean over the specimen's batch, which makes it nearly independent of the number of the batch;
@@ -59,21 +59,71 @@ Regressor order_in_batch(const std::vector<Deviation>& deviations) {
   return order;
 }
 
+/// Batches by their number.
+std::map<double, std::string> batches_of(const std::vector<Deviation>& deviations) {
+  std::map<double, std::string> batches;
+  for (const Deviation& d : deviations) batches.emplace(d.measured->batch_step, d.measured->specimen->batch);
+  return batches;
+}
+
+/// 1 for the specimens of one batch.
+Regressor membership(const std::vector<Deviation>& deviations, double batch_step) {
+  Regressor members;
+  for (const Deviation& d : deviations) members.emplace_back(d.measured->batch_step == batch_step ? 1.0 : 0.0);
+  return members;
+}
+
+/// The slope over batches, and what single batches differ by beside it.
+void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>& deviations, Feature feature,
+                    tester::TestKind test) {
+  constexpr double kLeast = 1e-6;
+  Regressor number;
+  for (const Deviation& d : deviations) number.emplace_back(d.measured->batch_step);
+  const auto [steps, values] = centred(deviations, number, feature);
+  if (values.size() < kFewest || steps.squaredNorm() < kLeast) return;
+  std::map<std::string, Eigen::VectorXd> members;
+  std::vector<Eigen::VectorXd> regressors{steps};
+  std::vector<int> numbers{0};
+  for (const auto& [step, batch] : batches_of(deviations)) {
+    const Eigen::VectorXd own = centred(deviations, membership(deviations, step), feature).x;
+    Eigen::VectorXd rest = own;
+    for (const Eigen::VectorXd& before : regressors) rest -= before.dot(rest) / before.squaredNorm() * before;
+    if (rest.squaredNorm() > kLeast * static_cast<double>(rest.size())) {
+      regressors.push_back(rest);
+      numbers.push_back(static_cast<int>(members.size()) + 1);
+    }
+    members.emplace(batch, own);
+  }
+  for (std::size_t k = 0; k < regressors.size(); ++k) {
+    const Eigen::VectorXd& x = regressors[k];
+    const double squares = x.squaredNorm();
+    HistoryRow history{Row{.group = -1,
+                           .feature = feature,
+                           .probe = k == 0 ? Probe::batch : Probe::batch_rest,
+                           .test = test,
+                           .weight = 1.0 / squares,
+                           .scatter = 0,
+                           .batch = numbers[k]},
+                       x.dot(values) / squares,
+                       {}};
+    for (const auto& [batch, own] : members) history.of_batches[batch] = x.dot(own) / squares;
+    rows.push_back(std::move(history));
+  }
+}
+
 }  // namespace
 
 std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups) {
   std::vector<HistoryRow> rows;
   for (const auto test : {tester::TestKind::modulus, tester::TestKind::toughness, tester::TestKind::tensile}) {
     const std::vector<Deviation> deviations = deviations_of(groups, test);
-    Regressor batch;
-    for (const Deviation& d : deviations) batch.emplace_back(d.measured->batch_step);
     const Regressor order = order_in_batch(deviations);
     for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
-      for (const Probe probe : {Probe::batch, Probe::print_order}) {
-        const Regression sum = regress(deviations, probe == Probe::batch ? batch : order, feature);
-        if (sum.count < kFewest || sum.squares < 1e-6) continue;
-        rows.push_back({Row{-1, feature, probe, test, 1.0 / sum.squares}, sum.products / sum.squares});
-      }
+      add_batch_rows(rows, deviations, feature, test);
+      const auto [x, y] = centred(deviations, order, feature);
+      if (y.size() < kFewest || x.squaredNorm() < 1e-6) continue;
+      rows.push_back(
+          {Row{-1, feature, Probe::print_order, test, 1.0 / x.squaredNorm()}, x.dot(y) / x.squaredNorm(), {}});
     }
   }
   return rows;

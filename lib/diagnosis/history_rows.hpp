@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "diagnosis/scatter.hpp"
@@ -10,11 +12,13 @@ namespace nacre::diagnosis {
 struct HistoryRow {
   Row row;
   double value = 0.0;  ///< change of the feature per batch step, or per specimen printed within a batch
+  std::map<std::string, double> of_batches;  ///< value that one batch brings about, being off by 1; not of print order
 };
 
 /// Slopes of log E, log T and log peak stress over batches and over print order, by least squares on deviations from
-/// the groups' means: independent of those means, so that they add to what designs say. Only where replicates of one
-/// group differ in them.
+/// the groups' means: independent of those means, so that they add to what designs say. Then how far single batches lie
+/// off the slope, each freed of the slope and of the batches before it. Only where replicates of one group differ in
+/// them.
 std::vector<HistoryRow> history_rows(const std::vector<std::vector<Measured>>& groups);
 
 }  // namespace nacre::diagnosis

@@ -121,6 +121,7 @@ std::string to_json(const Diagnosis& d) {
                                  {"effects", array_of(d.effects)},
                                  {"candidates", array_of(d.candidates)},
                                  {"contrasts", array_of(d.contrasts)},
+                                 {"loudest", d.loudest},
                                  {"gain", d.gain ? json_of(*d.gain) : ordered_json(nullptr)},
                                  {"next_experiments", array_of(d.next_experiments)},
                                  {"p_misfit", d.p_misfit},

@@ -128,7 +128,8 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
   }
 }
 
-/// What the machine adds to a feature from one batch to the next; with the order inside a batch no effect goes.
+/// What the machine adds to a feature from one batch to the next; with single batches, and with the order inside a
+/// batch, no effect goes.
 void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   for (int i = 0; i < observations_.size(); ++i) {
     const Row& row = observations_.rows[static_cast<std::size_t>(i)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -120,6 +121,27 @@ Observation mean_of(const std::vector<Measured>& replicates) {
   return group;
 }
 
+/// Of every batch that may lie off a steady change; the rows of history are the last of `row_count`.
+std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, std::size_t row_count) {
+  std::map<std::tuple<tester::TestKind, Feature, std::string>, Eigen::VectorXd> by_batch;
+  std::set<std::pair<tester::TestKind, Feature>> with_rest;
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    const Row& row = history[k].row;
+    if (row.probe == Probe::batch_rest) with_rest.emplace(row.test, row.feature);
+    for (const auto& [batch, value] : history[k].of_batches) {
+      Eigen::VectorXd& rows = by_batch[{row.test, row.feature, batch}];
+      if (rows.size() == 0) rows = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(row_count));
+      rows[static_cast<Eigen::Index>(row_count - history.size() + k)] = value;
+    }
+  }
+  std::vector<BatchOffset> offsets;
+  for (const auto& [key, rows] : by_batch) {
+    const auto& [test, feature, batch] = key;
+    if (with_rest.contains({test, feature})) offsets.push_back({batch, feature, test, rows});
+  }
+  return offsets;
+}
+
 double rigid_position(const Observation& group) { return (group.design.rigid_fraction() - 0.675) / 0.1; }
 
 /// Correlations of one covariance, variances of another. Few replicates tell how much one material scatters, not how
@@ -182,7 +204,7 @@ RowCovariance Observations::row_covariance(int i, int j) const {
   RowCovariance covariance;
   if (a.test != b.test || a.probe != b.probe) return covariance;
   // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
-  if (a.group == b.group)
+  if (a.group == b.group && a.batch == b.batch)
     covariance.scatter =
         std::min(a.weight, b.weight) *
         scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
@@ -231,14 +253,17 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
   const std::vector<measurement::PrintContext> contexts = measurement::print_contexts(nominal);
   std::map<GroupKey, std::map<std::string, Measured>> by_group;
+  double last_batch_step = 0.0;
   for (const SpecimenRecord& specimen : nominal) {
     if (!belongs(specimen, homogeneous_moduli)) continue;
     const FeatureValues features = features_of(specimen);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
     const double step = contexts[static_cast<std::size_t>(&specimen - nominal.data())].batch_step;
     by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, step});
+    last_batch_step = std::max(last_batch_step, step);
   }
   Observations observations;
+  observations.last_batch_step = last_batch_step;
   observations.numerics_sd = modulus_numerics_sd;
   observations.fracture_numerics = fracture;
   std::vector<std::vector<Measured>> groups;
@@ -266,10 +291,12 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
       values.push_back(*group.features[f]);
     }
   }
-  for (const HistoryRow& history : history_rows(groups)) {
-    observations.rows.push_back(history.row);
-    values.push_back(history.value);
+  const std::vector<HistoryRow> history = history_rows(groups);
+  for (const HistoryRow& each : history) {
+    observations.rows.push_back(each.row);
+    values.push_back(each.value);
   }
+  observations.batch_offsets = batch_offsets(history, observations.rows.size());
   put_scatter(observations, groups);
   observations.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return observations;

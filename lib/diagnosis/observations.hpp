@@ -30,7 +30,8 @@ struct Observation {
 enum class Probe {
   mean,         ///< mean of a feature over a group's replicates
   batch,        ///< change of a feature per batch step between replicates of one group, over all groups
-  print_order,  ///< the same per specimen printed, inside batches
+  batch_rest,   ///< how far one batch lies off that change, again between replicates of one group
+  print_order,  ///< change per specimen printed, inside batches
 };
 
 /// One row of the data.
@@ -41,6 +42,15 @@ struct Row {
   tester::TestKind test = tester::TestKind::modulus;
   double weight = 1.0;      ///< variance of the row over that of a single specimen: 1/replicates of a mean
   std::size_t scatter = 0;  ///< how its replicates scatter: index in Observations::scatter
+  int batch = 0;            ///< with batch_rest: which batch, in the order of their numbers
+};
+
+/// What one batch, all of whose specimens have a feature larger by one, adds to the rows of history.
+struct BatchOffset {
+  std::string batch;
+  Feature feature = Feature::log_modulus;
+  tester::TestKind test = tester::TestKind::modulus;
+  Eigen::VectorXd rows;
 };
 
 /// Turns differences of features into uncorrelated ones of unit variance: multiplies by the inverse Cholesky factor of
@@ -106,6 +116,8 @@ struct Observations {
       numerics_shared;  ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
   Eigen::VectorXd emulator_variance;  ///< per row; empty: none
   int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
+  double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
+  std::vector<BatchOffset> batch_offsets;  ///< where a batch may lie off a steady change: of three and more
   int size() const { return static_cast<int>(rows.size()); }
   const Observation& group_of(int row) const {
     return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)];

@@ -124,6 +124,7 @@ Observation group_of(const PossibleTest& test, int replicates) {
   group.conditions = test.conditions;
   group.unloaded = test.test == TestKind::tensile;
   group.replicates = replicates;
+  group.batch_step = test.batch_step;
   return group;
 }
 
@@ -140,7 +141,11 @@ std::vector<PossibleTest> possible_tests(const Observations& observations) {
         std::ranges::any_of(observations.groups, [&](const Observation& g) { return answers(test, g); });
     const bool listed =
         std::ranges::any_of(left, [&](const PossibleTest& other) { return answers(test, group_of(other, 1)); });
-    if (!measured && !listed) left.push_back(std::move(test));
+    if (measured || listed) continue;
+    left.push_back(std::move(test));
+    if (observations.last_batch_step == 0.0) continue;
+    left.back().batch_step = observations.last_batch_step + 1.0;
+    left.back().words += ", in a new batch";
   }
   return left;
 }

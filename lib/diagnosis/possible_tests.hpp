@@ -17,7 +17,8 @@ struct PossibleTest {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
-  std::string words;  ///< "a twin printed turned by 90 degrees", ...
+  std::string words;        ///< "a twin printed turned by 90 degrees", ...
+  double batch_step = 0.0;  ///< of a batch to come; 0 where there is one batch
 };
 
 /// Whether replicates of the test would join the group (measurement::same_conditions): homogeneous coupons are to be
@@ -30,8 +31,8 @@ Observation group_of(const PossibleTest& test, int replicates);
 /// Tests that a laboratory could add to these: turned twins of measured designs, other rates and half the thickness for
 /// the three most measured ones of each test, laminates and checkerboards of period 1, 2 and 5 both ways, homogeneous
 /// coupons pulled and unloaded as fast as is usual and at other rates: ten times that, and where measured rates lie a
-/// hundredfold apart the middle of the gap. What is measured already, at these conditions or within their tolerance, is
-/// left out.
+/// hundredfold apart the middle of the gap. Where there are batches they are printed in a new one. What is measured
+/// already, at these conditions or within their tolerance, is left out.
 std::vector<PossibleTest> possible_tests(const Observations& observations);
 
 /// A pull to 2 % strain, back to 0.5 % and on to 2.2 %: what homogeneous coupons are ordered with.

@@ -33,6 +33,7 @@ std::string procedure_text(const DiagnosisSettings& settings) {
   }
   for (int i = 0; i < kFeatureCount; ++i) text += fmt::format("feature {}\n", to_string(static_cast<Feature>(i)));
   for (const Descriptor& descriptor : descriptors()) text += fmt::format("contrast {}\n", descriptor.name);
+  text += "contrast of every batch\n";
   return text;
 }
 

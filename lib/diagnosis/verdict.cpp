@@ -8,6 +8,7 @@
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outsider.hpp"
+#include "material/effect_words.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -263,6 +264,15 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
   return decision;
 }
 
+/// Why an effect that leaves nothing is no name: it stands on a bound of its range.
+std::string at_the_end(const Fit& single) {
+  const material::Effect& effect = *material::find_effect(single.effects.front());
+  return fmt::format("{} comes nearest, with {:.3g}{} at the end of what is searched: one beyond it may be the cause",
+                     material::effect_in_words(effect.name),
+                     single.parameters.extensions.at(single.effects.front()).front(),
+                     material::unit_behind_number(effect.parameters.front().unit));
+}
+
 std::size_t best_single(const Evidence& evidence) {
   const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
                                      [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
@@ -292,6 +302,7 @@ Decision decide(Evidence& evidence) {
   const double omnibus = omnibus_chance(evidence.base_draws, evidence.base_statistics);
   const double contrast = decision.contrasts.empty() ? 1.0 : decision.contrasts.front().p_family_wise;
   decision.p_misfit = std::min(1.0, 2.0 * std::min(omnibus, contrast));
+  decision.loudest_scatter = loudest_part(evidence.base_draws, evidence.base_statistics);
   for (const Fit& single : evidence.singles) {
     decision.p_family_wise.push_back(exceedance(largest_drops, evidence.base.fit.chi2 - single.chi2));
     decision.p_fit.push_back(1.0);
@@ -310,6 +321,9 @@ Decision decide(Evidence& evidence) {
   report(0.8, "testing what each effect leaves");
   const std::size_t best = best_single(evidence);
   decision.p_fit = chances_of_misfit(evidence, best);
+  // A second effect would only make up for the end of the first one's range.
+  if (decision.p_fit[best] >= evidence.settings.unexplained_level && evidence.singles[best].extension_on_bound)
+    return unexplained(std::move(decision), {evidence.singles[best]}, at_the_end(evidence.singles[best]));
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
     std::vector<Fit> possible = confidence_set(evidence, evidence.singles, decision.p_fit);

@@ -43,6 +43,7 @@ struct Decision {
   double p_outside = 1.0;  ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1
                            ///< when not tested
   std::vector<Contrast> contrasts;  ///< of the base model's residuals, strongest first
+  std::size_t loudest_scatter = 0;  ///< of the rows that the base is farthest off from (Row::scatter)
   std::string reason;               ///< the step that decided, in words
 };
 
@@ -71,8 +72,8 @@ Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& 
 Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u);
 
 /// A model that explains much of the base's misfit is fitted once more from the constants where the search for the base
-/// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. The better
-/// of both.
+/// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. So is one
+/// effect that found nothing where the base is far off. The better of both.
 Fit begun_again(const Evidence& evidence, Fit fit);
 
 /// Rows with what finer elements change at this model, in place of what they change at the base and all its rivals.

@@ -57,7 +57,11 @@ std::string where_section(const Diagnosis& d) {
     content += paragraph(
         "What is left between measurement and simulation is of the size of scatter and numerics, and lines up with "
         "nothing.");
-  } else if (!d.contrasts.empty()) {
+  } else if (!diagnosis::lines_up(d)) {
+    content += paragraph(
+        fmt::format("What is left after the best fit of the base model lines up with nothing that was looked for{}{}.",
+                    d.loudest.empty() ? "" : "; the largest residuals are those of ", escaped(d.loudest)));
+  } else {
     const auto& c = d.contrasts.front();
     content += paragraph(
         fmt::format("What is left after the best fit of the base model lines up most with <strong>{}</strong>: {} "

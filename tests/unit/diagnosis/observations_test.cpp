@@ -297,6 +297,42 @@ TEST(Observations, BatchesThatDifferShowInARowOfTheirOwnAndNotInTheScatter) {
   EXPECT_LT(observations.replicate_sd(Feature::log_modulus, tester::TestKind::modulus), 1e-3);
 }
 
+TEST(Observations, ABatchThatLiesOffTheOthersShowsWhereASteadyChangeDoesNot) {
+  std::vector<measurement::SpecimenRecord> steady = in_batches(0.02), one_off = in_batches(0.0);
+  for (measurement::SpecimenRecord& specimen : one_off) {
+    if (specimen.batch != "batch 1") continue;
+    for (double& stress : specimen.curve.stress_pa) stress *= std::exp(0.1);
+    if (specimen.modulus_pa) *specimen.modulus_pa *= std::exp(0.1);
+  }
+  const auto rest_of = [](const std::vector<measurement::SpecimenRecord>& specimens) {
+    const Observations observations = observed(specimens);
+    double largest = 0.0;
+    for (int i = 0; i < observations.size(); ++i)
+      if (observations.rows[static_cast<std::size_t>(i)].probe == Probe::batch_rest)
+        largest = std::max(largest, std::abs(observations.values[i]));
+    return largest;
+  };
+  EXPECT_LT(rest_of(steady), 1e-9);
+  EXPECT_GT(rest_of(one_off), 0.01);
+  const Observations observations = observed(one_off);
+  const auto offset = std::ranges::find(observations.batch_offsets, "batch 1", &BatchOffset::batch);
+  ASSERT_NE(offset, observations.batch_offsets.end());
+  for (int i = 0; i < observations.size(); ++i) {
+    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    if (row.group < 0 && row.probe != Probe::print_order) {
+      EXPECT_NEAR(observations.values[i], 0.1 * offset->rows[i], 1e-9) << "what the batch is off by explains all";
+    }
+  }
+  const Eigen::MatrixXd covariance = observations.covariance();
+  for (int i = 0; i < observations.size(); ++i)
+    for (int j = 0; j < i; ++j)
+      if (observations.rows[static_cast<std::size_t>(i)].group < 0 &&
+          observations.rows[static_cast<std::size_t>(i)].feature ==
+              observations.rows[static_cast<std::size_t>(j)].feature) {
+        EXPECT_EQ(covariance(i, j), 0.0) << "rows of history are independent";
+      }
+}
+
 /// Ten designs of three replicates each, printed one after another, stiffer by `drift` from specimen to specimen.
 std::vector<measurement::SpecimenRecord> printed_in_turn(double drift) {
   std::vector<measurement::SpecimenRecord> specimens;
