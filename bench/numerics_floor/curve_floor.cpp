@@ -21,12 +21,6 @@ using diagnosis::Feature;
 constexpr std::size_t kLeastPairs = 4;  // of a parameter set, to say anything of it
 constexpr double kMiddleFraction = 0.675, kFractionUnit = 0.1;
 
-struct Options {
-  int layouts = 48, sets = 5;
-  std::string fidelity = "preview", gamut = "bench/numerics_floor/gamut.csv";
-  study::TableOptions table{.table = "curve_floor.csv"};
-};
-
 /// The features of a fracture test, in their order.
 std::vector<Feature> compared() {
   std::vector<Feature> features;
@@ -119,11 +113,8 @@ std::string text_of(const Eigen::MatrixXd& matrix) {
   return text + "]";
 }
 
-void run(const Options& options) {
-  const Plan plan{.fidelity = *tester::fidelity_from_string(options.fidelity),
-                  .seed = options.table.seed,
-                  .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
-                  .sets = floor_parameter_sets(options.sets, options.table.seed)};
+void run(const FloorOptions& options) {
+  const Plan plan = plan_of(options);
   std::vector<std::string> columns;
   for (const Feature feature : compared()) columns.emplace_back(to_string(feature));
   study::StudyTable table(options.table.table, columns);
@@ -143,13 +134,8 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Numerics floor of the features of a curve: elements of size h against h/2"};
-  Options options;
-  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")
-      ->check(CLI::Range(12, 1000));
-  app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
-  app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
-  study::add_fidelity_option(app, options.fidelity);
-  study::add_table_options(app, options.table, "layouts and parameter sets");
+  FloorOptions options{.table = {.table = "curve_floor.csv"}};
+  add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   return study::exit_status_of([&] { run(options); });
 }

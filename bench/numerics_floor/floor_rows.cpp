@@ -36,6 +36,22 @@ double drawn(const material::ParameterRange& range, RandomStream& random) {
 
 }  // namespace
 
+void add_options(CLI::App& app, FloorOptions& options) {
+  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")
+      ->check(CLI::Range(12, 1000));
+  app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
+  app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
+  study::add_fidelity_option(app, options.fidelity);
+  study::add_table_options(app, options.table, "layouts and parameter sets");
+}
+
+Plan plan_of(const FloorOptions& options) {
+  return {.fidelity = *tester::fidelity_from_string(options.fidelity),
+          .seed = options.table.seed,
+          .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
+          .sets = floor_parameter_sets(options.sets, options.table.seed)};
+}
+
 std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_file, std::uint64_t seed) {
   RandomStream random(seed, "numerics floor");
   const std::vector<pattern::Pattern> stratified = pattern::stratified_patterns(count / 2, random);

@@ -6,6 +6,7 @@
 
 #include "material/parameters.hpp"
 #include "pattern/layout.hpp"
+#include "study/study_command.hpp"
 #include "study/study_table.hpp"
 #include "tester/tester.hpp"
 
@@ -19,6 +20,15 @@ struct Plan {
   std::vector<material::ParameterSet> sets;  ///< the first is the default
   int sets_per_layout = 5;  ///< of a fracture test, in turn; every layout with all of them: as many as sets
 };
+
+/// What a program is told of its plan and its table.
+struct FloorOptions {
+  int layouts = 48, sets = 5;
+  std::string fidelity = "preview", gamut = "bench/numerics_floor/gamut.csv";
+  study::TableOptions table;
+};
+void add_options(CLI::App& app, FloorOptions& options);
+Plan plan_of(const FloorOptions& options);
 
 /// Half of the layouts random, stratified over 50-85 % rigid; half the best ones (by rank) of a gamut.
 std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_file, std::uint64_t seed);

@@ -15,18 +15,14 @@ namespace {
 using namespace nacre;
 using namespace nacre::numerics_floor;
 
-struct Options {
-  int layouts = 48, sets = 5, sets_per_layout = 5;
-  std::string fidelity = "preview", gamut = "bench/numerics_floor/gamut.csv", output;
-  study::TableOptions table{.table = "numerics_floor.csv"};
+struct Options : FloorOptions {
+  int sets_per_layout = 5;
+  std::string output;
 };
 
 void run(const Options& options) {
-  const Plan plan{.fidelity = *tester::fidelity_from_string(options.fidelity),
-                  .seed = options.table.seed,
-                  .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
-                  .sets = floor_parameter_sets(options.sets, options.table.seed),
-                  .sets_per_layout = std::min(options.sets, options.sets_per_layout)};
+  Plan plan = plan_of(options);
+  plan.sets_per_layout = std::min(options.sets, options.sets_per_layout);
   study::StudyTable table(options.table.table, kToughnessColumns);
   const int missing = study::fill(table, wanted_fracture_tests(plan), options.table.seconds, options.table.threads);
   if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
@@ -43,14 +39,10 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Numerics floor: the testers on elements of size h against h/2"};
   Options options;
-  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")
-      ->check(CLI::Range(12, 1000));
-  app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
+  options.table.table = "numerics_floor.csv";
+  add_options(app, options);
   app.add_option("--sets-per-layout", options.sets_per_layout, "Of a fracture test: each layout gets so many, in turn")
       ->check(CLI::Range(1, 100));
-  app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
-  study::add_fidelity_option(app, options.fidelity);
-  study::add_table_options(app, options.table, "layouts and parameter sets");
   app.add_option("--out", options.output, "TOML file to write, from what is finished");
   CLI11_PARSE(app, argc, argv);
   return study::exit_status_of([&] { run(options); });

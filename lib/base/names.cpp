@@ -11,4 +11,10 @@ bool is_plain_name(std::string_view name, std::size_t most_bytes, std::string_vi
          std::ranges::all_of(name, [&](char letter) { return holds(kLetters, letter) || holds(also, letter); });
 }
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  return result;
+}
+
 }  // namespace nacre

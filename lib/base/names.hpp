@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace nacre {
@@ -11,5 +12,8 @@ bool is_plain_name(std::string_view name, std::size_t most_bytes, std::string_vi
 
 /// A control character of ASCII: nothing that a label, a line of a terminal or XML should hold.
 inline bool is_control(char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f; }
+
+/// The text with ASCII capitals as small letters, whatever the locale.
+std::string lower_case(std::string_view text);
 
 }  // namespace nacre

@@ -12,7 +12,6 @@
 namespace nacre::dashboard {
 namespace {
 
-constexpr double kPlaying_s = 5.0;
 constexpr std::size_t kMostReportBytes = 64u << 20;
 
 /// A request that cannot be answered as it is; becomes its status.
@@ -27,7 +26,7 @@ std::string parameter(const Request& request, const char* name) {
   return found->second;
 }
 
-/// A round, or the name of a family, whose model is meant.
+/// A whole number from 0 to a million; `name` says in errors what it is of.
 int number(const std::string& text, const char* name) {
   int value = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -73,8 +72,8 @@ bool knows_that_it_is_over(RunData& data) {
   }
 }
 
-Response binary(std::shared_ptr<const std::string> bytes) {
-  return {.type = "application/octet-stream", .body = *bytes, .headers = {}};
+Response binary(std::string bytes) {
+  return {.type = "application/octet-stream", .body = std::move(bytes), .headers = {}};
 }
 
 }  // namespace
@@ -148,10 +147,9 @@ Response Dashboard::run(const Request&) {
 
 Response Dashboard::live(const Request&) {
   const auto nodes = desk_.nodes();
-  bool playing = false;
-  for (const NodeReport& report : nodes) playing = playing || report.age_s < kPlaying_s;
-  return json_response(
-      {{"playing", playing}, {"data", data_.version()}, {"nodes", nodes_json(nodes, knows_that_it_is_over(data_))}});
+  return json_response({{"playing", is_playing(nodes)},
+                        {"data", data_.version()},
+                        {"nodes", nodes_json(nodes, knows_that_it_is_over(data_))}});
 }
 
 Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
@@ -160,17 +158,14 @@ Response Dashboard::gamut(const Request& request) {
   if (const auto family = request.query.find("family"); family != request.query.end()) {
     const auto record = data_.record();
     for (const store::RecordedFamily& each : record->families)
-      if (each.stated.name == family->second)
-        return {.type = "application/octet-stream",
-                .body = gamut_bytes(gamut_of_family(each), each.stated.round),
-                .headers = {}};
+      if (each.stated.name == family->second) return binary(gamut_bytes(gamut_of_family(each), each.stated.round));
     return error_response(404, "there is no such family");
   }
   const int round = round_of(request);
   const auto gamut = data_.gamut(round);
   if (gamut->patterns.empty() && !data_.record()->rounds.contains(round))
     return error_response(404, "there is no such round");
-  return {.type = "application/octet-stream", .body = gamut_bytes(*gamut, round), .headers = {}};
+  return binary(gamut_bytes(*gamut, round));
 }
 
 Response Dashboard::design(const Request& request) {
@@ -228,11 +223,11 @@ Response Dashboard::simulation(const Request& request) { return json_response(si
 
 Response Dashboard::film(const Request& request) {
   const Breaking breaking = breaking_of(request);
-  const auto film = films_.of_run(*data_.record(), breaking.design.name(), breaking.model);
-  if (film && is_by_game(breaking)) return binary(film);
+  auto film = films_.of_run(*data_.record(), breaking.design.name(), breaking.model);
+  if (film && is_by_game(breaking)) return binary(*std::move(film));
   const Background::State state = made(breaking);
   if (!state.result) return error_response(404, "there is no film of this design yet");
-  return binary(std::make_shared<const std::string>(unpacked(*state.result).film));
+  return binary(std::string(unpacked(*state.result).film));
 }
 
 Response Dashboard::simulate(const Request& request) {

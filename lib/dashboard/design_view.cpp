@@ -1,6 +1,7 @@
 // One design, from everything that was said of it.
 
 #include "dashboard/views.hpp"
+#include "game/standings.hpp"
 #include "measurement/conditions.hpp"
 #include "pattern/constraints.hpp"
 
@@ -74,8 +75,8 @@ Json design_json(const store::RunRecord& run, const pattern::Design& design) {
   Json json = {{"design", name},         {"rigid_fraction", design.rigid_fraction()},
                {"proposals", proposals}, {"simulated", simulated},
                {"cracks", cracks},       {"specimens", specimens}};
-  const auto symmetric = design.layout() == nullptr ? std::nullopt : pattern::Pattern::from_layout(*design.layout());
-  if (symmetric) json["violation"] = json_or_null(pattern::violation(*symmetric));
+  if (const auto symmetric = game::eightfold_pattern(design))
+    json["violation"] = json_or_null(pattern::violation(*symmetric));
   return json;
 }
 

@@ -2,6 +2,7 @@
 // What the dashboard asks of a run beside its database, and hands in on behalf of a person. A small interface, so that
 // routes are tested without a network.
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,6 +53,12 @@ struct NodeReport {
   node_status_t status{};
   double age_s = 0.0;  ///< since it said so
 };
+
+/// Whether any node has spoken within the last seconds.
+inline bool is_playing(const std::vector<NodeReport>& nodes) {
+  constexpr double kPlaying_s = 5.0;
+  return std::ranges::any_of(nodes, [](const NodeReport& report) { return report.age_s < kPlaying_s; });
+}
 
 class Desk {
  public:

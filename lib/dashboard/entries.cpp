@@ -8,6 +8,7 @@
 #include "families/grouping.hpp"
 #include "measurement/entry.hpp"
 #include "pattern/design.hpp"
+#include "pattern/pattern_key.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -149,8 +150,7 @@ Result<std::vector<families::Family>> grouping_from_json(std::string_view text) 
     const auto seeds = each.find("seeds");
     if (seeds == each.end() || !seeds->is_array()) return fail("{}: seeds: expected a list of pattern keys", *name);
     for (const Json& seed : *seeds) {
-      const auto layout = seed.is_string() ? pattern::layout_from_key(seed.get<std::string>()) : fail("not a text");
-      const auto pattern = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+      const auto pattern = seed.is_string() ? pattern::pattern_from_key(seed.get<std::string>()) : fail("not a text");
       if (!pattern) return fail("{}: seeds: expected keys of 14 hex digits", *name);
       family.seeds.push_back(*pattern);
     }

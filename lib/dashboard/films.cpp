@@ -69,14 +69,14 @@ std::optional<std::string> Films::name_in_run(const store::RunRecord& run, const
   return found->second.film;
 }
 
-std::shared_ptr<const std::string> Films::of_run(const store::RunRecord& run, const std::string& design,
-                                                 const std::string& model) const {
+std::optional<std::string> Films::of_run(const store::RunRecord& run, const std::string& design,
+                                         const std::string& model) const {
   const auto name = name_in_run(run, design, model);
-  if (!name) return nullptr;
+  if (!name) return std::nullopt;
   try {
-    return std::make_shared<const std::string>(read_file_up_to(folder_ / *name, kMostFilmBytes));
+    return read_file_up_to(folder_ / *name, kMostFilmBytes);
   } catch (const InputError&) {
-    return nullptr;
+    return std::nullopt;
   }
 }
 

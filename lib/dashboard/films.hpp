@@ -3,7 +3,6 @@
 // here because somebody looks, by design and parameters.
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,10 +17,10 @@ class Films {
   Films(std::filesystem::path run_folder, tester::Fidelity fidelity)
       : folder_(std::move(run_folder) / "films"), fidelity_(fidelity) {}
 
-  /// The film that the farm made of a design by a model, the number of a round or the name of a family; nullptr when
+  /// The film that the farm made of a design by a model, the number of a round or the name of a family; nothing when
   /// there is none or its file cannot be read.
-  std::shared_ptr<const std::string> of_run(const store::RunRecord& run, const std::string& design,
-                                            const std::string& model) const;
+  std::optional<std::string> of_run(const store::RunRecord& run, const std::string& design,
+                                    const std::string& model) const;
   /// Name of that film's file when it is there.
   std::optional<std::string> name_in_run(const store::RunRecord& run, const std::string& design,
                                          const std::string& model) const;

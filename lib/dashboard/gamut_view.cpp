@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <numeric>
 
 #include <nlohmann/json.hpp>
+
+#include "optimize/best_by_rank.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -39,14 +40,7 @@ std::string gamut_bytes(const store::RecordedGamut& gamut, int round) {
 }
 
 std::vector<std::size_t> best_of(const store::RecordedGamut& gamut, std::size_t most) {
-  const auto ranks = optimize::non_dominated_ranks(gamut.performances);
-  const auto crowding = optimize::crowding_distances(gamut.performances, ranks);
-  std::vector<std::size_t> order(ranks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return ranks[a] != ranks[b] ? ranks[a] < ranks[b] : crowding[a] > crowding[b];
-  });
-  order.resize(std::min(order.size(), most));
+  std::vector<std::size_t> order = optimize::best_by_rank(gamut.performances, most);
   std::sort(order.begin(), order.end());
   return order;
 }

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include <fmt/format.h>
 
+#include "base/names.hpp"
 #include "base/result.hpp"
 
 namespace nacre::dashboard {
@@ -45,14 +45,9 @@ bool is_address(const std::string& host) {
          host.find_first_not_of(brackets ? "0123456789abcdefABCDEF.:[]" : "0123456789.:") == std::string::npos;
 }
 
-/// Names have no case; browsers send small letters.
-std::string in_small_letters(std::string name) {
-  for (char& letter : name) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return name;
-}
-
 bool is_named(const AccessRules& rules, const std::string& host) {
-  if (std::ranges::find(rules.hosts, in_small_letters(host), in_small_letters) != rules.hosts.end()) return true;
+  // Names have no case; browsers send small letters.
+  if (std::ranges::find(rules.hosts, lower_case(host), lower_case) != rules.hosts.end()) return true;
   return !rules.token.empty() && is_address(host);
 }
 

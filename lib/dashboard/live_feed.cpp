@@ -8,7 +8,7 @@
 namespace nacre::dashboard {
 namespace {
 
-constexpr double kForgotten_s = 60.0, kPlaying_s = 5.0;
+constexpr double kForgotten_s = 60.0;
 constexpr int kTurn_ms = 100, kTurnsBetweenLooks = 20;
 constexpr int kPause_ms = 2000;
 
@@ -31,12 +31,6 @@ std::vector<NodeReport> LiveFeed::nodes() const {
     if (age_s < kForgotten_s) reports.push_back({node, heard.status, age_s});
   }
   return reports;
-}
-
-bool LiveFeed::playing() const {
-  for (const NodeReport& report : nodes())
-    if (report.age_s < kPlaying_s) return true;
-  return false;
 }
 
 std::string LiveFeed::problem() const {

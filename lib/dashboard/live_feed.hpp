@@ -27,8 +27,6 @@ class LiveFeed {
 
   /// Nodes that have spoken within a minute, by name, with the age of what they said.
   std::vector<NodeReport> nodes() const;
-  /// Whether any node has spoken within the last seconds.
-  bool playing() const;
   /// Why nothing can be heard; empty when all is well.
   std::string problem() const;
 

@@ -10,6 +10,7 @@
 #include "families/isomap.hpp"
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
+#include "pattern/pattern_key.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -18,11 +19,6 @@ constexpr std::size_t kMostFileBytes = 16u << 20;
 constexpr std::size_t kMostRows = 20'000;
 constexpr int kNeighbours = 10;
 constexpr std::size_t kFewestMapped = 4;
-
-std::optional<pattern::Pattern> pattern_of(std::string_view key) {
-  const auto layout = pattern::layout_from_key(key);
-  return layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
-}
 
 /// Where the columns of a map's file stand.
 struct Columns {
@@ -59,7 +55,7 @@ Result<PatternMap> map_from_csv(std::string_view text, const std::string& file) 
     const auto number = [&](std::size_t i) {
       return number_from_text(cell(i)).value_or(std::numeric_limits<double>::quiet_NaN());
     };
-    const auto pattern = pattern_of(cell(columns->pattern));
+    const auto pattern = pattern::pattern_from_key(cell(columns->pattern));
     const double x = number(columns->x), y = number(columns->y);
     if (!row.fault.empty() || !pattern || !std::isfinite(x) || !std::isfinite(y))
       return fail("{}:{}: expected pattern, x and y", file, row.line);
@@ -143,7 +139,7 @@ Json FamilyFolder::families() const {
     Json ids = Json::array();
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / name, unreadable)) {
       const std::string seed = entry.path().stem().string();
-      if (entry.path().extension() == ".csv" && pattern_of(seed)) ids.push_back(name + "/" + seed);
+      if (entry.path().extension() == ".csv" && pattern::pattern_from_key(seed)) ids.push_back(name + "/" + seed);
     }
     family["map_ids"] = ids;
     families.push_back(std::move(family));
@@ -154,7 +150,7 @@ Json FamilyFolder::families() const {
 Result<PatternMap> FamilyFolder::map(const std::string& id) const {
   const std::size_t slash = id.find('/');
   const std::string family = id.substr(0, slash), seed = slash == std::string::npos ? "" : id.substr(slash + 1);
-  if (!families::is_family_name(family) || !pattern_of(seed)) return fail("expected FAMILY/SEED");
+  if (!families::is_family_name(family) || !pattern::pattern_from_key(seed)) return fail("expected FAMILY/SEED");
   try {
     auto map = map_from_csv(read_file_up_to(folder_ / family / (seed + ".csv"), kMostFileBytes), id);
     if (map) map->id = id;
@@ -201,7 +197,7 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
   std::vector<pattern::Pattern> sources;
   std::vector<double> amounts;
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    const auto pattern = pattern_of(keys[i]);
+    const auto pattern = pattern::pattern_from_key(keys[i]);
     const auto amount = number_from_text(shares[i]);
     if (!pattern) return fail("patterns: expected keys of 14 hex digits");
     if (!amount || *amount < 0.0 || *amount > 1.0) return fail("weights: expected numbers from 0 to 1");

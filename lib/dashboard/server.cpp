@@ -9,6 +9,7 @@
 
 #include <httplib.h>
 
+#include "base/names.hpp"
 #include "base/result.hpp"
 
 namespace nacre::dashboard {
@@ -18,11 +19,6 @@ constexpr std::size_t kMostBodyBytes = 4u << 20;
 constexpr std::size_t kThreads = 24;  // a browser keeps six connections a tab, and a connection keeps a thread
 constexpr int kTimeout_s = 5, kIdle_s = 2, kTurn_ms = 100;
 constexpr std::size_t kRequestsPerConnection = 1000;
-
-std::string lower_case(std::string text) {
-  for (char& letter : text) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  return text;
-}
 
 Request request_of(const httplib::Request& from) {
   Request request{.method = from.method, .path = from.path, .query = {}, .headers = {}, .body = from.body};

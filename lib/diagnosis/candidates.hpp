@@ -11,10 +11,10 @@ namespace nacre::diagnosis {
 /// Signal-to-noise below which one effect cannot be told from none with 5 % error, and distance from which two are told
 /// apart.
 inline constexpr double kVisibleSignal = 3.8, kToldApart = 2.2;
-/// How much a cause of another kind may look like the named one on a set of specimens: cosines of up to 0.76 were seen
-/// between effects of different families. What such a look-alike leaves, s sqrt(1 - 0.8^2), is noticed from a
-/// signal-to-noise of 6.3 on: below it no name is given.
-inline constexpr double kLookalike = 0.8, kNameableSignal = kVisibleSignal / 0.6;
+/// What a cause of another kind that looks like the named one leaves of its signal, sqrt(1 - 0.8^2): cosines of up to
+/// 0.76 were seen between effects of different families. That is noticed from a signal-to-noise of 6.3 on: below it no
+/// name is given.
+inline constexpr double kLeftByLookalike = 0.6, kNameableSignal = kVisibleSignal / kLeftByLookalike;
 /// A rival leaves the set only when data from it would so seldom look like ours.
 inline constexpr double kExclusionLevel = 0.005;
 /// By how much -2 log likelihood with each model's own numerics must be larger for a rival to leave when draws exclude

@@ -10,6 +10,7 @@
 #include "base/hash.hpp"
 #include "base/result.hpp"
 #include "explore/gamut_csv.hpp"
+#include "pattern/pattern_key.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -35,8 +36,7 @@ std::vector<pattern::Pattern> batch_from(const std::string& line, const std::fil
   std::vector<pattern::Pattern> batch;
   std::istringstream keys(line);
   for (std::string key; keys >> key;) {
-    const Result<pattern::Layout> layout = pattern::layout_from_key(key);
-    const auto pattern = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+    const Result<pattern::Pattern> pattern = pattern::pattern_from_key(key);
     if (!pattern)
       throw InputError::format("{}: line {}: \"{}\", expected the key of a pattern", path.string(), number, key);
     batch.push_back(*pattern);

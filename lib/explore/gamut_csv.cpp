@@ -11,7 +11,9 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "base/lines.hpp"
 #include "base/result.hpp"
+#include "pattern/pattern_key.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -28,15 +30,6 @@ struct Place {
                               expected);
   }
 };
-
-/// Takes the first line off `text`, without its LF or CRLF.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
 
 /// Fields of a line. No field of a gamut holds a comma or a quote, so quotes may only surround a whole field.
 std::vector<std::string_view> fields_of(std::string_view line) {
@@ -86,8 +79,7 @@ double quantity(const std::vector<std::string_view>& fields, std::size_t column,
 }
 
 pattern::Pattern pattern_of(const std::vector<std::string_view>& fields, std::size_t column, const Place& place) {
-  const Result<pattern::Layout> layout = pattern::layout_from_key(fields[column]);
-  const auto pattern = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+  const Result<pattern::Pattern> pattern = pattern::pattern_from_key(fields[column]);
   if (!pattern) throw place.error(column, "pattern", fields[column], "the key of a pattern, 14 lower-case hex digits");
   return *pattern;
 }

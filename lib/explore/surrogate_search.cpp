@@ -1,25 +1,15 @@
 #include "explore/surrogate_search.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <numeric>
 
 #include "explore/evolution.hpp"
+#include "optimize/best_by_rank.hpp"
 
 namespace nacre::explore {
 
 std::vector<Evaluated> best_by_rank(std::span<const Evaluated> samples, std::size_t count) {
-  const std::vector<optimize::Performance> performances = performances_of(samples);
-  const std::vector<int> ranks = optimize::non_dominated_ranks(performances);
-  const std::vector<double> crowding = optimize::crowding_distances(performances, ranks);
-  std::vector<std::size_t> order(samples.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return ranks[a] != ranks[b] ? ranks[a] < ranks[b] : crowding[a] > crowding[b];
-  });
-  order.resize(std::min(order.size(), count));
   std::vector<Evaluated> best;
-  for (const std::size_t i : order) best.push_back(samples[i]);
+  for (const std::size_t i : optimize::best_by_rank(performances_of(samples), count)) best.push_back(samples[i]);
   return best;
 }
 

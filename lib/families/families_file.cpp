@@ -6,6 +6,7 @@
 #include "base/names.hpp"
 #include "base/toml_file.hpp"
 #include "families/grouping.hpp"
+#include "pattern/pattern_key.hpp"
 
 namespace nacre::families {
 namespace {
@@ -17,10 +18,8 @@ namespace {
 pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
   const std::optional<std::string> key = node.value<std::string>();
   if (!key) refuse(source, node, "a seed is expected to be a pattern key, 14 hexadecimal digits in quotes");
-  const Result<pattern::Layout> layout = pattern::layout_from_key(*key);
-  if (!layout) refuse(source, node, fmt::format("seed '{}': {}", *key, layout.error().message));
-  const std::optional<pattern::Pattern> seed = pattern::Pattern::from_layout(*layout);
-  if (!seed) refuse(source, node, fmt::format("seed '{}': expected a pattern with eightfold symmetry", *key));
+  const Result<pattern::Pattern> seed = pattern::pattern_from_key(*key);
+  if (!seed) refuse(source, node, fmt::format("seed '{}': {}", *key, seed.error().message));
   return *seed;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/csv.hpp"
 #include "base/files.hpp"
+#include "base/names.hpp"
 #include "measurement/consistency.hpp"
 #include "measurement/measurement.hpp"
 #include "measurement/planned_set.hpp"

@@ -221,12 +221,6 @@ class RowParser {
 
 }  // namespace
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& letter : result) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  return result;
-}
-
 tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
                                                     const CsvRow& row, bool planned, const CurveSource& curves) {
   return RowParser(folder, heading, row, planned, curves).parse();

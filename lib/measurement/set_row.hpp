@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,9 +22,6 @@ struct Heading {
   std::vector<std::pair<std::size_t, std::string>> others;
   std::size_t cell_count = 0;
 };
-
-/// ASCII letters in lower case.
-std::string lower_case(std::string_view text);
 
 /// Where the curve that a row names is read from, by its name there.
 using CurveSource = std::function<Result<tester::Curve>(const std::string& name)>;

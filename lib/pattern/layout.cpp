@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "base/lines.hpp"
+
 namespace nacre::pattern {
 namespace {
 
@@ -162,19 +164,6 @@ std::string to_text(const Layout& layout) {
 
 namespace {
 
-/// The lines of a text without their LF or CRLF; a last line without its end counts.
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    lines.push_back(line);
-  }
-  return lines;
-}
-
 /// How an offending byte is shown to a person.
 std::string shown(char c) {
   const bool printable = c >= 0x20 && c < 0x7f;
@@ -186,7 +175,7 @@ std::string shown(char c) {
 Result<Layout> layout_from_text(std::string_view text, std::string_view source) {
   constexpr std::string_view kExpected = "expected 20 lines of 20 characters 0 (soft) or 1 (rigid)";
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // editors put the mark of UTF-8 before plain text
-  std::vector<std::string_view> lines = lines_of(text);
+  std::vector<std::string_view> lines = lines_in(text);
   while (!lines.empty() && lines.back().find_first_not_of(" \t") == std::string_view::npos) lines.pop_back();
   Layout layout;
   for (std::size_t r = 0; r < lines.size(); ++r) {

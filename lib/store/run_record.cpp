@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/result.hpp"
+#include "pattern/pattern_key.hpp"
 #include "store/database_care.hpp"
 
 namespace nacre::store {
@@ -182,12 +183,10 @@ void read_diagnoses(SQLite::Database& db, RunRecord& run) {
 }
 
 game::FamilyDesign family_design(SQLite::Statement& q) {
-  const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
-  const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
   const auto values = [&](int first) {
     return game::DesignValues{optional_double(q.getColumn(first)), optional_double(q.getColumn(first + 1))};
   };
-  return {.pattern = known.value_or(pattern::Pattern()),
+  return {.pattern = pattern::pattern_from_key(q.getColumn(1).getString()).value_or(pattern::Pattern()),
           .is_seed = q.getColumn(2).getInt() != 0,
           .measured = values(3),
           .global_model = values(5),
@@ -220,9 +219,7 @@ void read_families(SQLite::Database& db, RunRecord& run) {
            [&](SQLite::Statement& q) { families[q.getColumn(0).getInt()].stated.designs.push_back(family_design(q)); });
   each_row(db, "SELECT number, pattern, modulus_pa, toughness_pa FROM family_gamut ORDER BY number, pattern",
            [&](SQLite::Statement& q) {
-             const auto layout = pattern::layout_from_key(q.getColumn(1).getString());
-             const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
-             if (known)
+             if (const auto known = pattern::pattern_from_key(q.getColumn(1).getString()))
                families[q.getColumn(0).getInt()].gamut.push_back(
                    {*known, {q.getColumn(2).getDouble(), q.getColumn(3).getDouble()}});
            });

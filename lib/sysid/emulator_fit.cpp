@@ -20,12 +20,6 @@ class EmulatorFit final : public EtaFit {
         emulator_(spans_, data_.measured.size()),
         predicted_(data_) {}
 
-  std::vector<Point> ask() override {
-    if (asked_.empty() && !finished_) asked_ = propose();
-    finished_ = asked_.empty();
-    return asked_;
-  }
-
   void tell(std::vector<std::vector<Prediction>> predictions) override {
     const bool starting = trials_.empty();
     const double before = starting ? 0.0 : cost(trials_[best_]);
@@ -36,7 +30,7 @@ class EmulatorFit final : public EtaFit {
   }
 
  private:
-  std::vector<Point> propose() {
+  std::vector<Point> propose() override {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));
     if (count <= 0 || radius_ < kSmallestRadius) return {};
     if (trials_.empty()) return first_points();

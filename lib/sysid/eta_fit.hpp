@@ -44,15 +44,6 @@ class EtaFit : public RecordedFit {
     return points;
   }
 
-  /// Records what was asked for.
-  void record_asked(std::vector<std::vector<Prediction>> predictions) {
-    for (std::size_t k = 0; k < asked_.size(); ++k) {
-      const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
-      record(asked_[k], std::move(predictions[k]), objective);
-    }
-    asked_.clear();
-  }
-
   std::vector<double> spans_;
 
  private:

@@ -37,11 +37,6 @@ class LeastSquaresFit final : public RecordedFit {
   LeastSquaresFit(FitData data, const FitSettings& settings, Problem problem)
       : RecordedFit(std::move(data), settings, problem.pull), problem_(std::move(problem)) {}
 
-  std::vector<Point> ask() override {
-    if (asked_.empty() && !finished_) asked_ = propose();
-    return asked_;
-  }
-
   void tell(std::vector<std::vector<Prediction>> predictions) override {
     const std::size_t first_new = trials_.size();
     for (std::size_t k = 0; k < asked_.size(); ++k) add_trial(asked_[k], std::move(predictions[k]));
@@ -80,12 +75,10 @@ class LeastSquaresFit final : public RecordedFit {
     record(point, std::move(predictions), objective);
   }
 
-  std::vector<Point> propose() {
+  std::vector<Point> propose() override {
     if (trials_.empty()) return {settings_.start};
     // A Jacobian without a step after it would be wasted.
-    if (differencing_ && budget_left() <= dimension()) finished_ = true;
-    if (budget_left() <= 0) finished_ = true;
-    if (finished_) return {};
+    if (budget_left() <= (differencing_ ? dimension() : 0)) return {};
     return differencing_ ? difference_points() : step_points();
   }
 

@@ -21,19 +21,6 @@ class ObjectiveFit final : public EtaFit {
                std::move(spans), std::move(others), /*poisson_searched=*/true),
         algorithm_(algorithm) {}
 
-  std::vector<Point> ask() override {
-    if (!asked_.empty() || finished_) return asked_;
-    const bool rescales = algorithm_ == optimize::Algorithm::trust_region;
-    if (trials_.empty() && rescales) {
-      asked_ = first_points();
-      return asked_;
-    }
-    if (!optimizer_) begin_search(rescales ? std::vector<Point>{rescaled(), trials_[best_].point} : first_points());
-    asked_ = optimizer_->ask();
-    finished_ = asked_.empty();
-    return asked_;
-  }
-
   void tell(std::vector<std::vector<Prediction>> predictions) override {
     const std::size_t before = trials_.size();
     record_asked(std::move(predictions));
@@ -43,6 +30,13 @@ class ObjectiveFit final : public EtaFit {
   }
 
  private:
+  std::vector<Point> propose() override {
+    const bool rescales = algorithm_ == optimize::Algorithm::trust_region;
+    if (trials_.empty() && rescales) return first_points();
+    if (!optimizer_) begin_search(rescales ? std::vector<Point>{rescaled(), trials_[best_].point} : first_points());
+    return optimizer_->ask();
+  }
+
   void begin_search(std::vector<Point> starts) {
     optimize::BatchOptimizerSettings settings;
     settings.dimension = kEtaCount;

@@ -38,18 +38,8 @@ class PosteriorFit final : public RecordedFit {
         posterior_(data_, settings.start, settings.floor),
         splits_(static_cast<int>(kSplits.size()), settings.seed) {}
 
-  std::vector<Point> ask() override {
-    if (asked_.empty() && !finished_) asked_ = propose();
-    finished_ = asked_.empty();
-    return asked_;
-  }
-
   void tell(std::vector<std::vector<Prediction>> predictions) override {
-    for (std::size_t k = 0; k < asked_.size(); ++k) {
-      const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
-      record(asked_[k], std::move(predictions[k]), objective);
-    }
-    asked_.clear();
+    record_asked(std::move(predictions));
     const double before = smallest_cost_;
     learn();
     if (is_spreading()) return;
@@ -94,7 +84,7 @@ class PosteriorFit final : public RecordedFit {
   }
 
  private:
-  std::vector<Point> propose() {
+  std::vector<Point> propose() override {
     const int count = std::min(std::max(1, settings_.batch), settings_.budget - static_cast<int>(trials_.size()));
     if (count <= 0 || idle_batches_ >= kIdleBatches) return {};
     std::vector<Point> points;

@@ -13,6 +13,13 @@ namespace nacre::sysid {
 
 class RecordedFit : public Fit {
  public:
+  std::vector<Point> ask() final {
+    if (asked_.empty() && !finished_) {
+      asked_ = propose();
+      finished_ = asked_.empty();
+    }
+    return asked_;
+  }
   double progress() const final {
     return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
   }
@@ -61,6 +68,15 @@ class RecordedFit : public Fit {
     if (cost(trials_.back()) < cost(trials_[best_])) best_ = trials_.size() - 1;
   }
 
+  /// Records what was asked for, by the toughness part of (2.8).
+  void record_asked(std::vector<std::vector<Prediction>> predictions) {
+    for (std::size_t k = 0; k < asked_.size(); ++k) {
+      const double objective = toughness_objective(data_.measured, data_.weights, predictions[k]);
+      record(asked_[k], std::move(predictions[k]), objective);
+    }
+    asked_.clear();
+  }
+
   FitData data_;
   FitSettings settings_;
   std::vector<Trial> trials_;
@@ -69,6 +85,9 @@ class RecordedFit : public Fit {
   bool finished_ = false;
 
  private:
+  /// The points to evaluate next, once those before are recorded; none ends the fit.
+  virtual std::vector<Point> propose() = 0;
+
   double pull_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/big_endian.hpp"
 #include "wire/channels.hpp"
 #include "wire/lcm_types.hpp"
 
@@ -32,9 +33,7 @@ class Encoder {
     return {};
   }
 
-  void integer(std::uint64_t value, int size) {
-    for (int shift = 8 * (size - 1); shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(value >> shift));
-  }
+  void integer(std::uint64_t value, int size) { append_big_endian(bytes, value, size); }
 
  private:
   static Result<void> wrong(const std::string& place, const std::string& expected) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/big_endian.hpp"
 #include "base/hash.hpp"
 
 namespace nacre::wire {
@@ -11,12 +12,8 @@ constexpr std::size_t kFingerprintSize = 8;
 // Default header: utime, text "", epoch, seq, checksum, text "".
 constexpr std::size_t kBlankHeaderSize = 8 + (4 + 1) + 8 + 8 + 8 + (4 + 1);
 
-void append_int(std::string& bytes, std::uint64_t value, int size) {
-  for (int shift = 8 * (size - 1); shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(value >> shift));
-}
-
 void append_text(std::string& bytes, std::string_view text) {
-  append_int(bytes, text.size() + 1, 4);
+  append_big_endian(bytes, text.size() + 1, 4);
   bytes.append(text);
   bytes.push_back('\0');
 }
@@ -32,10 +29,8 @@ struct HeaderReader {
       sound = false;
       return 0;
     }
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[position + i]);
     position += size;
-    return value;
+    return read_big_endian(bytes.substr(position - size, size));
   }
 
   std::string text() {
@@ -58,7 +53,7 @@ std::uint64_t checksum_of(std::string_view channel, std::string_view bytes_with_
 
 void write_checksum(std::string& bytes, std::size_t position, std::uint64_t checksum) {
   std::string field;
-  append_int(field, checksum, 8);
+  append_big_endian(field, checksum, 8);
   bytes.replace(position, 8, field);
 }
 
@@ -68,12 +63,12 @@ std::string stamp_header(std::string_view channel, std::string_view payload, con
   std::string bytes;
   bytes.reserve(payload.size() + header.node.size() + header.run_id.size());
   bytes.append(payload.substr(0, kFingerprintSize));
-  append_int(bytes, static_cast<std::uint64_t>(header.utime), 8);
+  append_big_endian(bytes, static_cast<std::uint64_t>(header.utime), 8);
   append_text(bytes, header.node);
-  append_int(bytes, static_cast<std::uint64_t>(header.epoch), 8);
-  append_int(bytes, static_cast<std::uint64_t>(header.seq), 8);
+  append_big_endian(bytes, static_cast<std::uint64_t>(header.epoch), 8);
+  append_big_endian(bytes, static_cast<std::uint64_t>(header.seq), 8);
   const std::size_t checksum_position = bytes.size();
-  append_int(bytes, 0, 8);
+  append_big_endian(bytes, 0, 8);
   append_text(bytes, header.run_id);
   bytes.append(payload.substr(std::min(payload.size(), kFingerprintSize + kBlankHeaderSize)));
   write_checksum(bytes, checksum_position, checksum_of(channel, bytes));
@@ -96,11 +91,11 @@ Result<Blanked> blank_header(std::string_view channel, std::string_view bytes) {
   write_checksum(zeroed, checksum_position, 0);
   if (checksum_of(channel, zeroed) != checksum) return fail("the checksum does not fit the bytes");
   blanked.payload.assign(bytes.substr(0, kFingerprintSize));
-  append_int(blanked.payload, 0, 8);
+  append_big_endian(blanked.payload, 0, 8);
   append_text(blanked.payload, "");
-  append_int(blanked.payload, 0, 8);
-  append_int(blanked.payload, 0, 8);
-  append_int(blanked.payload, 0, 8);
+  append_big_endian(blanked.payload, 0, 8);
+  append_big_endian(blanked.payload, 0, 8);
+  append_big_endian(blanked.payload, 0, 8);
   append_text(blanked.payload, "");
   blanked.payload.append(bytes.substr(reader.position));
   return blanked;

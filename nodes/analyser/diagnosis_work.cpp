@@ -1,9 +1,7 @@
 // Specimens and calibrated parameters in, the payload of a DIAGNOSIS out.
 
-#include <stdexcept>
-
 #include "analyser/works.hpp"
-#include "base/result.hpp"
+#include "base/expected.hpp"
 #include "diagnosis/diagnosis.hpp"
 #include "material/extensions.hpp"
 #include "runtime/journal.hpp"
@@ -12,13 +10,6 @@ namespace nacre::analyser {
 namespace {
 
 constexpr std::size_t kFixedFields = 7;
-
-/// A spec that this program wrote itself must read back.
-template <class T>
-T expected(Result<T> result) {
-  if (!result) throw std::logic_error("the spec of a diagnosis: " + result.error().message);
-  return *std::move(result);
-}
 
 DiagnosisTask task_from(const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));

@@ -11,6 +11,7 @@
 #include "game/model.hpp"
 #include "game/reference_tables.hpp"
 #include "game/standings.hpp"
+#include "pattern/pattern_key.hpp"
 #include "runtime/journal.hpp"
 #include "sysid/objective.hpp"
 #include "wire/header.hpp"
@@ -173,8 +174,7 @@ void find_groups(const fs::path& run_dir, PaperSource& source) {
 }
 
 pattern::Pattern pattern_in(const NamedTable& table, std::size_t row) {
-  const auto layout = pattern::layout_from_key(table.text(row, "pattern"));
-  const auto known = layout ? pattern::Pattern::from_layout(*layout) : std::nullopt;
+  const auto known = pattern::pattern_from_key(table.text(row, "pattern"));
   if (!known) table.fail_at(row, "pattern", "expected the key of a pattern");
   return *known;
 }

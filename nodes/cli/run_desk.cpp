@@ -69,7 +69,7 @@ std::optional<diagnosis_t> RunDesk::diagnosis(int round) {
 }
 
 Answer RunDesk::hand_in(const runtime::Message& message) {
-  if (!feed_.playing()) return Answer::unanswered;
+  if (!is_playing(feed_.nodes())) return Answer::unanswered;
   return deliver(now(), "dashboard", message, kPatience_s) == 0 ? Answer::accepted : Answer::unanswered;
 }
 

@@ -1,7 +1,6 @@
 #include "proposal_agent/selection_work.hpp"
 
-#include <stdexcept>
-
+#include "base/expected.hpp"
 #include "optimize/pareto.hpp"
 #include "proposal_agent/search_work.hpp"
 #include "runtime/journal.hpp"
@@ -9,13 +8,6 @@
 
 namespace nacre::proposal_agent {
 namespace {
-
-// A spec that this program wrote itself must read back.
-template <class T>
-T expected(Result<T> result) {
-  if (!result) throw std::logic_error("the spec of a selection: " + result.error().message);
-  return *std::move(result);
-}
 
 Selection selection_from(const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));

@@ -21,18 +21,8 @@ GpuExecutor::GpuExecutor(std::shared_ptr<store::SimulationCache> cache, GpuSetti
       settings_(std::move(settings)),
       threads_of_processor_(work_functions(cache_, settings_.films), settings_.threads, wake),
       outbox_(std::move(wake)),
-      preparer_([this] { prepare(); }),
-      puller_([this] { pull(); }) {}
-
-GpuExecutor::~GpuExecutor() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  preparer_.join();
-  puller_.join();
-}
+      preparer_([this](const std::stop_token& stopping) { prepare(stopping); }),
+      puller_([this](const std::stop_token& stopping) { pull(stopping); }) {}
 
 void GpuExecutor::start(runtime::Compute compute) {
   outbox_.expect_one();
@@ -65,13 +55,13 @@ void GpuExecutor::give_to_threads(runtime::Compute compute) {
 }
 
 /// Sorts questions, and mounts specimens for the device a little ahead of it.
-void GpuExecutor::prepare() {
+void GpuExecutor::prepare(const std::stop_token& stopping) {
   while (true) {
     runtime::Compute compute;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return stopping_ || (!new_.empty() && (ready_.size() < kMostReady || !has_device_)); });
-      if (stopping_) return;
+      changed_.wait(lock, stopping, [&] { return !new_.empty() && (ready_.size() < kMostReady || !has_device_); });
+      if (stopping.stop_requested()) return;
       compute = std::move(new_.front());
       new_.pop_front();
       if (!has_device_) {
@@ -110,40 +100,49 @@ void GpuExecutor::sort(const runtime::Compute& compute) {
 }
 
 /// The device's own thread. Whatever goes wrong on it, threads of the processor go on.
-void GpuExecutor::pull() {
+void GpuExecutor::pull(const std::stop_token& stopping) {
   try {
     Result<std::unique_ptr<gpu::Device>> device = settings_.make_device(settings_.most_places);
     if (!device) return give_up_device(device.error().message);
-    keep_device_busy(*std::move(device));
+    keep_device_busy(*std::move(device), stopping);
   } catch (const std::exception& problem) {
     give_up_device(problem.what());
   }
 }
 
-void GpuExecutor::keep_device_busy(std::unique_ptr<gpu::Device> device) {
+void GpuExecutor::keep_device_busy(std::unique_ptr<gpu::Device> device, const std::stop_token& stopping) {
   while (true) {
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return stopping_ || !ready_.empty() || !on_device_.empty(); });
-      if (stopping_) return;
-      while (!ready_.empty()) {
-        if (!batch_) {
-          const int places = gpu::places_for(*device, ready_.front().test.image(), settings_.most_places);
-          batch_ = std::make_unique<gpu::BatchTester>(std::move(device), places);
-          outbox_.say(runtime::LogLevel::info,
-                      fmt::format("fracture tests run on {}, up to {} side by side", batch_->device().name(), places));
-        }
-        // Kept in one of the two before anything can fail: give_up_device() looks there.
-        Ready next = std::move(ready_.front());
-        ready_.pop_front();
-        on_device_.emplace(next_number_, std::move(next.compute));
-        batch_->add({next_number_++, std::move(next.test)});
-      }
+      changed_.wait(lock, stopping, [&] { return !ready_.empty() || !on_device_.empty(); });
+      if (stopping.stop_requested()) return;
+    }
+    for (gpu::NumberedTest& next : take_ready()) {
+      if (!batch_) open_batch(std::move(device), next.test.image());  // without the lock: it takes the device seconds
+      batch_->add(std::move(next));
     }
     outbox_.set_standing(fmt::format("{} on the device", batch_->pending()));
     changed_.notify_all();  // there is room for more that is ready
     for (const gpu::NumberedResult& over : batch_->turn()) keep(over);
   }
+}
+
+/// The questions are kept with those on the device before anything can fail: give_up_device() looks there.
+std::vector<gpu::NumberedTest> GpuExecutor::take_ready() {
+  std::vector<gpu::NumberedTest> tests;
+  const std::lock_guard lock(mutex_);
+  for (; !ready_.empty(); ready_.pop_front()) {
+    on_device_.emplace(next_number_, std::move(ready_.front().compute));
+    tests.push_back({next_number_++, std::move(ready_.front().test)});
+  }
+  return tests;
+}
+
+void GpuExecutor::open_batch(std::unique_ptr<gpu::Device> device, const gpu::SpecimenImage& typical) {
+  const int places = gpu::places_for(*device, typical, settings_.most_places);
+  batch_ = std::make_unique<gpu::BatchTester>(std::move(device), places);
+  outbox_.say(runtime::LogLevel::info,
+              fmt::format("fracture tests run on {}, up to {} side by side", batch_->device().name(), places));
 }
 
 void GpuExecutor::keep(const gpu::NumberedResult& over) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,7 +35,7 @@ class GpuExecutor : public runtime::Executor {
  public:
   GpuExecutor(std::shared_ptr<store::SimulationCache> cache, GpuSettings settings, std::function<void()> wake);
   /// What is not over is left: it has no effects.
-  ~GpuExecutor() override;
+  ~GpuExecutor() override = default;
   bool knows(const std::string& kind) const override { return kind == "simulate"; }
   void start(runtime::Compute compute) override;
   std::vector<runtime::FinishedWork> finished() override;
@@ -48,10 +49,12 @@ class GpuExecutor : public runtime::Executor {
     gpu::PreparedTest test;
   };
 
-  void prepare();
+  void prepare(const std::stop_token& stopping);
   void sort(const runtime::Compute& compute);
-  void pull();
-  void keep_device_busy(std::unique_ptr<gpu::Device> device);
+  void pull(const std::stop_token& stopping);
+  void keep_device_busy(std::unique_ptr<gpu::Device> device, const std::stop_token& stopping);
+  std::vector<gpu::NumberedTest> take_ready();
+  void open_batch(std::unique_ptr<gpu::Device> device, const gpu::SpecimenImage& typical);
   void keep(const gpu::NumberedResult& over);
   void give_up_device(const std::string& reason);
   void give_to_threads(runtime::Compute compute);
@@ -63,18 +66,18 @@ class GpuExecutor : public runtime::Executor {
 
   // Shared by the shell's thread, the preparer and the puller.
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   std::deque<runtime::Compute> new_;
   std::deque<Ready> ready_;
   std::deque<runtime::Compute> for_threads_;  ///< until the shell's thread hands them over
-  bool has_device_ = true, stopping_ = false;
+  bool has_device_ = true;
 
   // Of the puller.
   std::unique_ptr<gpu::BatchTester> batch_;
   std::map<int, runtime::Compute> on_device_;
   int next_number_ = 0;
 
-  std::thread preparer_, puller_;
+  std::jthread preparer_, puller_;  // the last members: they end before what they use
 };
 
 }  // namespace nacre::simulator_farm

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include <fmt/ranges.h>
 
 #include "base/files.hpp"
+#include "base/lines.hpp"
 
 namespace nacre::simulator_farm {
 
@@ -14,11 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
+std::vector<std::string> lines_of(std::string_view text) {
+  const std::vector<std::string_view> lines = lines_in(text);
+  return {lines.begin(), lines.end()};
 }
 
 /// A file that may be gone by now.

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "base/expected.hpp"
 #include "base/files.hpp"
 #include "families/dense_sampling.hpp"
+#include "pattern/pattern_key.hpp"
 #include "runtime/journal.hpp"
 #include "wire/convert.hpp"
 
@@ -15,13 +16,6 @@ namespace nacre::validation_agent {
 namespace {
 
 constexpr const char* kFamiliesFile = "families.toml";
-
-// What this program wrote itself must read back.
-template <class T>
-T expected(Result<T> result) {
-  if (!result) throw std::logic_error("work of the family stage: " + result.error().message);
-  return *std::move(result);
-}
 
 /// Designs in chunks, for there may be more of them than a message holds.
 std::vector<families::Member> members_from(std::span<const std::string> chunks) {
@@ -109,7 +103,7 @@ std::string sampling_spec(const families::Family& family, int samples, std::uint
 std::vector<pattern::Pattern> sample_from(const std::string& result) {
   std::vector<pattern::Pattern> sample;
   for (const std::string& key : expected(runtime::unpack(result)))
-    sample.push_back(pattern::Pattern::from_layout(expected(pattern::layout_from_key(key))).value());
+    sample.push_back(expected(pattern::pattern_from_key(key)));
   return sample;
 }
 

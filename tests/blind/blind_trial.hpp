@@ -4,16 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "../output_of.hpp"
 #include "base/random.hpp"
 #include "measurement/measurement.hpp"
 #include "pattern/coupons.hpp"
@@ -80,14 +78,8 @@ using BatchOf = std::function<int(const virtual_laboratory::Question&, int repli
 
 /// What `nacre diagnose SET --fidelity FIDELITY --json` prints.
 inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::string& fidelity) {
-  const std::string command =
-      std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + set.string() + " --fidelity " + fidelity + " --json";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string output;
-  std::array<char, 4096> buffer{};
-  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;)
-    output.append(buffer.data(), count);
-  return nlohmann::json::parse(output);
+  return nlohmann::json::parse(output_of(std::string(NACRE_BINARY_DIR) + "/nacre diagnose " + set.string() +
+                                         " --fidelity " + fidelity + " --json"));
 }
 
 /// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../grids.hpp"
 #include "fem/explicit_solver.hpp"
 #include "material/neo_hookean.hpp"
 
@@ -17,14 +18,7 @@ namespace {
 constexpr double kYoung = 1e8, kPoisson = 0.35, kDensity = 1150.0, kElementSize = 260e-6;
 
 fem::Grid homogeneous_grid(int columns, int rows, double threshold = std::numeric_limits<double>::infinity()) {
-  const auto count = static_cast<std::size_t>(columns * rows);
-  return {.columns = columns,
-          .rows = rows,
-          .element_size_m = kElementSize,
-          .phase = std::vector<fem::Phase>(count, fem::Phase::rigid),
-          .young_pa = std::vector<double>(count, kYoung),
-          .poisson = std::vector<double>(count, kPoisson),
-          .threshold_j_per_m3 = std::vector<double>(count, threshold)};
+  return fem::uniform_grid(columns, rows, {kYoung, kPoisson, threshold});
 }
 
 double stable_step(const fem::Grid& grid) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../grids.hpp"
 #include "fem/static_solver.hpp"
 #include "material/pulled_bar.hpp"
 #include "specimens.hpp"
@@ -18,17 +19,7 @@ using verification::specimen;
 constexpr double kYoungPa = 1e9, kPoisson = 0.3, kThreshold = 2e6, kRate = 20.0;
 
 /// A strip of one material without notch.
-fem::Grid strip(double young_pa = kYoungPa) {
-  constexpr int columns = 12, rows = 8;
-  const auto count = static_cast<std::size_t>(columns * rows);
-  return {.columns = columns,
-          .rows = rows,
-          .element_size_m = 260e-6,
-          .phase = std::vector<fem::Phase>(count, fem::Phase::rigid),
-          .young_pa = std::vector<double>(count, young_pa),
-          .poisson = std::vector<double>(count, kPoisson),
-          .threshold_j_per_m3 = std::vector<double>(count, kThreshold)};
-}
+fem::Grid strip(double young_pa = kYoungPa) { return fem::uniform_grid(12, 8, {young_pa, kPoisson, kThreshold}); }
 
 fem::ExplicitSettings settings_for(const fem::Grid& grid) {
   const double dt = 0.5 * grid.element_size_m / fem::fastest_wave_m_per_s(grid, 1150.0);

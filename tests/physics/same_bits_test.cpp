@@ -1,11 +1,10 @@
 // The testers give the same bits on every instruction set, for any number of threads and in any order of a batch.
 
-#include <array>
 #include <cstdio>
-#include <memory>
 
 #include <gtest/gtest.h>
 
+#include "../output_of.hpp"
 #include "specimens.hpp"
 
 namespace nacre {
@@ -60,13 +59,9 @@ TEST(SameBits, DISABLED_SayExactResults) { std::printf("RESULTS %s\n", exact_res
 
 /// The results of this program run anew under an environment setting; the instruction set comes first.
 std::string results_of_process(const std::string& environment) {
-  const std::string command = environment + " '" + std::string(testing::internal::GetArgvs().front()) +
-                              "' --gtest_also_run_disabled_tests --gtest_filter=SameBits.DISABLED_SayExactResults";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string output;
-  std::array<char, 4096> buffer{};
-  for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0;)
-    output.append(buffer.data(), count);
+  const std::string output =
+      output_of(environment + " '" + std::string(testing::internal::GetArgvs().front()) +
+                "' --gtest_also_run_disabled_tests --gtest_filter=SameBits.DISABLED_SayExactResults");
   const std::size_t start = output.find("RESULTS ");
   if (start == std::string::npos) return output;
   return output.substr(start + 8, output.find('\n', start) - start - 8);

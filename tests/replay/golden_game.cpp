@@ -19,8 +19,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/expected.hpp"
 #include "base/files.hpp"
-#include "base/result.hpp"
 #include "runtime/journal.hpp"
 #include "runtime/log_file.hpp"
 #include "wire/channels.hpp"
@@ -38,12 +38,6 @@ constexpr std::size_t kLongSeries = 8;  // numbers; shorter ones are written out
 
 const std::vector<std::string> kNodes = {"validation_agent", "proposal_agent", "analyser", "simulator_farm",
                                          "virtual_lab"};
-
-template <class T>
-T expected(Result<T> result) {
-  if (!result) throw InputError(result.error().message);
-  return *std::move(result);
-}
 
 std::string to_hex(const std::string& bytes) {
   std::string digits;

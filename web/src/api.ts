@@ -55,7 +55,7 @@ export interface Errors {
   toughness_spearman: number;
 }
 
-export interface Summary {
+interface Summary {
   fidelity: string;
   calibration_count: number;
   measured_hypervolume: number;
@@ -307,7 +307,7 @@ export interface Mechanism {
 }
 
 /** The map of one seed's surroundings, as `nacre families` made it. */
-export interface Subfamily {
+interface Subfamily {
   seed: string;
   sampled: number;
   interpolated: number;
@@ -316,7 +316,7 @@ export interface Subfamily {
 }
 
 /** E and T as far as they are known. */
-export interface Values {
+interface Values {
   modulus_pa: number | null;
   toughness_pa: number | null;
 }

@@ -27,7 +27,7 @@ const WAIT_MS = 500;
 type FilmState = { film?: Film; simulation?: Simulation; problem?: string };
 
 /** The film of a design: from the run, or simulated now. */
-export function useFilm({ design, model, map }: Pick<Chosen, "design" | "model" | "map">): FilmState {
+function useFilm({ design, model, map }: Pick<Chosen, "design" | "model" | "map">): FilmState {
   const [state, setState] = useState<FilmState>({});
   useEffect(() => {
     setState({});
@@ -218,7 +218,7 @@ function mean(values: (number | null)[]): number | null {
 }
 
 /** What stands where the film will be. */
-export function FilmWait({ state }: { state: FilmState }) {
+function FilmWait({ state }: { state: FilmState }) {
   if (state.problem)
     return (
       <p class="notice bad" role="status">

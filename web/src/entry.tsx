@@ -59,7 +59,8 @@ function nextName(order: Order, taken: Set<string>): string {
 /** Rows of a curve file below its heading. */
 const rowsIn = (csv: string) => csv.split("\n").filter((line) => line.trim() !== "").length - 1;
 
-export function Entry({ work, refresh, playing }: { work: Work; refresh: () => Promise<void>; playing: boolean }) {
+/** The form, the order that it answers, and what becomes of it. */
+function useEntry(work: Work, refresh: () => Promise<void>) {
   const [form, setForm] = useDraft("entry", EMPTY);
   const [fileName, setFileName] = useDraft("entry/file", "");
   const [chosen, setChosen] = useDraft("entry/order", "");
@@ -109,7 +110,11 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
     const order = orderOf(chosen);
     if (order) setForm((now) => ({ ...now, specimen: nameFor(order) }));
   }, [handedIn]);
-  const unit = form.test === "modulus" ? "GPa" : "MPa";
+  const readCurve = async (file: File | undefined) => {
+    setFileName(file?.name ?? "");
+    const curve_csv = file ? await file.text() : "";
+    setForm((now) => ({ ...now, curve_csv }));
+  };
   const submit = async (event: Event) => {
     event.preventDefault();
     const isEmptyFile = fileName !== "" && rowsIn(form.curve_csv) < 1;
@@ -121,19 +126,39 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
     forget();
     setHandedIn(handedIn + 1);
   };
+  return {
+    form,
+    fileName,
+    files,
+    open,
+    chosen: orderOf(chosen) ? chosen : "",
+    said: fault ? { kind: "bad" as const, text: fault } : said,
+    busy,
+    set,
+    setAsked,
+    setValid: (valid: boolean) => setForm({ ...form, valid }),
+    take,
+    readCurve,
+    submit,
+  };
+}
+
+export function Entry({ work, refresh, playing }: { work: Work; refresh: () => Promise<void>; playing: boolean }) {
+  const { form, set, setAsked, ...entry } = useEntry(work, refresh);
+  const unit = form.test === "modulus" ? "GPa" : "MPa";
   return (
     <section class="panel">
       <h2>Enter a measurement</h2>
       {!playing ? (
         <p class="awaited">Only while the game plays: the validation agent takes measurements.</p>
       ) : (
-        <form onSubmit={submit} class="entry">
-          {open.length > 0 && (
+        <form onSubmit={entry.submit} class="entry">
+          {entry.open.length > 0 && (
             <label class="whole">
               From an open order
-              <select name="order" value={orderOf(chosen) ? chosen : ""} onChange={(e) => take(e.currentTarget.value)}>
+              <select name="order" value={entry.chosen} onChange={(e) => entry.take(e.currentTarget.value)}>
                 <option value="">choose, or fill in by hand</option>
-                {open.map((o) => (
+                {entry.open.map((o) => (
                   <option key={o.order} value={o.order}>
                     {o.design.slice(0, 16)} · {o.test}
                     {o.orientation_deg ? " turned" : ""}
@@ -217,19 +242,14 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
           <label class="whole">
             Curve{" "}
             <input
-              key={files}
+              key={entry.files}
               type="file"
               accept=".csv,text/csv"
-              onChange={async (e) => {
-                const file = e.currentTarget.files?.[0];
-                setFileName(file?.name ?? "");
-                const curve_csv = file ? await file.text() : "";
-                setForm((now) => ({ ...now, curve_csv }));
-              }}
+              onChange={(e) => entry.readCurve(e.currentTarget.files?.[0])}
             />
             <span class="quiet">
-              {fileName
-                ? `${fileName}, ${rowsIn(form.curve_csv)} rows`
+              {entry.fileName
+                ? `${entry.fileName}, ${rowsIn(form.curve_csv)} rows`
                 : "CSV with the columns strain,stress_pa"}
             </span>
           </label>
@@ -240,18 +260,18 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
             <input
               type="checkbox"
               checked={form.valid}
-              onChange={(e) => setForm({ ...form, valid: e.currentTarget.checked })}
+              onChange={(e) => entry.setValid(e.currentTarget.checked)}
             />{" "}
             valid
           </label>
           <div class="whole">
-            <button type="submit" disabled={busy}>
+            <button type="submit" disabled={entry.busy}>
               Hand in
             </button>
           </div>
         </form>
       )}
-      <Notice said={fault ? { kind: "bad", text: fault } : said} />
+      <Notice said={entry.said} />
     </section>
   );
 }

@@ -17,14 +17,14 @@ export interface Spot {
 }
 
 /** Many points of one kind. */
-export interface Cloud {
+interface Cloud {
   gamut: Gamut;
   of: string;
   model: number | string;
 }
 
 const REACH = 16; // points on the screen within which the pointer catches
-export const LARGE = 3000; // from here on a cloud is drawn in one go
+const LARGE = 3000; // from here on a cloud is drawn in one go
 
 /** The steps of the arrow keys, y upwards. */
 export const ARROWS: Record<string, [number, number]> = {

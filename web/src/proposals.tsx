@@ -6,7 +6,7 @@ import { gpa, mpa } from "./numbers";
 import { Name, Notice, Unit, useDraft } from "./parts";
 
 /** Designs that may wait for a decision: of a round, or of the families of the stage after the last one. */
-export interface Offer {
+interface Offer {
   title: string;
   round: number;
   designs: Proposed[];

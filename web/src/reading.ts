@@ -8,7 +8,7 @@ import { useRepeated } from "./parts";
 /** After which what the server refused is asked for again: it may have been stopped, or busy. */
 export const AGAIN_MS = 5000;
 
-export interface Reading<T> {
+interface Reading<T> {
   /** The newest answer; null: none yet. */
   value: T | null;
   /** Why there was no answer the last time; empty: there was one. */
@@ -53,7 +53,7 @@ export function useReading<T>(path: string, query: Query, version: unknown): Rea
 }
 
 /** A gamut that is to be shown: its name on the page, how many patterns it has, and whose it is. */
-export interface Wanted {
+interface Wanted {
   name: string;
   count: number;
   which: { round: number } | { family: string };

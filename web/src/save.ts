@@ -14,7 +14,7 @@ const cell = (value: unknown) => {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 };
 
-export function csvOf(heading: string[], rows: unknown[][]): string {
+function csvOf(heading: string[], rows: unknown[][]): string {
   return [heading, ...rows].map((row) => row.map(cell).join(",")).join("\n") + "\n";
 }
 

@@ -54,7 +54,7 @@ TEST(Outsider, TwinsShareWhatADesignHasOfItsOwn) {
 
 // What a look-alike of cosine 0.8 leaves is just seen where names begin.
 TEST(Outsider, ANameBeginsWhereALookAlikeIsSeen) {
-  EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - kLookalike * kLookalike), kVisibleSignal, 1e-12);
+  EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - 0.8 * 0.8), kVisibleSignal, 1e-12);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "../../grids.hpp"
 #include "fem/element.hpp"
-#include "grids.hpp"
 
 namespace nacre::fem {
 namespace {

@@ -1,4 +1,4 @@
-#include "pattern/layout.hpp"
+#include "pattern/pattern_key.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -163,6 +163,12 @@ TEST(LayoutKey, ErrorsSayWhatWasExpected) {
   EXPECT_THAT(error("577"), HasSubstr("expected 14 lower-case hex digits"));
   EXPECT_THAT(error(""), HasSubstr("expected 14"));
   EXPECT_THAT(error("L" + std::string(99, '0') + "g"), HasSubstr("character 101"));
+}
+
+TEST(LayoutKey, OfAPatternHasTheSymmetry) {
+  EXPECT_EQ(pattern_from_key("577fffe9fffdef").value().key(), "577fffe9fffdef");
+  EXPECT_THAT(pattern_from_key("577").error().message, HasSubstr("expected 14 lower-case hex digits"));
+  EXPECT_THAT(pattern_from_key("L8" + std::string(99, '0')).error().message, HasSubstr("eightfold symmetry"));
 }
 
 }  // namespace

@@ -4,19 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "../../grids.hpp"
+
 namespace nacre::tester {
 namespace {
-
-fem::Grid uncut(int columns, int rows) {
-  const auto count = static_cast<std::size_t>(columns * rows);
-  return {.columns = columns,
-          .rows = rows,
-          .element_size_m = 260e-6,
-          .phase = std::vector<fem::Phase>(count, fem::Phase::rigid),
-          .young_pa = std::vector<double>(count, 1e9),
-          .poisson = std::vector<double>(count, 0.3),
-          .threshold_j_per_m3 = std::vector<double>(count, 1e6)};
-}
 
 int empty_in_row(const fem::Grid& grid, int row) {
   const auto start = grid.phase.begin() + row * grid.columns;
@@ -24,7 +15,7 @@ int empty_in_row(const fem::Grid& grid, int row) {
 }
 
 TEST(Notch, FullSpecimenHasTheNotchOfTheThesis) {
-  fem::Grid grid = uncut(200, 160);
+  fem::Grid grid = fem::uniform_grid(200, 160);
   cut_notch(grid, 1);
   EXPECT_EQ(empty_in_row(grid, 80), 40);
   EXPECT_EQ(empty_in_row(grid, 79), empty_in_row(grid, 81)) << "the cut is symmetric about the notch";
@@ -35,7 +26,7 @@ TEST(Notch, FullSpecimenHasTheNotchOfTheThesis) {
 }
 
 TEST(Notch, SmallerSpecimensKeepItsShareOfTheWidth) {
-  fem::Grid grid = uncut(40, 40);
+  fem::Grid grid = fem::uniform_grid(40, 40);
   cut_notch(grid, 1);
   EXPECT_EQ(empty_in_row(grid, 20), 8);
   EXPECT_EQ(empty_in_row(grid, 21), 4);
@@ -43,7 +34,7 @@ TEST(Notch, SmallerSpecimensKeepItsShareOfTheWidth) {
 }
 
 TEST(Notch, RefinedGridLosesTheSameArea) {
-  fem::Grid coarse = uncut(80, 80), fine = uncut(240, 240);
+  fem::Grid coarse = fem::uniform_grid(80, 80), fine = fem::uniform_grid(240, 240);
   cut_notch(coarse, 1);
   cut_notch(fine, 3);
   for (int row = 0; row < 240; ++row) EXPECT_EQ(empty_in_row(fine, row), 3 * empty_in_row(coarse, row / 3)) << row;

@@ -1,21 +1,25 @@
 #pragma once
-// Small grids for the tests of the solvers.
+// Grids for the tests of the solvers.
 
 #include "base/random.hpp"
 #include "fem/grid.hpp"
 
 namespace nacre::fem {
 
-/// Every element rigid, E = 1 GPa, nu = 0.3, h = 260 um.
-inline Grid uniform_grid(int columns, int rows) {
+struct Uniform {
+  double young_pa = 1e9, poisson = 0.3, threshold_j_per_m3 = 1e300;
+};
+
+/// Every element rigid and of one material, h = 260 um.
+inline Grid uniform_grid(int columns, int rows, const Uniform& material = {}) {
   const auto count = static_cast<std::size_t>(columns * rows);
   return {.columns = columns,
           .rows = rows,
           .element_size_m = 260e-6,
           .phase = std::vector<Phase>(count, Phase::rigid),
-          .young_pa = std::vector<double>(count, 1e9),
-          .poisson = std::vector<double>(count, 0.3),
-          .threshold_j_per_m3 = std::vector<double>(count, 1e300)};
+          .young_pa = std::vector<double>(count, material.young_pa),
+          .poisson = std::vector<double>(count, material.poisson),
+          .threshold_j_per_m3 = std::vector<double>(count, material.threshold_j_per_m3)};
 }
 
 /// Elements between 1 MPa and 3 GPa at random.
