@@ -27,9 +27,8 @@ measurement::Replicates replicates_of(const Observation& group, double log_tough
 material::ParameterSet simulated_side(const material::ParameterSet& set) {
   material::ParameterSet result = set;
   std::erase_if(result.extensions, [](const auto& extension) {
-    const material::Effect* effect = material::find_effect(extension.first);
     const bool off = std::all_of(extension.second.begin(), extension.second.end(), [](double v) { return v == 0.0; });
-    return off || (effect != nullptr && effect->side == material::EffectSide::measurement);
+    return off || material::acts_in_measurement(extension.first);
   });
   return result;
 }

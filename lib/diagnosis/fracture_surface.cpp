@@ -272,8 +272,7 @@ Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) cons
     for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[static_cast<Eigen::Index>(r)];
   }
   const bool machine = std::any_of(set.extensions.begin(), set.extensions.end(), [](const auto& extension) {
-    const material::Effect* effect = material::find_effect(extension.first);
-    return effect != nullptr && effect->side == material::EffectSide::measurement &&
+    return material::acts_in_measurement(extension.first) &&
            std::any_of(extension.second.begin(), extension.second.end(), [](double v) { return v != 0.0; });
   });
   if (machine) result += machine_change(set, at);

@@ -8,20 +8,19 @@
 namespace nacre::game {
 namespace {
 
-bool acts_in_measurement(const material::Extensions::value_type& extension) {
-  const material::Effect* effect = material::find_effect(extension.first);
-  return effect != nullptr && effect->side == material::EffectSide::measurement;
+bool of_machine(const material::Extensions::value_type& extension) {
+  return material::acts_in_measurement(extension.first);
 }
 
 }  // namespace
 
 material::ParameterSet material_side(material::ParameterSet parameters) {
-  std::erase_if(parameters.extensions, acts_in_measurement);
+  std::erase_if(parameters.extensions, of_machine);
   return parameters;
 }
 
 bool has_measurement_side(const material::ParameterSet& parameters) {
-  return std::any_of(parameters.extensions.begin(), parameters.extensions.end(), acts_in_measurement);
+  return std::any_of(parameters.extensions.begin(), parameters.extensions.end(), of_machine);
 }
 
 sysid::Prediction through_machine(const sysid::Prediction& prediction, const material::ParameterSet& model) {

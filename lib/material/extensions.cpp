@@ -52,6 +52,11 @@ const Effect* find_effect(std::string_view name) {
   return nullptr;
 }
 
+bool acts_in_measurement(std::string_view name) {
+  const Effect* effect = find_effect(name);
+  return effect != nullptr && effect->side == EffectSide::measurement;
+}
+
 double extension_value(const Extensions& extensions, std::string_view name, int index) {
   const auto found = extensions.find(name);
   if (found == extensions.end() || index >= static_cast<int>(found->second.size())) return 0.0;

@@ -58,6 +58,8 @@ std::span<const Effect> effect_library();
 
 /// The effect of that name, or nullptr.
 const Effect* find_effect(std::string_view name);
+/// Whether that effect acts in the testing machine; false where there is none of the name.
+bool acts_in_measurement(std::string_view name);
 
 /// Value of parameter `index` of extension `name`; 0 when the extension is absent.
 double extension_value(const Extensions& extensions, std::string_view name, int index = 0);
