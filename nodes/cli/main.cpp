@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     return nacre::cli::run(argc, argv);
   } catch (const nacre::InputError& error) {
     std::fprintf(stderr, "nacre: %s\n", error.what());
-  } catch (const nacre::store::CacheUnavailable& error) {
+  } catch (const nacre::store::DatabaseUnavailable& error) {
     std::fprintf(stderr, "nacre: %s\n", error.what());
     return nacre::cli::kLater;
   } catch (const std::exception& error) {
