@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/file_aside.hpp"
 #include "base/no_space.hpp"
 #include "base/result.hpp"
 
@@ -75,10 +76,20 @@ void make_folder(const std::filesystem::path& folder) {
   if (problem) refuse_write(fmt::format("{}: cannot be made: {}", folder.string(), problem.message()), problem.value());
 }
 
+std::filesystem::path name_aside(const std::filesystem::path& path) {
+  static std::atomic<unsigned> names = 0;
+  char host[65] = "unknown";
+  ::gethostname(host, sizeof host - 1);
+  return fmt::format("{}.{}-{}-{}.part", path.string(), host, ::getpid(), ++names);
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const Descriptor entry{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  if (entry.fd >= 0) ::fsync(entry.fd);
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  // A name of its own: another program may write the same file.
-  static std::atomic<unsigned> files = 0;
-  const std::filesystem::path aside = fmt::format("{}.{}-{}.part", path.string(), ::getpid(), ++files);
+  const std::filesystem::path aside = name_aside(path);
   const auto give_up = [&](int reason) {
     ::unlink(aside.c_str());
     refuse_write(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)), reason);
@@ -95,10 +106,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
     if (::fsync(file.fd) != 0) give_up(errno);
   }
   if (::rename(aside.c_str(), path.c_str()) != 0) give_up(errno);
-  // The new name is on disk, too, where the file system can say so.
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const Descriptor entry{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-  if (entry.fd >= 0) ::fsync(entry.fd);
+  sync_folder(path.has_parent_path() ? path.parent_path() : ".");
 }
 
 }  // namespace nacre

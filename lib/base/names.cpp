@@ -1,6 +1,7 @@
 #include "base/names.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace nacre {
 
@@ -15,6 +16,16 @@ std::string lower_case(std::string_view text) {
   std::string result(text);
   for (char& letter : result) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
   return result;
+}
+
+std::optional<int> number_between(std::string_view before, std::string_view after, std::string_view id) {
+  if (!id.starts_with(before)) return std::nullopt;
+  id.remove_prefix(before.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), number);
+  if (error != std::errc{} || id.front() == '-') return std::nullopt;
+  id.remove_prefix(static_cast<std::size_t>(end - id.data()));
+  return id.starts_with(after) ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace nacre

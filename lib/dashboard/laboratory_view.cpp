@@ -82,17 +82,7 @@ Json orders_json(const game::LaboratoryFacts& facts) {
 
 Json states_json(const game::LaboratoryFacts& facts) {
   Json states = Json::array();
-  for (const game::DesignState& state : game::design_states(facts)) {
-    states.push_back({{"design", state.design.name()},
-                      {"state", game::to_string(state.stage)},
-                      {"proposed_in_round", state.round < 0 ? Json(nullptr) : Json(state.round)},
-                      {"ordered", state.ordered},
-                      {"printed", state.printed},
-                      {"measured", state.arrived},
-                      {"valid", state.valid},
-                      {"by", state.decided_by},
-                      {"why", state.why}});
-  }
+  for (const game::DesignState& state : game::design_states(facts)) states.push_back(game::to_json(state));
   return states;
 }
 

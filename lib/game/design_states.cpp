@@ -5,6 +5,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace nacre::game {
 namespace {
@@ -22,11 +23,12 @@ bool is_proposed(const LaboratoryFacts& facts, const StatedDecision& decision) {
 
 /// Proposed, not decided on and not ordered, whatever was printed or measured of it already.
 bool waits_for_an_answer(const LaboratoryFacts& facts, const pattern::Design& design) {
-  return !are_both_ordered(facts.orders, design) && std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
-    return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedDecision& each) {
-             return each.proposal_round == proposed.round && each.design == design;
-           });
-  });
+  return !are_both_ordered(facts.orders, design) &&
+         std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
+           return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedDecision& each) {
+                    return each.proposal_round == proposed.round && each.design == design;
+                  });
+         });
 }
 
 DesignStage stage_of(const DesignState& state, bool all_complete) {
@@ -108,6 +110,19 @@ measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& fac
   settings.fewest_consistent =
       facts.enough_valid > 0 ? facts.enough_valid : std::min(settings.fewest_consistent, settings.fewest_tested);
   return settings;
+}
+
+nlohmann::ordered_json to_json(const DesignState& state) {
+  using Json = nlohmann::ordered_json;
+  return {{"design", state.design.name()},
+          {"state", to_string(state.stage)},
+          {"proposed_in_round", state.round < 0 ? Json(nullptr) : Json(state.round)},
+          {"ordered", state.ordered},
+          {"printed", state.printed},
+          {"measured", state.arrived},
+          {"valid", state.valid},
+          {"by", state.decided_by},
+          {"why", state.why}};
 }
 
 std::vector<DesignState> design_states(const LaboratoryFacts& facts) {

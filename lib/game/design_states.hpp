@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "game/measurement_book.hpp"
 #include "measurement/consistency.hpp"
 
@@ -69,6 +71,9 @@ struct DesignState {
   int ordered = 0, printed = 0, arrived = 0, valid = 0;
   std::string decided_by, why;
 };
+
+/// As `nacre designs --json` and the dashboard tell it.
+nlohmann::ordered_json to_json(const DesignState& state);
 
 /// Designs by name. Homogeneous ones, coupons and designs that a person brought are among them.
 std::vector<DesignState> design_states(const LaboratoryFacts& facts);

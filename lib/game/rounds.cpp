@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "measurement/conditions.hpp"
 
@@ -41,26 +42,29 @@ int interface_length(const pattern::Pattern& pattern) {
   return length;
 }
 
+constexpr std::pair<OrderReason, std::string_view> kReasons[] = {
+    {OrderReason::base, "base"},
+    {OrderReason::mixture, "mixture"},
+    {OrderReason::random, "random"},
+    {OrderReason::proposal, "proposal"},
+    {OrderReason::discrimination, "discrimination"},
+    {OrderReason::person, "person"},
+    {OrderReason::family, "family"},
+};
+
 }  // namespace
 
 std::string_view to_string(OrderReason reason) {
-  switch (reason) {
-    case OrderReason::base:
-      return "base";
-    case OrderReason::mixture:
-      return "mixture";
-    case OrderReason::random:
-      return "random";
-    case OrderReason::proposal:
-      return "proposal";
-    case OrderReason::discrimination:
-      return "discrimination";
-    case OrderReason::person:
-      return "person";
-    case OrderReason::family:
-      return "family";
+  return std::ranges::find(kReasons, reason, &std::pair<OrderReason, std::string_view>::first)->second;
+}
+
+Result<OrderReason> order_reason_from_string(std::string_view text) {
+  std::vector<std::string_view> known;
+  for (const auto& [reason, name] : kReasons) {
+    if (name == text) return reason;
+    known.push_back(name);
   }
-  return "proposal";
+  return fail("reason '{}': expected one of {}", text, fmt::join(known, ", "));
 }
 
 std::string order_id(int round, const Design& design, TestKind test, const tester::TestConditions& conditions) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.hpp"
 #include "game/scenario.hpp"
 #include "pattern/design.hpp"
 #include "tester/loading.hpp"
@@ -15,6 +16,7 @@ namespace nacre::game {
 
 enum class OrderReason { base, mixture, random, proposal, discrimination, person, family };
 std::string_view to_string(OrderReason reason);
+Result<OrderReason> order_reason_from_string(std::string_view text);
 
 /// Replicates of one design for one test.
 struct Order {

@@ -145,8 +145,8 @@ void resolve_file(const toml::table& entries, std::string_view key, const std::f
 }  // namespace
 
 std::vector<std::string> Scenario::nodes() const {
-  std::vector<std::string> names = {"simulator_farm", "analyser", "proposal_agent", "validation_agent"};
-  if (laboratory.virtual_lab) names.insert(names.begin(), "virtual_lab");
+  std::vector<std::string> names(kNodes.begin(), kNodes.end());
+  if (!laboratory.virtual_lab) std::erase(names, "virtual_lab");
   return names;
 }
 

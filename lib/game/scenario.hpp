@@ -2,9 +2,11 @@
 // A scenario: everything a run is configured by, one documented struct, validated, written back in full beside the
 // logs.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tester/tester.hpp"
@@ -65,6 +67,10 @@ struct FamilySettings {
   int modulus_evaluations = 120;     ///< and of the modulus set
   bool operator==(const FamilySettings&) const = default;
 };
+
+/// Every node there is, in start order.
+inline constexpr std::array<std::string_view, 5> kNodes = {"virtual_lab", "simulator_farm", "analyser",
+                                                           "proposal_agent", "validation_agent"};
 
 /// The whole scenario, as in launch/README.md.
 struct Scenario {

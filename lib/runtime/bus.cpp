@@ -175,7 +175,7 @@ struct Bus::State {
     // Whatever is dropped below has arrived: it is not lost.
     sequences.count(datagram.channel, blanked->header);
     counters.lost = sequences.lost();
-    if (!options.accept_any_run && blanked->header.run_id != options.run_id) {
+    if (blanked->header.run_id != options.run_id) {
       ++counters.foreign;
       report("run " + datagram.channel,
              fmt::format("a message on {} of run \"{}\" from {} dropped: this is run \"{}\"", datagram.channel,

@@ -38,9 +38,8 @@ struct BusOptions {
   std::string url;
   std::string node;
   std::string run_id;
-  std::int64_t epoch = 0;       ///< 0: now
-  FaultSettings faults;         ///< see faults_from_environment()
-  bool accept_any_run = false;  ///< for tools that only look: messages of every run and every channel pass
+  std::int64_t epoch = 0;  ///< 0: now
+  FaultSettings faults;    ///< see faults_from_environment()
   /// Called with a sentence for a person: what was dropped, from whom and why. The same sentence comes again at powers
   /// of two, and so does any beyond a hundred of one kind.
   std::function<void(LogLevel, const std::string&)> report = {};

@@ -1,8 +1,5 @@
 #include "runtime/journal.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +7,7 @@
 #include <fstream>
 #include <utility>
 
+#include "base/file_aside.hpp"
 #include "base/files.hpp"
 #include "base/hash.hpp"
 #include "base/no_space.hpp"
@@ -29,36 +27,6 @@ std::uint32_t read_u32(std::string_view bytes) {
 }
 
 constexpr std::size_t kHashSize = 32;
-
-/// Opens and locks FOLDER/lock; the lock ends with the process, however that ends.
-int lock_folder(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "lock";
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (fd < 0) {
-    const int reason = errno;
-    refuse_write(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(reason)), reason);
-  }
-  if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
-    char owner[32] = {};
-    const ssize_t length = ::read(fd, owner, sizeof owner - 1);
-    ::close(fd);
-    throw InputError::format("{}: another process (pid {}) runs this node in this run; stop it first", path.string(),
-                             length > 0 ? owner : "unknown");
-  }
-  const std::string pid = std::to_string(::getpid());
-  // The number is for people; the lock does not depend on it, and a full disk must not keep a node from saying so
-  // itself.
-  [[maybe_unused]] const bool noted = ::ftruncate(fd, 0) == 0 && ::write(fd, pid.data(), pid.size()) > 0;
-  return fd;
-}
-
-/// A new file is on disk only when its folder's entry is.
-void sync_folder(const std::filesystem::path& folder) {
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
-}
 
 /// What a journal is found like.
 struct Found {
@@ -136,7 +104,7 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
                                        const std::string& boot) {
   make_folder(folder);
   std::unique_ptr<Journal> journal(new Journal());
-  journal->lock_fd_ = lock_folder(folder);
+  journal->lock_.emplace(folder);
   journal->path_ = folder / "journal.lcm";
   const Found found = read_and_mend(journal->path_);
   journal->warning_ = found.warning;
@@ -159,17 +127,11 @@ std::unique_ptr<Journal> Journal::open(const std::filesystem::path& folder, std:
   return journal;
 }
 
-Journal::~Journal() {
-  writer_.reset();
-  if (lock_fd_ >= 0) ::close(lock_fd_);
-}
-
 Result<void> Journal::append(std::int64_t utime, std::string_view channel, std::string_view data, bool to_disk) {
   Result<void> written = writer_->append(utime, channel, data);
   if (written) written = writer_->flush();
   if (written && to_disk) written = writer_->sync();
-  constexpr std::int64_t kRecordHeader = 28;
-  if (written) bytes_ += kRecordHeader + static_cast<std::int64_t>(channel.size() + data.size());
+  if (written) bytes_ += kRecordHeaderSize + static_cast<std::int64_t>(channel.size() + data.size());
   return written;
 }
 

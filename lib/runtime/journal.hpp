@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "runtime/folder_lock.hpp"
 #include "runtime/log_file.hpp"
 
 namespace nacre::runtime {
@@ -46,7 +47,6 @@ class Journal {
   /// `boot`: since when what is written is in the machine's memory at least.
   static std::unique_ptr<Journal> open(const std::filesystem::path& folder, std::int64_t now_utime,
                                        const std::string& boot = boot_of_machine());
-  ~Journal();
   /// To read what stands in it: LogReader(journal.path()).
   const std::filesystem::path& path() const { return path_; }
   /// When this journal was begun, microseconds since 1970; a new number after a torn tail was cut off and after each
@@ -61,12 +61,12 @@ class Journal {
 
  private:
   Journal() = default;
+  std::optional<FolderLock> lock_;  // let go of last
   std::unique_ptr<LogWriter> writer_;
   std::filesystem::path path_;
   std::int64_t identity_ = 0;
   std::int64_t bytes_ = 0;
   std::string warning_;
-  int lock_fd_ = -1;
 };
 
 }  // namespace nacre::runtime

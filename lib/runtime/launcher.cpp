@@ -334,17 +334,17 @@ void Launch::stop(std::vector<SupervisedNode*> processes) {
 
 void Launch::sum_up(bool is_complete) {
   try {
-    for (const round_summary_t& round : read_rounds(run_.path())) fmt::print("{}\n", in_words(round));
+    for (const round_summary_t& round : read_rounds(run_.path())) print_line(stdout, in_words(round));
   } catch (const InputError&) {  // a damaged journal, which its node has said
   }
   const fs::path report = run_.path() / "report.html";
-  if (fs::exists(report)) fmt::print("report: {}\n", report.string());
-  fmt::print("run: {}\n", run_.path().string());
+  if (fs::exists(report)) print_line(stdout, "report: " + report.string());
+  print_line(stdout, "run: " + run_.path().string());
   if (!is_complete) {
-    fmt::print("the game is not over: `nacre launch --resume {}` goes on with it{}\n",
-               shell_word(fs::proximate(run_.path())), awaits_mending() ? ", once the cause above is mended" : "");
+    print_line(stdout, fmt::format("the game is not over: `nacre launch --resume {}` goes on with it{}",
+                                   shell_word(fs::proximate(run_.path())),
+                                   awaits_mending() ? ", once the cause above is mended" : ""));
   }
-  std::fflush(stdout);
 }
 
 int Launch::play() {
@@ -366,6 +366,8 @@ int Launch::play() {
   stop(nodes());
   if (recorder_) stop({recorder_.get()});
   if (!is_guest()) sum_up(is_complete);
+  std::fflush(stdout);
+  std::clearerr(stdout);  // a reader who has gone takes nothing from the game
   return is_complete ? 0 : 1;
 }
 

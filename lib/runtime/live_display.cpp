@@ -51,7 +51,7 @@ std::string plain_node_line(const NodeView& view) {
 }
 
 void LiveDisplay::erase_lines() {
-  if (!drawn_.empty()) fmt::print(out_, "\x1b[{}A\r\x1b[J", drawn_.size());
+  if (!drawn_.empty()) std::fprintf(out_, "\x1b[%zuA\r\x1b[J", drawn_.size());
   drawn_.clear();
 }
 
@@ -61,7 +61,7 @@ void LiveDisplay::show(const std::vector<NodeView>& views, Clock::time_point now
     for (const NodeView& view : views) lines.push_back(node_line(view, columns_ - 1));
     if (lines == drawn_) return;
     erase_lines();
-    for (const std::string& line : lines) fmt::print(out_, "{}\n", line);
+    for (const std::string& line : lines) print_line(out_, line);
     drawn_ = std::move(lines);
   } else {
     constexpr auto kEvery = std::chrono::seconds(10);
@@ -70,7 +70,7 @@ void LiveDisplay::show(const std::vector<NodeView>& views, Clock::time_point now
       const auto last = said_.find(view.node);
       if (last != said_.end() && (last->second.line == line || now - last->second.when < kEvery)) continue;
       said_[view.node] = {line, now};
-      fmt::print(out_, "{}\n", line);
+      print_line(out_, line);
     }
   }
   std::fflush(out_);
@@ -79,8 +79,8 @@ void LiveDisplay::show(const std::vector<NodeView>& views, Clock::time_point now
 void LiveDisplay::say(const std::string& line) {
   const std::vector<std::string> lines = drawn_;
   erase_lines();
-  fmt::print(out_, "{}\n", line);
-  for (const std::string& again : lines) fmt::print(out_, "{}\n", again);
+  print_line(out_, line);
+  for (const std::string& again : lines) print_line(out_, again);
   drawn_ = lines;
   std::fflush(out_);
 }

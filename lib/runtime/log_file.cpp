@@ -18,7 +18,6 @@ namespace {
 
 // A record: magic, number (8 bytes), utime (8), channel length (4), data length (4), channel, data; big-endian.
 constexpr std::string_view kMagic = "\xED\xA1\xDA\x01";
-constexpr std::int64_t kHeaderSize = 28;
 constexpr std::int64_t kLongestChannel = 1000;
 
 std::int64_t read_integer(std::string_view bytes, std::int64_t offset, int size) {
@@ -43,12 +42,12 @@ struct LogReader::State {
 
   /// Where the record at `offset` ends; nothing when there is no whole record.
   std::optional<std::int64_t> end_of_record(std::int64_t offset) const {
-    if (size() - offset < kHeaderSize) return std::nullopt;
+    if (size() - offset < kRecordHeaderSize) return std::nullopt;
     if (bytes.substr(static_cast<std::size_t>(offset), kMagic.size()) != kMagic) return std::nullopt;
     const std::int64_t channel_length = read_integer(bytes, offset + 20, 4);
     const std::int64_t data_length = read_integer(bytes, offset + 24, 4);
     if (channel_length < 1 || channel_length > kLongestChannel) return std::nullopt;
-    const std::int64_t end = offset + kHeaderSize + channel_length + data_length;
+    const std::int64_t end = offset + kRecordHeaderSize + channel_length + data_length;
     if (end > size()) return std::nullopt;
     return end;
   }
@@ -106,9 +105,9 @@ std::optional<LogRecord> LogReader::next() {
     return std::string(state_->bytes.substr(static_cast<std::size_t>(from), static_cast<std::size_t>(to - from)));
   };
   state_->position = *end;
-  const std::int64_t data = offset + kHeaderSize + channel_length;
+  const std::int64_t data = offset + kRecordHeaderSize + channel_length;
   return LogRecord{read_integer(state_->bytes, offset + 4, 8), read_integer(state_->bytes, offset + 12, 8),
-                   part(offset + kHeaderSize, data), part(data, *end), offset};
+                   part(offset + kRecordHeaderSize, data), part(data, *end), offset};
 }
 
 void LogReader::resync() { state_->position = state_->next_sound(state_->position).value_or(state_->size()); }

@@ -12,6 +12,9 @@
 
 namespace nacre::runtime {
 
+/// What a record takes in the file beside its channel and data.
+inline constexpr std::int64_t kRecordHeaderSize = 28;
+
 /// One record of a log.
 struct LogRecord {
   std::int64_t number = 0;

@@ -26,11 +26,11 @@ struct NodeOptions {
   std::string node;                     ///< name of the node, e.g. validation_agent
   std::filesystem::path run_dir;        ///< --run-dir: logs/RUN
   std::filesystem::path scenario_file;  ///< --scenario; default RUN_DIR/scenario.toml
-  std::string run_id;                   ///< --run-id; default the manifest's, without one the last part of run_dir
-  int port = 0;                         ///< --port of the run's bus
-  int threads = 0;                      ///< --threads for long work; 0 all allowed cores
-  std::int64_t epoch = 0;               ///< --epoch; 0: now
-  bool lan = false;                     ///< the run spans hosts (from the scenario)
+  std::string run_id;         ///< --run-id, as the manifest says; empty for run_node(): the last part of run_dir
+  int port = 0;               ///< --port of the run's bus
+  int threads = 0;            ///< --threads for long work; 0 all allowed cores
+  std::int64_t epoch = 0;     ///< --epoch; 0: now
+  bool lan = false;           ///< the run spans hosts (from the scenario)
   bool follow_parent = true;  ///< --detached turns it off: else the node ends when the process that started it does
   std::vector<std::string> participants;  ///< nodes of the run (from the scenario)
   std::string url;                        ///< --url overrides port; for tests
@@ -63,7 +63,7 @@ using MakeNode = std::function<NodeProgram(const NodeOptions&, const game::Scena
 int node_main(int argc, char** argv, const std::string& node, const MakeNode& make,
               const std::function<void(CLI::App&)>& add_options = {});
 
-/// Takes part in `node_main`; for programs that build their own command line.
+/// The options of NodeOptions, as node_main() adds them.
 void add_node_options(CLI::App& app, NodeOptions& options);
 
 }  // namespace nacre::runtime

@@ -73,7 +73,6 @@ Recorder::Recorder(RecorderOptions options) : state_(std::make_unique<State>()) 
   BusOptions bus;
   bus.url = state_->options.url;
   bus.node = "recorder";
-  bus.accept_any_run = true;
   Result<std::unique_ptr<Bus>> opened = Bus::open(std::move(bus));
   if (!opened) throw InputError(opened.error().message);
   state_->bus = std::move(*opened);

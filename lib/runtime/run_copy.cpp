@@ -1,12 +1,11 @@
 #include "runtime/run_copy.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <string>
 #include <vector>
 
+#include "base/file_aside.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "runtime/bus.hpp"
@@ -54,6 +53,8 @@ Kind kind_of(const fs::path& relative) {
   return extension == ".db" ? Kind::database : Kind::file;
 }
 
+using CopyDatabase = std::function<void(const fs::path& from, const fs::path& to)>;
+
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -62,19 +63,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-}  // namespace
-
-bool node_runs(const fs::path& node_folder) {
-  const int fd = ::open((node_folder / "lock").c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return false;
-  const bool is_free = ::flock(fd, LOCK_SH | LOCK_NB) == 0;
-  ::close(fd);
-  return !is_free;
-}
-
-RunCopy copy_run(const fs::path& run, const fs::path& to,
-                 const std::function<void(const fs::path& from, const fs::path& to)>& copy_database) {
-  if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new folder", to.string());
+RunCopy copy_files(const fs::path& run, const fs::path& to, const CopyDatabase& copy_database) {
   const std::vector<fs::path> files = files_below(run);
   RunCopy copy;
   for (const Kind kind : {Kind::journal, Kind::file, Kind::database}) {
@@ -93,8 +82,25 @@ RunCopy copy_run(const fs::path& run, const fs::path& to,
       copy.bytes += static_cast<std::int64_t>(fs::file_size(to / file));
     }
   }
-  ::sync();  // a copy that a power cut takes is none
   return copy;
+}
+
+}  // namespace
+
+RunCopy copy_run(const fs::path& run, const fs::path& to, const CopyDatabase& copy_database) {
+  if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new folder", to.string());
+  const fs::path aside = name_aside(to);
+  try {
+    const RunCopy copy = copy_files(run, aside, copy_database);
+    ::sync();  // a copy that a power cut takes is none
+    fs::rename(aside, to);
+    sync_folder(fs::absolute(to).parent_path());
+    return copy;
+  } catch (...) {
+    std::error_code left_behind;
+    fs::remove_all(aside, left_behind);
+    throw;
+  }
 }
 
 }  // namespace nacre::runtime

@@ -1,14 +1,11 @@
 #pragma once
-// A run's folder while its nodes write: does a node run, and a copy that can be resumed.
+// A copy of a run's folder, also while its nodes write, that can be resumed.
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 
 namespace nacre::runtime {
-
-/// Whether a process runs the node whose folder this is (RUN/nodes/NODE): it holds the folder's lock.
-bool node_runs(const std::filesystem::path& node_folder);
 
 /// What was copied.
 struct RunCopy {
@@ -21,8 +18,8 @@ struct RunCopy {
 /// record and begin a new identity in the copy: nodes are copied one after the other, so one may have acknowledged to
 /// another what its own copy does not hold yet, and a new identity makes everybody offer it again. Journals come first,
 /// databases (by `copy_database`) last, so that a database holds at least what its node's journal calls done. Locks,
-/// unfinished files and tasks of a cluster are left out. Throws InputError: `to` exists, a file cannot be read or
-/// written.
+/// unfinished files and tasks of a cluster are left out. `to` is there whole or not at all. Throws InputError: `to`
+/// exists, a file cannot be read or written.
 RunCopy copy_run(
     const std::filesystem::path& run, const std::filesystem::path& to,
     const std::function<void(const std::filesystem::path& from, const std::filesystem::path& to)>& copy_database);

@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/file_aside.hpp"
 #include "base/files.hpp"
 #include "base/hash.hpp"
 #include "base/names.hpp"
@@ -55,13 +56,14 @@ std::string source_commit() {
 
 /// Replaces `link` in one step, so that a reader never finds it missing.
 void point_link_at(const fs::path& link, const fs::path& target) {
-  const fs::path aside = link.string() + ".part";
+  const fs::path aside = name_aside(link);
   std::error_code error;
-  fs::remove(aside, error);
   fs::create_symlink(target, aside, error);
   if (!error) fs::rename(aside, link, error);
-  if (error)
-    throw InputError::format("{}: cannot be pointed at {}: {}", link.string(), target.string(), error.message());
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(aside, ignored);
+  throw InputError::format("{}: cannot be pointed at {}: {}", link.string(), target.string(), error.message());
 }
 
 /// Copies a file that the scenario names into the run's folder and names the copy, relative to the scenario, instead.
@@ -145,13 +147,9 @@ void check_name(const std::string& name) {
     throw InputError::format("run name \"{0}\", expected another: {0} is the link to the newest run", name);
 }
 
-}  // namespace
-
-RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const game::Scenario& scenario) {
-  check_name(name);
-  make_folder(logs);
-  const std::string base = name.empty() ? formatted_time("%Y%m%d-%H%M%S-", false) + scenario.name : name;
-  RunFolder run;
+/// Makes LOGS/NAME, or LOGS/date-time-SCENARIO, and returns its name.
+std::string make_run_folder(const fs::path& logs, const std::string& name, const std::string& scenario) {
+  const std::string base = name.empty() ? formatted_time("%Y%m%d-%H%M%S-", false) + scenario : name;
   std::string chosen = base;
   std::error_code error;
   for (int i = 2; !fs::create_directory(logs / chosen, error); ++i) {
@@ -163,31 +161,52 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
     }
     chosen = fmt::format("{}-{}", base, i);
   }
+  return chosen;
+}
+
+}  // namespace
+
+RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const game::Scenario& scenario) {
+  check_name(name);
+  make_folder(logs);
+  const std::string chosen = make_run_folder(logs, name, scenario.name);
+  RunFolder run;
   run.path_ = fs::absolute(logs / chosen).lexically_normal();
-  run.hold();
-  game::Scenario resolved = scenario;
-  take_along(resolved.benchmark_file, run.path_, "benchmark.csv");
-  take_along(resolved.base_materials_file, run.path_, "base_materials.csv");
-  take_along(resolved.model_file, run.path_, "model.toml");
-  take_along(resolved.ranges_file, run.path_, "ranges.csv");
-  take_along(resolved.numerics_floor_file, run.path_, "numerics_floor.toml");
-  take_along(resolved.laboratory.file, run.path_, "laboratory.toml");
-  const std::string text = game::to_toml(resolved);
-  write_file_atomically(run.scenario_file(), text);
-  run.scenario_ = game::read_scenario(run.scenario_file());
-  run.manifest_ = {.run_id = chosen,
-                   .scenario_hash = content_hash(text),
-                   .port = 0,
-                   .lan = scenario.hosts == "lan",
-                   .started = utc_now(),
-                   .resumed = {},
-                   .nacre_version = NACRE_VERSION,
-                   .kernel_version = tester::kKernelVersion,
-                   .schema_version = kSchemaVersion,
-                   .commit = source_commit()};
-  run.write_manifest();
-  point_link_at(logs / kLatest, chosen);
+  try {
+    run.hold();
+    run.fill(chosen, scenario);
+    point_link_at(logs / kLatest, chosen);
+  } catch (...) {
+    std::error_code left_behind;
+    fs::remove_all(run.path_, left_behind);  // half a run would be nothing but in the way of its name
+    throw;
+  }
   return run;
+}
+
+/// Writes what a new run begins with.
+void RunFolder::fill(const std::string& run_id, const game::Scenario& scenario) {
+  game::Scenario resolved = scenario;
+  take_along(resolved.benchmark_file, path_, "benchmark.csv");
+  take_along(resolved.base_materials_file, path_, "base_materials.csv");
+  take_along(resolved.model_file, path_, "model.toml");
+  take_along(resolved.ranges_file, path_, "ranges.csv");
+  take_along(resolved.numerics_floor_file, path_, "numerics_floor.toml");
+  take_along(resolved.laboratory.file, path_, "laboratory.toml");
+  const std::string text = game::to_toml(resolved);
+  write_file_atomically(scenario_file(), text);
+  scenario_ = game::read_scenario(scenario_file());
+  manifest_ = {.run_id = run_id,
+               .scenario_hash = content_hash(text),
+               .port = 0,
+               .lan = scenario.hosts == "lan",
+               .started = utc_now(),
+               .resumed = {},
+               .nacre_version = NACRE_VERSION,
+               .kernel_version = tester::kKernelVersion,
+               .schema_version = kSchemaVersion,
+               .commit = source_commit()};
+  write_manifest();
 }
 
 RunFolder RunFolder::opened(const fs::path& folder) {

@@ -70,6 +70,7 @@ class RunFolder {
   RunFolder() = default;
   static RunFolder opened(const std::filesystem::path& folder);
   void hold();
+  void fill(const std::string& run_id, const game::Scenario& scenario);
   void write_manifest() const;
   std::filesystem::path path_;
   game::Scenario scenario_;

@@ -68,16 +68,10 @@ void SupervisedNode::rotate_log() {
   }
 }
 
-/// Not fmt::print, which throws where the disk is full: a line that is lost must not end the run.
-void SupervisedNode::write_log(const std::string& line) {
-  std::fwrite(line.data(), 1, line.size(), log_);
-  std::fputc('\n', log_);
-}
-
 void SupervisedNode::start() {
   if (log_ == nullptr) open_log();
-  write_log(
-      fmt::format("# {:%Y-%m-%dT%H:%M:%SZ} {}", fmt::gmtime(std::time(nullptr)), fmt::join(settings_.command, " ")));
+  print_line(log_, fmt::format("# {:%Y-%m-%dT%H:%M:%SZ} {}", fmt::gmtime(std::time(nullptr)),
+                               fmt::join(settings_.command, " ")));
   std::fflush(log_);
   epoch_before_ = epoch_;
   process_ = std::make_unique<ChildProcess>(settings_.command);
@@ -88,7 +82,7 @@ std::vector<std::string> SupervisedNode::take_output() {
   if (!process_) return {};
   std::vector<std::string> lines = process_->read_lines();
   for (const std::string& line : lines) {
-    write_log(line);
+    print_line(log_, line);
     if (!line.empty()) last_line_ = line;
   }
   if (!lines.empty()) {
@@ -119,7 +113,7 @@ std::optional<std::string> SupervisedNode::supervise(Clock::time_point now) {
 std::string SupervisedNode::take_end(const ProcessEnd& end, Clock::time_point now) {
   take_output();
   process_.reset();
-  write_log("# ended: " + end.in_words());
+  print_line(log_, "# ended: " + end.in_words());
   std::fflush(log_);
   constexpr int kBadInput = 2;
   if (end_is_expected_ || end.orderly()) {

@@ -59,7 +59,6 @@ class SupervisedNode {
  private:
   void open_log();
   void rotate_log();
-  void write_log(const std::string& line);
   std::string take_end(const ProcessEnd& end, Clock::time_point now);
   std::string restart_or_fail(const std::string& how, Clock::time_point now);
   std::string last_words() const;

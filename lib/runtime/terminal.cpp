@@ -26,6 +26,11 @@ std::string bar(double progress, int cells) {
                      std::string(static_cast<std::size_t>(cells - filled), '.'));
 }
 
+void print_line(std::FILE* out, std::string_view line) {
+  std::fwrite(line.data(), 1, line.size(), out);
+  std::fputc('\n', out);
+}
+
 std::string in_words(double seconds) {
   if (!(seconds >= 0.0) || seconds > 1e9) return "";
   const auto whole = static_cast<long>(std::ceil(seconds));

@@ -8,18 +8,20 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "runtime/work_outbox.hpp"
 
 namespace nacre::runtime {
 
 /// Shared with the threads, which may outlive the pool.
 struct WorkPool::State {
-  std::map<std::string, WorkFunction> functions;
-  std::function<void()> wake;
+  State(std::map<std::string, WorkFunction> known, std::function<void()> wake)
+      : functions(std::move(known)), outbox(std::move(wake)) {}
+
+  const std::map<std::string, WorkFunction> functions;
+  WorkOutbox outbox;
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<Compute> queue;
-  std::vector<FinishedWork> finished;
-  int pending = 0;
   bool stopping = false;
 
   Result<std::string> run(const Compute& compute) const {
@@ -43,16 +45,13 @@ struct WorkPool::State {
       Result<std::string> result = run(compute);
       lock.lock();
       if (stopping) return;
-      finished.push_back({std::move(compute), std::move(result)});
-      wake();
+      outbox.finish(std::move(compute), std::move(result));
     }
   }
 };
 
 WorkPool::WorkPool(std::map<std::string, WorkFunction> functions, int threads, std::function<void()> wake)
-    : state_(std::make_shared<State>()) {
-  state_->functions = std::move(functions);
-  state_->wake = std::move(wake);
+    : state_(std::make_shared<State>(std::move(functions), std::move(wake))) {
   if (state_->functions.empty()) return;
   for (int i = 0; i < (threads > 0 ? threads : allowed_cores()); ++i) {
     std::thread([state = state_] { state->work(); }).detach();
@@ -68,22 +67,14 @@ WorkPool::~WorkPool() {
 bool WorkPool::knows(const std::string& kind) const { return state_->functions.count(kind) != 0; }
 
 void WorkPool::start(Compute compute) {
+  state_->outbox.expect_one();
   const std::lock_guard lock(state_->mutex);
   state_->queue.push_back(std::move(compute));
-  ++state_->pending;
   state_->changed.notify_one();
 }
 
-std::vector<FinishedWork> WorkPool::finished() {
-  const std::lock_guard lock(state_->mutex);
-  std::vector<FinishedWork> finished = std::exchange(state_->finished, {});
-  state_->pending -= static_cast<int>(finished.size());
-  return finished;
-}
+std::vector<FinishedWork> WorkPool::finished() { return state_->outbox.finished(); }
 
-int WorkPool::pending() const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->pending;
-}
+int WorkPool::pending() const { return state_->outbox.pending(); }
 
 }  // namespace nacre::runtime

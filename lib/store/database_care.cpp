@@ -18,18 +18,35 @@ namespace {
 
 constexpr int kBusyTimeoutMs = 30'000;
 
+bool is_busy(const SQLite::Exception& error) {
+  constexpr int kPrimary = 0xff;  // of a code that may be extended
+  const int code = error.getErrorCode() & kPrimary;
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED;
+}
+
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw InputError::format("{}: cannot be used as a database: {}", path.string(), reason);
 }
 
-SQLite::Database opened(const fs::path& path) {
-  SQLite::Database database(path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
+SQLite::Database opened(const fs::path& path, int busy_timeout_ms = kBusyTimeoutMs) {
+  SQLite::Database database(path.string(), SQLite::OPEN_READONLY, busy_timeout_ms);
   distrust(database);
   return database;
 }
 
 void expect_new(const fs::path& to) {
   if (fs::exists(to)) throw InputError::format("{}: exists already, expected a new file", to.string());
+}
+
+/// Throws InputError, SQLite::Exception.
+void copy_pages(const fs::path& from, const fs::path& to) {
+  SQLite::Database source = opened(from);
+  SQLite::Database copy(to.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  SQLite::Backup backup(copy, source);
+  // All pages in one step: a copy in several begins anew whenever somebody writes between.
+  const int end = backup.executeStep(-1);
+  if (end != SQLITE_DONE)  // a lock is no exception there, and no pages at all would pass for a whole database
+    throw InputError::format("{}: could not be copied whole: {}; try again", from.string(), sqlite3_errstr(end));
 }
 
 /// The next row, where one can be read. What lies beyond a page that cannot is reached from the other end.
@@ -86,14 +103,20 @@ void distrust(SQLite::Database& database) {
   if (strange != 0) throw SQLite::Exception("it holds views, triggers or computed columns, expected plain tables");
 }
 
-Result<void> check_database(const fs::path& path) {
+Result<void> check_database(const fs::path& path, int busy_timeout_ms) {
   if (!fs::exists(path)) return fail("{}: there is no such file", path.string());
   try {
-    SQLite::Database database = opened(path);
+    SQLite::Database database = opened(path, busy_timeout_ms);
     const std::string verdict = database.execAndGet("PRAGMA integrity_check(1)").getString();
     if (verdict != "ok") return fail("{}: is damaged: {}", path.string(), verdict);
     return {};
   } catch (const SQLite::Exception& error) {
+    if (is_busy(error)) {
+      throw DatabaseUnavailable(fmt::format(
+          "{}: is in use: another program has been writing it for long ({}). Wait for it, or end it; the file "
+          "is sound",
+          path.string(), error.what()));
+    }
     return fail("{}: is damaged or no database: {}", path.string(), error.what());
   }
 }
@@ -106,33 +129,29 @@ int schema_version(const fs::path& path) {
   }
 }
 
+void remove_database(const fs::path& path) {
+  std::error_code ignored;
+  for (const char* companion : {"", "-wal", "-shm"}) fs::remove(path.string() + companion, ignored);
+}
+
 void copy_database(const fs::path& from, const fs::path& to) {
   expect_new(to);
   const fs::path aside = to.string() + ".part";
-  std::error_code ignored;
-  fs::remove(aside, ignored);
-  // Of a file that is gone: a log like this would be played into the copy by whoever opens it first.
-  for (const char* companion : {"-wal", "-shm"}) fs::remove(to.string() + companion, ignored);
+  remove_database(aside);
+  remove_database(to);  // a log of a file that is gone would be played into the copy by whoever opens it first
   try {
-    SQLite::Database source = opened(from);
-    {
-      SQLite::Database copy(aside.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-      SQLite::Backup backup(copy, source);
-      // All pages in one step: a copy in several begins anew whenever somebody writes between.
-      const int end = backup.executeStep(-1);
-      if (end != SQLITE_DONE) {  // a lock is no exception there, and no pages at all would pass for a whole database
-        fs::remove(aside, ignored);
-        throw InputError::format("{}: could not be copied whole: {}; try again", from.string(), sqlite3_errstr(end));
-      }
-    }
+    copy_pages(from, aside);
     // The copy says WAL like its source; alone it is whole without a -wal file.
     if (const auto whole = check_database(aside); !whole) refuse(from, whole.error().message);
+    fs::rename(aside, to);
   } catch (const SQLite::Exception& error) {
-    fs::remove(aside, ignored);
+    remove_database(aside);
     refuse(from, error.what());
+  } catch (...) {
+    remove_database(aside);
+    throw;
   }
-  fs::rename(aside, to);
-  for (const char* companion : {"-wal", "-shm"}) fs::remove(aside.string() + companion, ignored);
+  remove_database(aside);  // companions that looking at it made
 }
 
 fs::path move_aside(const fs::path& path) {

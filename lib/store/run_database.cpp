@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/names.hpp"
 #include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "store/database_care.hpp"
@@ -166,17 +167,10 @@ void keep(SQLite::Database& db, const diagnosis_t& d) {
   }
 }
 
-/// The number N of `question`, which holds %d and ends with %n, when an answer belongs to it.
-std::optional<int> number_in(const std::string& request_id, const char* question) {
-  int number = 0, matched = 0;
-  return std::sscanf(request_id.c_str(), question, &number, &matched) == 1 && matched > 0 ? std::optional(number)
-                                                                                          : std::nullopt;
-}
-
 /// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured
 /// designs.
 void keep(SQLite::Database& db, const wire::SimulateResult& s) {
-  const auto round = number_in(s.request_id, "analyser/r%d/measured%n");
+  const auto round = number_between("analyser/r", "/measured", s.request_id);
   if (!round) return;
   for (const wire::SimulatedDesign& d : s.results) {
     run(db, "INSERT OR REPLACE INTO simulated VALUES (?,?,?,?,?,?)", *round, d.design.name(), d.modulus_pa,
@@ -202,8 +196,8 @@ void keep_crack(SQLite::Database& db, const char* table, int number, const wire:
 
 /// Answers to the analyser's own questions: how the designs proposed in round N break, and those of family N.
 void keep(SQLite::Database& db, const wire::Fracture& f) {
-  if (const auto round = number_in(f.request_id, "analyser/r%d/films%n")) keep_crack(db, "crack", *round, f);
-  if (const auto family = number_in(f.request_id, "analyser/family%d/films%n"))
+  if (const auto round = number_between("analyser/r", "/films", f.request_id)) keep_crack(db, "crack", *round, f);
+  if (const auto family = number_between("analyser/family", "/films", f.request_id))
     keep_crack(db, "family_crack", *family, f);
 }
 

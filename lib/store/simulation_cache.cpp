@@ -6,14 +6,13 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
-#include "store/database_care.hpp"
 #include "store/row_checksum.hpp"
 
 namespace nacre::store {
 namespace {
 
-constexpr int kSchemaVersion = 3;
 constexpr const char* kSchema = R"sql(
   CREATE TABLE simulation (
     key            TEXT PRIMARY KEY,
@@ -37,11 +36,11 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError::format(
-      "the simulation cache {0} cannot be used: {1}. `nacre rebuild --cache {0}` saves what is sound. Nothing else "
+      "the simulation cache {} cannot be used: {}. `nacre rebuild --cache {}` saves what is sound. Nothing else "
       "depends "
       "on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations are done "
       "anew",
-      path.string(), reason);
+      path.string(), reason, shell_word(path));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const SQLite::Exception& error) {
@@ -49,13 +48,13 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
   switch (error.getErrorCode() & kPrimary) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      throw CacheUnavailable(
+      throw DatabaseUnavailable(
           fmt::format("the simulation cache {} is in use: another program has been writing it for long ({}). Wait for "
                       "it, or end it; the file is sound",
                       path.string(), error.what()));
     case SQLITE_FULL:
     case SQLITE_IOERR:
-      throw CacheUnavailable(
+      throw DatabaseUnavailable(
           fmt::format("the simulation cache {} cannot be read or written: {}. Make room on its disk and start again; "
                       "nothing that it holds is lost",
                       path.string(), error.what()));
@@ -102,14 +101,14 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& pat
   if (version == 0 && !database.tableExists("simulation")) {
     database.exec(kSchema);
     database.exec(kBreakSchema);
-    database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+    database.exec("PRAGMA user_version = " + std::to_string(kCacheSchemaVersion));
   } else if (version == 1 || version == 2) {  // nothing that was simulated is lost
     if (version == 1) database.exec(kBreakSchemaOfVersion2);
     add_checksums(database);
-    database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-  } else if (version != kSchemaVersion) {
+    database.exec("PRAGMA user_version = " + std::to_string(kCacheSchemaVersion));
+  } else if (version != kCacheSchemaVersion) {
     refuse(path, "it has schema version " + std::to_string(version) + ", this program expects " +
-                     std::to_string(kSchemaVersion));
+                     std::to_string(kCacheSchemaVersion));
   }
   transaction.commit();
 }

@@ -6,15 +6,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "store/database_care.hpp"
 #include "tester/tester.hpp"
-
-namespace SQLite {
-class Database;
-}
 
 namespace nacre::store {
 
@@ -29,18 +25,18 @@ struct CachedSimulation {
   bool operator==(const CachedSimulation&) const = default;
 };
 
-/// The cache cannot be used now and may be later, as it is: another program writes it, its disk is full. Nothing is to
-/// be rebuilt or moved away.
-class CacheUnavailable : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+/// What this program writes; it takes older ones over.
+inline constexpr int kCacheSchemaVersion = 3;
+
+/// Files in the folder of runs, which share them: of threads, and of a CUDA device, which rounds otherwise.
+inline constexpr const char* kCacheName = "simulations.db";
+inline constexpr const char* kDeviceCacheName = "simulations-cuda.db";
 
 /// A cache file shared by all threads of a process, and by several processes (WAL; a busy file is waited for).
 class SimulationCache {
  public:
   /// Opens or creates the file. Throws InputError with a sentence that names the file and how to mend it: not a
-  /// database, damaged, written by another version, not writable. CacheUnavailable here and below where time or room
+  /// database, damaged, written by another version, not writable. DatabaseUnavailable here and below where time or room
   /// is what lacks: a file that another program writes is waited for `busy_timeout_ms`.
   explicit SimulationCache(const std::filesystem::path& path, int busy_timeout_ms = 30'000);
   ~SimulationCache();

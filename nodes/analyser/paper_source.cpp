@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <functional>
 
 #include "analyser/paper.hpp"
 #include "analyser/report_data.hpp"
 #include "base/named_table.hpp"
+#include "base/names.hpp"
 #include "game/model.hpp"
 #include "game/reference_tables.hpp"
 #include "game/standings.hpp"
@@ -61,13 +61,15 @@ FarmTalk farm_talk(const fs::path& run_dir, const std::string& node) {
 std::vector<SearchPath> searches_of(const FarmTalk& talk) {
   std::map<std::pair<int, int>, SearchPath> paths;
   for (const wire::SimulateRequest& request : talk.requests) {
-    int round = 0, branch = 0;
-    if (std::sscanf(request.request_id.c_str(), "proposal_agent/r%d/s%d/", &round, &branch) != 2) continue;
+    const auto round = number_between("proposal_agent/r", "/s", request.request_id);
+    const auto branch =
+        round ? number_between(fmt::format("proposal_agent/r{}/s", *round), "/", request.request_id) : std::nullopt;
+    if (!branch) continue;
     const auto answer = talk.answers.find(request.request_id);
     if (answer == talk.answers.end()) continue;
-    SearchPath& path = paths[{round, branch}];
-    path.round = round;
-    path.branch = branch;
+    SearchPath& path = paths[{*round, *branch}];
+    path.round = *round;
+    path.branch = *branch;
     for (const wire::SimulatedDesign& design : answer->second)
       if (design.failure.empty()) path.samples.push_back({design.modulus_pa, design.toughness_pa});
   }

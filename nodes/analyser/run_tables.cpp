@@ -29,11 +29,6 @@ Rebuilt project_journal(runtime::LogReader& reader, store::RunDatabase& database
   return rebuilt;
 }
 
-void remove_database(const fs::path& file) {
-  std::error_code ignored;
-  for (const char* companion : {"", "-wal", "-shm"}) fs::remove(file.string() + companion, ignored);
-}
-
 /// Why the file cannot go on; empty when it can.
 std::string fault_of(const fs::path& file) {
   if (!fs::exists(file)) return "it is missing";
@@ -48,19 +43,19 @@ std::string fault_of(const fs::path& file) {
 Rebuilt rebuild_run_database(const fs::path& run_dir) {
   const fs::path file = run_dir / "run.db", anew = run_dir / "run.db.part";
   runtime::LogReader journal(journal_of(run_dir));
-  remove_database(anew);
+  store::remove_database(anew);
   Rebuilt rebuilt;
   try {
     store::RunDatabase database(anew);
     rebuilt = project_journal(journal, database);
     database.checkpoint();
   } catch (...) {
-    remove_database(anew);
+    store::remove_database(anew);
     throw;
   }
   // A whole database holds nothing that the whole journal does not; anything else is kept.
   if (fs::exists(file) && (rebuilt.torn_bytes > 0 || !fault_of(file).empty())) store::move_aside(file);
-  remove_database(file);
+  store::remove_database(file);
   fs::rename(anew, file);
   return rebuilt;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/names.hpp"
 #include "command.hpp"
 #include "dashboard/server.hpp"
 #include "output.hpp"
@@ -74,10 +75,8 @@ void add_dashboard(CLI::App& app, Action& action) {
       ->capture_default_str();
   command.add_option("--token", options->token, "Ask for this token; default for other hosts: a random one, printed")
       ->check([](const std::string& token) {
-        const bool plain = token.size() >= 16 &&
-                           token.find_first_not_of(
-                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") == std::string::npos;
-        return plain ? std::string() : std::string("expected at least 16 letters, digits, - and _");
+        const bool plain = token.size() >= 16 && is_plain_name(token, 256);
+        return plain ? std::string() : std::string("expected 16 to 256 letters, digits, - and _");
       });
   command.add_option("--families", options->families,
                      "Folder of `nacre families` for the explorer; default: RUN/families");

@@ -21,16 +21,7 @@ int show_designs(const DesignsOptions& options) {
   const auto states = game::design_states(view_laboratory(open_run(options.run)).facts);
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const game::DesignState& state : states) {
-    document.push_back(
-        {{"design", state.design.name()},
-         {"state", std::string(game::to_string(state.stage))},
-         {"proposed_in_round", state.round < 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(state.round)},
-         {"ordered", state.ordered},
-         {"printed", state.printed},
-         {"measured", state.arrived},
-         {"valid", state.valid},
-         {"by", state.decided_by},
-         {"why", state.why}});
+    document.push_back(game::to_json(state));
     if (options.json) continue;
     fmt::print("{:16} {:9} {:>3} ordered {:>3} printed {:>3} measured {:>3} valid{}{}\n", state.design.name(),
                game::to_string(state.stage), state.ordered, state.printed, state.arrived, state.valid,

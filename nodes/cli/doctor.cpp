@@ -12,6 +12,7 @@
 #include "output.hpp"
 #include "run_access.hpp"
 #include "runtime/run_folder.hpp"
+#include "store/simulation_cache.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -53,7 +54,9 @@ std::vector<Finding> look_at_everything(const Options& options) {
   findings.push_back(check_disk(options.logs));
   if (std::filesystem::is_directory(options.logs)) {
     findings.push_back(check_sync(options.logs));
-    if (findings.back().verdict != Verdict::fault) findings.push_back(check_cache(options.logs));
+    findings.push_back(check_cache(std::filesystem::path(options.logs) / store::kCacheName));
+    const std::filesystem::path of_device = std::filesystem::path(options.logs) / store::kDeviceCacheName;
+    if (std::filesystem::exists(of_device)) findings.push_back(check_cache(of_device));
   }
   // Without --run there may be no run yet.
   const std::filesystem::path latest = std::filesystem::path(options.logs) / "latest";

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -15,6 +16,7 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "game/scenario.hpp"
 #include "nacre/node_status_t.hpp"
 #include "runtime/bus.hpp"
 #include "runtime/process.hpp"
@@ -30,10 +32,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> kNodes = {"virtual_lab", "simulator_farm", "analyser", "proposal_agent",
-                                         "validation_agent"};
-
-fs::path program_of(const std::string& node) { return runtime::this_program().parent_path() / ("nacre_" + node); }
+fs::path program_of(std::string_view node) {
+  return runtime::this_program().parent_path() / fmt::format("nacre_{}", node);
+}
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -57,8 +58,8 @@ Result<double> seconds_to_keep(const fs::path& folder) {
 
 Finding check_programs() {
   std::string missing;
-  for (const std::string& node : kNodes) {
-    if (::access(program_of(node).c_str(), X_OK) != 0) missing += " nacre_" + node;
+  for (const std::string_view node : game::kNodes) {
+    if (::access(program_of(node).c_str(), X_OK) != 0) missing += fmt::format(" nacre_{}", node);
   }
   const std::string folder = runtime::this_program().parent_path().string();
   if (missing.empty()) return {"programs of the nodes", Verdict::good, "all in " + folder};
@@ -68,7 +69,7 @@ Finding check_programs() {
 Finding check_versions() {
   const std::string own = runtime::version_in_words();
   std::vector<std::string> others;
-  for (const std::string& node : kNodes) {
+  for (const std::string_view node : game::kNodes) {
     const auto answer = runtime::ask_program({program_of(node).string(), "--version"});
     if (first_line(answer.output) != own)
       others.push_back(fmt::format("nacre_{}: {}", node, first_line(answer.output)));
@@ -136,13 +137,13 @@ Finding check_disk(const fs::path& logs) {
   struct statvfs disk {};
   if (::statvfs(logs.c_str(), &disk) != 0) {
     return {"disk space", Verdict::fault, fmt::format("{}: no such folder", logs.string()),
-            fmt::format("mkdir -p {}", logs.string())};
+            "mkdir -p " + shell_word(logs)};
   }
   const double free_gb = 1e-9 * static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
   const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, logs.string());
   if (free_gb >= kWantedGb) return {"disk space", Verdict::good, found};
   return {"disk space", Verdict::fault, found,
-          fmt::format("du -sh {}/*   # and delete runs that nobody needs", logs.string())};
+          fmt::format("du -sh {}/*   # and delete runs that nobody needs", shell_word(logs))};
 }
 
 Finding check_sync(const fs::path& logs) {
@@ -150,7 +151,7 @@ Finding check_sync(const fs::path& logs) {
   const auto seconds = seconds_to_keep(logs);
   if (!seconds) {
     return {"disk writes", Verdict::fault, seconds.error().message,
-            fmt::format("ls -ld {0}; df -h {0}; df -i {0}", logs.string())};
+            fmt::format("ls -ld {0}; df -h {0}; df -i {0}", shell_word(logs))};
   }
   const std::string found = fmt::format("a file is on disk after {:.1f} ms", 1e3 * *seconds);
   if (*seconds < kSlowS) return {"disk writes", Verdict::good, found};
@@ -177,36 +178,45 @@ Finding check_clock() {
   return judge_clock(std::time(nullptr), clock.status);
 }
 
-Finding check_cache(const fs::path& logs) {
-  const fs::path file = logs / "simulations.db";
-  const std::string remedy = fmt::format("nacre rebuild --cache {}   # saves what can be read", file.string());
-  if (fs::exists(file)) {
-    if (const auto whole = store::check_database(file); !whole) {
-      return {"cache of simulations", Verdict::fault, whole.error().message, remedy};
-    }
-  }
+namespace {
+
+/// What a database that is not whole is reported as; nothing where it is. `remedy`: against damage.
+std::optional<Finding> fault_of(const std::string& check, const fs::path& file, const std::string& remedy) {
   try {
-    const store::SimulationCache cache(file);
-    return {"cache of simulations", Verdict::good, fmt::format("{} holds {} answers", file.string(), cache.size())};
-  } catch (const InputError& error) {
-    return {"cache of simulations", Verdict::fault, error.what(),
-            fmt::format("mv {0} {0}.broken   # the farm begins a new one", file.string())};
-  } catch (const store::CacheUnavailable& error) {
-    return {"cache of simulations", Verdict::fault, error.what(), "df " + logs.string()};
+    if (const auto whole = store::check_database(file); !whole)
+      return Finding{check, Verdict::fault, whole.error().message, remedy};
+    return std::nullopt;
+  } catch (const store::DatabaseUnavailable& error) {
+    return Finding{check, Verdict::fault, error.what(),
+                   fmt::format("fuser -v {}   # who writes it: wait for it, or end it", shell_word(file))};
   }
 }
 
-Finding check_run(const fs::path& run) {
-  const fs::path file = run / "run.db";
-  if (!fs::exists(file)) return {"database of the run", Verdict::good, "there is none yet"};
-  const std::string remedy = fmt::format("nacre rebuild --run {}", run.string());
-  if (const auto whole = store::check_database(file); !whole) {
-    return {"database of the run", Verdict::fault, whole.error().message, remedy};
-  }
+}  // namespace
+
+Finding check_cache(const fs::path& file) {
+  const std::string check = "cache of simulations";
+  if (!fs::exists(file)) return {check, Verdict::good, "there is none yet"};
+  const std::string remedy = fmt::format("nacre rebuild --cache {}   # saves what can be read", shell_word(file));
+  if (const auto fault = fault_of(check, file, remedy)) return *fault;
   const int version = store::schema_version(file);
-  if (version == store::kRunSchemaVersion) return {"database of the run", Verdict::good, file.string() + " is whole"};
+  if (version >= 0 && version <= store::kCacheSchemaVersion) return {check, Verdict::good, file.string() + " is whole"};
+  return {check, Verdict::fault,
+          fmt::format("{} has schema version {}, this program writes {}", file.string(), version,
+                      store::kCacheSchemaVersion),
+          fmt::format("mv {0} {0}.broken   # the farm begins a new one", shell_word(file))};
+}
+
+Finding check_run(const fs::path& run) {
+  const std::string check = "database of the run";
+  const fs::path file = run / "run.db";
+  if (!fs::exists(file)) return {check, Verdict::good, "there is none yet"};
+  const std::string remedy = "nacre rebuild --run " + shell_word(run);
+  if (const auto fault = fault_of(check, file, remedy)) return *fault;
+  const int version = store::schema_version(file);
+  if (version == store::kRunSchemaVersion) return {check, Verdict::good, file.string() + " is whole"};
   return {
-      "database of the run", Verdict::remark,
+      check, Verdict::remark,
       fmt::format("{} has schema version {}, this program writes {}", file.string(), version, store::kRunSchemaVersion),
       remedy};
 }

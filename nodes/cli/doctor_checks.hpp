@@ -41,7 +41,8 @@ Finding judge_clock(std::time_t now, int status);
 Finding check_clock();
 
 // The databases.
-Finding check_cache(const std::filesystem::path& logs);
+/// A simulations.db as it is, read only; good where there is none.
+Finding check_cache(const std::filesystem::path& file);
 /// run.db of a run's folder; good where there is none.
 Finding check_run(const std::filesystem::path& run);
 

@@ -22,11 +22,8 @@ constexpr std::size_t kColumnCount = std::size(kColumns);
 std::filesystem::path printed_file(const RunAccess& run) { return run.folder / "laboratory" / "printed.csv"; }
 
 game::Order order_of(const wire::TestOrder& message) {
-  game::OrderReason reason = game::OrderReason::proposal;
-  for (const auto each : {game::OrderReason::base, game::OrderReason::mixture, game::OrderReason::random,
-                          game::OrderReason::discrimination, game::OrderReason::person, game::OrderReason::family}) {
-    if (message.reason == game::to_string(each)) reason = each;
-  }
+  const auto reason = game::order_reason_from_string(message.reason);
+  if (!reason) throw InputError::format("order {}: {}", message.order_id, reason.error().message);
   return {.id = message.order_id,
           .round = message.round,
           .design = message.design,
@@ -35,7 +32,7 @@ game::Order order_of(const wire::TestOrder& message) {
           .loading = message.loading,
           .replicates = message.replicates,
           .batch = message.batch,
-          .reason = reason};
+          .reason = *reason};
 }
 
 game::PrintedSpecimen printed_of(const std::string& place, const std::string& label, const std::string& design,

@@ -1,4 +1,5 @@
-// nacre: the command line. One subcommand per file; exit status 0 done, 1 the answer is no, 2 wrong usage or bad input.
+// nacre: the command line. One subcommand per file; exit status 0 done, 1 the answer is no or the disk is
+// full, 2 wrong usage or bad input.
 
 #include <algorithm>
 #include <cstdio>
@@ -7,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
 #include "output.hpp"
+#include "runtime/version.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre::cli {
@@ -55,7 +58,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "nacre finds stiff and tough two-material microstructures and closes the gap between simulation and laboratory.",
       "nacre"};
-  app.set_version_flag("--version", NACRE_VERSION);
+  app.set_version_flag("--version", runtime::version_in_words());
   app.require_subcommand(1);
   Action action;
   for (const auto add :
@@ -83,9 +86,12 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return nacre::cli::run(argc, argv);
+  } catch (const nacre::NoSpace& error) {
+    std::fprintf(stderr, "nacre: %s\n", error.what());
+    return nacre::cli::kLater;
   } catch (const nacre::InputError& error) {
     std::fprintf(stderr, "nacre: %s\n", error.what());
-  } catch (const nacre::store::CacheUnavailable& error) {
+  } catch (const nacre::store::DatabaseUnavailable& error) {
     std::fprintf(stderr, "nacre: %s\n", error.what());
     return nacre::cli::kLater;
   } catch (const std::exception& error) {

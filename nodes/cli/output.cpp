@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "measurement/set_columns.hpp"
 
@@ -73,7 +74,8 @@ nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>
 
 void check_standard_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  throw InputError::format("standard output: cannot be written: {}", std::strerror(errno));
+  const int reason = errno;
+  refuse_write(fmt::format("standard output: cannot be written: {}", std::strerror(reason)), reason);
 }
 
 material::ParameterSet parameters_from_option(const std::string& file, const material::ParameterSet& start,

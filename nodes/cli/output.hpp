@@ -37,7 +37,7 @@ void warn_about_table(const measurement::RejectedRow& row, const std::string& ta
 nlohmann::ordered_json row_json(const measurement::RejectedRow& row);
 nlohmann::ordered_json rejected_json(const std::vector<measurement::RejectedRow>& rejected);
 
-/// Throws InputError unless all that was written to standard output has arrived (full disk, closed pipe).
+/// Throws InputError unless all that was written to standard output has arrived (closed pipe), NoSpace on a full disk.
 void check_standard_output();
 
 /// The parameter file given, what it leaves out from `start`; `start` where none is given. Warns of a value that is a

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/file_aside.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "output.hpp"
@@ -21,11 +22,9 @@ void prepare_output_file(const std::string& file) {
   const fs::file_status status = fs::status(file, unreadable);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw InputError::format("{}: is no regular file, expected the name of one to write", file);
-  const std::string aside = file + ".part";  // beside it, where write_file_atomically() writes first
+  const fs::path aside = name_aside(file);  // as write_file_atomically() does
   const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor < 0 && errno != EEXIST)
-    throw InputError::format("{}: cannot be written: {}", file, std::strerror(errno));
-  if (descriptor < 0) return;
+  if (descriptor < 0) throw InputError::format("{}: cannot be written: {}", file, std::strerror(errno));
   ::close(descriptor);
   ::unlink(aside.c_str());
 }

@@ -9,8 +9,9 @@
 #include "command.hpp"
 #include "output.hpp"
 #include "run_access.hpp"
+#include "runtime/folder_lock.hpp"
 #include "runtime/run_copy.hpp"
-#include "store/database_care.hpp"
+#include "store/simulation_cache.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -52,9 +53,7 @@ int rebuild_cache(const RebuildOptions& options) {
 int rebuild(const RebuildOptions& options) {
   if (!options.cache.empty()) return rebuild_cache(options);
   const RunAccess run = open_run(options.run);
-  if (runtime::node_runs(run.folder / "nodes" / "analyser")) {
-    throw InputError::format("{}: its analyser is at work; expected a run that does not play", run.folder.string());
-  }
+  const runtime::FolderLock lock(run.folder / "nodes" / "analyser");  // against an analyser that starts meanwhile
   const analyser::Rebuilt rebuilt = analyser::rebuild_run_database(run.folder);
   const std::string database = (run.folder / "run.db").string();
   if (rebuilt.torn_bytes > 0)
@@ -74,21 +73,34 @@ struct BackupOptions {
   bool json = false;
 };
 
-int backup(const BackupOptions& options) {
-  const RunAccess run = open_run(options.run);
-  const fs::path to = fs::path(options.to) / run.manifest.run_id;
-  const runtime::RunCopy copy = runtime::copy_run(run.folder, to, store::copy_database);
+/// Whether there are any.
+bool copy_caches(const fs::path& logs, const fs::path& to) {
   bool has_cache = false;
-  for (const char* name : {"simulations.db", "simulations-cuda.db"}) {  // of threads and of a CUDA device
-    const fs::path cache = run.folder.parent_path() / name;
+  for (const char* name : {store::kCacheName, store::kDeviceCacheName}) {
+    const fs::path cache = logs / name;
     if (!fs::exists(cache)) continue;
-    const fs::path copied = fs::path(options.to) / name;
+    const fs::path copied = to / name;
     if (fs::exists(copied)) {
       store::add_simulations(cache, copied);
     } else {
       store::copy_database(cache, copied);
     }
     has_cache = true;
+  }
+  return has_cache;
+}
+
+int backup(const BackupOptions& options) {
+  const RunAccess run = open_run(options.run);
+  const fs::path to = fs::path(options.to) / run.manifest.run_id;
+  const runtime::RunCopy copy = runtime::copy_run(run.folder, to, store::copy_database);
+  bool has_cache = false;
+  try {
+    has_cache = copy_caches(run.folder.parent_path(), options.to);
+  } catch (...) {
+    std::error_code left_behind;
+    fs::remove_all(to, left_behind);  // a run alone is no backup, and would stand in the way of the next try
+    throw;
   }
   if (options.json) {
     print_json({{"run", to.string()},

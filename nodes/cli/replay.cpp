@@ -37,9 +37,6 @@ struct Options {
   bool json = false;
 };
 
-const std::vector<std::string> kNodes = {"validation_agent", "proposal_agent", "analyser", "simulator_farm",
-                                         "virtual_lab"};
-
 /// A folder for what recomputed work writes, gone with the object: a replay never touches the run.
 class Scratch {
  public:
@@ -137,7 +134,9 @@ void add_replay(CLI::App& app, Action& action) {
   command
       .add_option("RUN", options->run, "Folder of a run (exact, from the node's journal) or its run.lcm (best effort)")
       ->capture_default_str();
-  command.add_option("--node", options->node, "Which node")->required()->check(CLI::IsMember(kNodes));
+  command.add_option("--node", options->node, "Which node")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>(game::kNodes.begin(), game::kNodes.end())));
   command.add_option("--scenario", options->scenario, "Scenario of the run; default: scenario.toml beside the log");
   command.add_flag("--recompute", options->recompute, "Do the long work again and compare its results too");
   command.add_flag("--json", options->json, "One JSON document on standard output");

@@ -1,6 +1,7 @@
 // nacre review: do the replicates agree, and a person's judgement on a specimen; in a run or in a measurement set.
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,10 +56,23 @@ InputError unknown_specimen(const std::string& specimen, const std::string& wher
   return InputError::format("{}: not in {}: expected the name of one of its {} specimens", specimen, where, specimens);
 }
 
+/// A run with what was measured and judged in it so far.
+struct ReviewedRun {
+  RunAccess run;
+  game::MeasurementBook book;
+  std::map<std::string, int> revisions;  ///< highest of each specimen's judgements
+};
+
+ReviewedRun open_reviewed_run(const std::string& folder) {
+  ReviewedRun opened{.run = open_run(folder), .book = {}, .revisions = {}};
+  opened.book = view_laboratory(opened.run).facts.book;
+  opened.revisions = highest_revisions(opened.run);
+  return opened;
+}
+
 /// Nothing, said on standard error, where the judgement does not stand.
-std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& judgement) {
-  const RunAccess run = open_run(options.run);
-  const game::MeasurementBook book = view_laboratory(run).facts.book;
+std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& in, const Judgement& judgement) {
+  const auto& [run, book, revisions] = in;
   const auto specimens = book.specimens();
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
                                      [&](const auto& each) { return each.specimen == judgement.specimen; });
@@ -66,7 +80,9 @@ std::optional<Reviewed> judge_in_run(const Options& options, const Judgement& ju
   if (judgement.valid) {
     if (const auto reason = book.against_validity(judgement.specimen)) throw InputError(*reason);
   }
-  const int revision = options.revision > 0 ? options.revision : next_revision(run, judgement.specimen);
+  const auto last = revisions.find(judgement.specimen);
+  const int next = last == revisions.end() ? 1 : last->second + 1;
+  const int revision = options.revision > 0 ? options.revision : next;
   if (const auto held = book.review_against(judgement.specimen, {revision, judgement.valid, judgement.why})) {
     remark(fmt::format("{}: revision {} stands: {}valid: {}", judgement.specimen, held->revision,
                        held->valid ? "" : "not ", held->why));
@@ -110,16 +126,21 @@ void print_reviewed_json(const std::vector<Reviewed>& reviewed) {
   print_json({{"reviewed", all}});
 }
 
+/// What stands of the judgements.
+std::vector<Reviewed> judge_all(const Options& options, const std::vector<Judgement>& judgements) {
+  if (judgements.empty()) return {};
+  if (!options.set.empty()) return judge_in_set(options, judgements);
+  const ReviewedRun run = open_reviewed_run(options.run);
+  std::vector<Reviewed> reviewed;
+  for (const Judgement& judgement : judgements) {
+    if (const auto one = judge_in_run(options, run, judgement)) reviewed.push_back(*one);
+  }
+  return reviewed;
+}
+
 /// Status 1 where a judgement does not stand.
 int judge(const Options& options, const std::vector<Judgement>& judgements) {
-  std::vector<Reviewed> reviewed;
-  if (!options.set.empty() && !judgements.empty()) {
-    reviewed = judge_in_set(options, judgements);
-  } else {
-    for (const Judgement& judgement : judgements) {
-      if (const auto one = judge_in_run(options, judgement)) reviewed.push_back(*one);
-    }
-  }
+  const std::vector<Reviewed> reviewed = judge_all(options, judgements);
   if (options.json) {
     print_reviewed_json(reviewed);
   } else {

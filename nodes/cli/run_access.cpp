@@ -9,7 +9,6 @@
 
 #include "base/result.hpp"
 #include "output.hpp"
-#include "wire/codec.hpp"
 #include "wire/convert.hpp"
 #include "wire/header.hpp"
 
@@ -119,9 +118,7 @@ std::vector<std::string> sent_by_validation_agent(const RunAccess& run, const st
 std::optional<material::ParameterSet> adopted_parameters(const RunAccess& run) {
   const std::vector<std::string> sent = sent_by_validation_agent(run, "PARAMETERS");
   for (auto payload = sent.rbegin(); payload != sent.rend(); ++payload) {
-    const auto message = wire::decode_safe<parameters_t>(*payload);
-    if (!message) continue;
-    if (const auto model = wire::from_wire(*message)) return model->parameters;
+    if (const auto model = wire::read<wire::AdoptedModel>(*payload)) return model->parameters;
   }
   return std::nullopt;
 }

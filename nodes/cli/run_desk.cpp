@@ -102,7 +102,7 @@ std::optional<std::string> RunDesk::against(const dashboard::Judgement& judgemen
 Answer RunDesk::judge(const dashboard::Judgement& judgement) {
   review_t message{};
   message.specimen = judgement.specimen;
-  message.revision = next_revision(run_, judgement.specimen);
+  message.revision = highest_revisions(run_)[judgement.specimen] + 1;
   message.valid = judgement.valid;
   message.by = judgement.by;
   message.why = judgement.why;

@@ -124,15 +124,15 @@ std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run) {
   return held.validation_agent;
 }
 
-int next_revision(const RunAccess& run, const std::string& specimen) {
-  int highest = 0;
+std::map<std::string, int> highest_revisions(const RunAccess& run) {
+  std::map<std::string, int> highest;
   // Either journal may be lost: the node that keeps the other holds the higher revision, and to it a lower one is old.
   for (const char* node : {"validation_agent", "analyser"})
     for (const std::string& payload : received_by(run, node, "REVIEW")) {
       const auto review = wire::decode_safe<review_t>(payload);
-      if (review && review->specimen == specimen) highest = std::max<int>(highest, review->revision);
+      if (review) highest[review->specimen] = std::max<int>(highest[review->specimen], review->revision);
     }
-  return highest + 1;
+  return highest;
 }
 
 }  // namespace nacre::cli

@@ -36,7 +36,7 @@ std::optional<std::string> against_measurement(const HeldMeasurements& held, con
 /// All that is held, by specimen: what the validation agent has, else what reached the analyser alone.
 std::map<std::string, std::string> hashes_by_specimen(const RunAccess& run);
 
-/// One more than the highest revision of a specimen's reviews so far, so that this judgement wins.
-int next_revision(const RunAccess& run, const std::string& specimen);
+/// The highest revision of each specimen's reviews so far: a judgement of one more wins.
+std::map<std::string, int> highest_revisions(const RunAccess& run);
 
 }  // namespace nacre::cli

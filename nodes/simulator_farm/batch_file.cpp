@@ -1,7 +1,5 @@
 #include "simulator_farm/batch_file.hpp"
 
-#include <unistd.h>
-
 #include <cstring>
 #include <span>
 
@@ -130,12 +128,6 @@ Result<std::vector<BatchRecord>> read_batch_result(std::string_view bytes, std::
     records.push_back(*std::move(record));
   }
   return records;
-}
-
-std::string own_name() {
-  char host[65] = "unknown";
-  ::gethostname(host, sizeof host - 1);
-  return fmt::format("{}-{}", host, ::getpid());
 }
 
 }  // namespace nacre::simulator_farm

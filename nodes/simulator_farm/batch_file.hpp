@@ -40,7 +40,4 @@ std::string write_batch_result(std::string_view batch, const std::vector<BatchRe
 /// The error: damaged, the answer to another batch, or by another version of the kernel.
 Result<std::vector<BatchRecord>> read_batch_result(std::string_view bytes, std::string_view batch);
 
-/// HOST-PID: keeps apart what several processes write beside a file before they rename it.
-std::string own_name();
-
 }  // namespace nacre::simulator_farm

@@ -1,5 +1,7 @@
 #include "simulator_farm/batch_task.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -20,6 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+/// HOST-PID.
+std::string own_name() {
+  char host[65] = "unknown";
+  ::gethostname(host, sizeof host - 1);
+  return fmt::format("{}-{}", host, ::getpid());
+}
 
 /// Writes into the batch's sign file every few seconds until it dies: how many questions are answered, and a count.
 class SignOfLife {
@@ -92,9 +101,7 @@ int run_batch_task(const fs::path& folder, const std::string& wave, int task) {
     sign.answered(static_cast<int>(records.size()));
   }
   if (!still_wanted(spool, *batch)) return 0;
-  const fs::path aside = spool.folder() / fmt::format("{}.{}.{}-{}", *batch, own_name(), wave, task);
-  write_file_atomically(aside, write_batch_result(*batch, records));
-  fs::rename(aside, spool.result(*batch));
+  write_file_atomically(spool.result(*batch), write_batch_result(*batch, records));
   fmt::print("task {} of {}: {} questions answered\n", task, wave, records.size());
   return 0;
 }

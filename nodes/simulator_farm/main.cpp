@@ -51,7 +51,7 @@ runtime::NodeProgram make_farm(const FarmOptions& options, const runtime::NodeOp
   const std::string executor = options.executor.empty() ? scenario.farm.executor : options.executor;
   // Shared by all runs beside this one: the answers do not depend on the run. A device rounds otherwise, so that farms
   // with one have a cache of their own, for what their threads compute, too.
-  const fs::path usual = run / ".." / (executor == "cuda" ? "simulations-cuda.db" : "simulations.db");
+  const fs::path usual = run / ".." / (executor == "cuda" ? store::kDeviceCacheName : store::kCacheName);
   const fs::path file = options.cache_file.empty() ? usual : options.cache_file;
   const auto cache = std::make_shared<store::SimulationCache>(file.lexically_normal());
   runtime::NodeProgram program{.core = make_core(scenario),

@@ -9,10 +9,10 @@
 
 #include <fmt/core.h>
 
+#include "base/files.hpp"
 #include "base/result.hpp"
 #include "crack/crack_record.hpp"
 #include "film/film_file.hpp"
-#include "simulator_farm/batch_file.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/question.hpp"
 #include "store/kept_simulation.hpp"
@@ -104,13 +104,8 @@ std::string filmed(const std::filesystem::path& folder, const std::string& key, 
                     : film.error().message);
     return {};
   }
-  std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
-  if (problem) throw InputError::format("{}: cannot be made: {}", folder.string(), problem.message());
-  // Under a name of this process' own first: two tasks of a cluster may be making the same film.
-  const std::filesystem::path aside = folder / (name + "." + own_name());
-  film::write_film(aside, *film);
-  std::filesystem::rename(aside, folder / name);
+  make_folder(folder);
+  film::write_film(folder / name, *film);
   return name;
 }
 

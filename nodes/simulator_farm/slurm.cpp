@@ -83,10 +83,4 @@ Listing read_listing(const std::string& output) {
   return tasks;
 }
 
-std::string quoted_for_shell(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace nacre::simulator_farm

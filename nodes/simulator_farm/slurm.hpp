@@ -1,6 +1,6 @@
 #pragma once
-// The three things that are said to Slurm: take these tasks, how do they stand, which version are you. Commands run
-// beside the caller, so that a controller that does not answer holds up nothing else.
+// The two things that are said to Slurm: take these tasks, how do they stand. Commands run beside the caller, so that a
+// controller that does not answer holds up nothing else.
 
 #include <filesystem>
 #include <map>
@@ -46,8 +46,5 @@ std::vector<std::string> listing(const std::vector<std::string>& names);
 /// The answer to listing(): tasks that Slurm still has, by job name and number.
 using Listing = std::map<std::pair<std::string, int>, TaskState>;
 Listing read_listing(const std::string& output);
-
-/// `text` as one word for a POSIX shell.
-std::string quoted_for_shell(const std::string& text);
 
 }  // namespace nacre::simulator_farm

@@ -333,10 +333,10 @@ void SlurmExecutor::submit() {
   const std::string name = fmt::format("{}{:04}", job_prefix_, next_wave_++);
   spool_.put_wave(name, batches);
   const fs::path script = spool_.folder() / "task.sh";
-  write_file_atomically(script, fmt::format("#!/bin/sh\nexec {} work --spool {} --wave \"$SLURM_JOB_NAME\" --task "
-                                            "\"$SLURM_ARRAY_TASK_ID\"\n",
-                                            quoted_for_shell(fs::absolute(settings_.program).string()),
-                                            quoted_for_shell(fs::absolute(spool_.folder()).string())));
+  write_file_atomically(
+      script, fmt::format("#!/bin/sh\nexec {} work --spool {} --wave \"$SLURM_JOB_NAME\" --task "
+                          "\"$SLURM_ARRAY_TASK_ID\"\n",
+                          shell_word(fs::absolute(settings_.program)), shell_word(fs::absolute(spool_.folder()))));
   const Wave wave{.name = name,
                   .tasks = static_cast<int>(batches.size()),
                   .script = script,

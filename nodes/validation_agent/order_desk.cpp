@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "game/standings.hpp"
 #include "pattern/random_pattern.hpp"
 
 namespace nacre::validation_agent {
@@ -149,8 +150,7 @@ std::optional<std::string> OrderDesk::against_label(const measurement::SpecimenR
 std::set<pattern::Pattern> OrderDesk::settled_patterns() const {
   std::set<pattern::Pattern> patterns(random_patterns_.begin(), random_patterns_.end());
   const auto add = [&](const pattern::Design& design) {
-    if (design.layout() == nullptr) return;
-    if (const auto pattern = pattern::Pattern::from_layout(*design.layout())) patterns.insert(*pattern);
+    if (const auto pattern = game::eightfold_pattern(design)) patterns.insert(*pattern);
   };
   for (const game::Order& order : orders_) add(order.design);
   for (const pattern::Design& design : own_) add(design);

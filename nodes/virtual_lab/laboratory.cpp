@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/csv.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
@@ -159,7 +159,8 @@ tester::Curve shown_curve(const HiddenEffects& effects, double gain, const teste
 int batch_step(const std::string& batch) {
   const std::size_t digits = batch.find_last_not_of("0123456789") + 1;
   const int first = batch.starts_with("round-") ? 0 : 1;
-  return digits < batch.size() ? std::max(0, std::atoi(batch.c_str() + digits) - first) : 0;
+  const Result<int> number = integer_from_text(std::string_view(batch).substr(digits));
+  return number ? std::max(0, *number - first) : 0;
 }
 
 /// How far stiffness and stress have drifted where a specimen was printed.

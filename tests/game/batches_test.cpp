@@ -86,10 +86,6 @@ TEST(Slurm, ListingsAreReadAndWhatIsNoTaskIsPassedOver) {
   EXPECT_EQ(tasks.at({"nacre-1", 3}), TaskState::running);
 }
 
-TEST(Slurm, PathsReachTheShellAsOneWord) {
-  EXPECT_EQ(quoted_for_shell("/home/a b/$(rm -r x)/it's"), "'/home/a b/$(rm -r x)/it'\\''s'");
-}
-
 TEST(Slurm, OptionsOfTheScenarioComeLastSoThatTheyWin) {
   const auto command =
       submission({.name = "n", .tasks = 3, .script = "/s/task.sh", .folder = "/s", .options = {"--cpus-per-task=2"}});

@@ -158,7 +158,7 @@ TEST_F(CommandLine, FullDiskIsSaidAndNotTakenForSuccess) {
   runtime::ChildProcess process(
       {"/bin/sh", "-c", "exec \"$0\" simulate soft --fidelity tiny --json >/dev/full", program("nacre")});
   std::string said;
-  EXPECT_EQ(wait_for_end(process, said).exit_status, 2);
+  EXPECT_EQ(wait_for_end(process, said).exit_status, 1) << "there may be room later";
   EXPECT_THAT(said, HasSubstr("No space left on device"));
 }
 

@@ -18,6 +18,7 @@
 #include "processes.hpp"
 #include "program_test.hpp"
 #include "runtime/process.hpp"
+#include "store/database_care.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre {
@@ -164,6 +165,32 @@ TEST_F(Doctor, ADamagedCacheIsAFaultAndItsRemedySavesTheRest) {
     }
   }
   EXPECT_TRUE(fs::exists(file.string() + ".damaged"));
+}
+
+TEST_F(Doctor, LooksAtCachesWithoutMakingOrChangingThem) {
+  const Said none = examine("cache of simulations");
+  EXPECT_THAT(none.finding["found"].get<std::string>(), HasSubstr("none yet"));
+  EXPECT_TRUE(fs::is_empty(logs_)) << "looking makes none";
+  const fs::path file = logs_ / "simulations-cuda.db";
+  { const store::SimulationCache cache(file); }
+  { const store::SimulationCache cache(logs_ / "simulations.db"); }
+  const auto set_version = [&](int version) {
+    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec(fmt::format("PRAGMA user_version = {}", version));
+  };
+  set_version(2);
+  EXPECT_EQ(run_nacre({"doctor", "--logs", logs_.string()}).status, 0);
+  EXPECT_EQ(store::schema_version(file), 2) << "looking brings none up to date";
+  set_version(99);
+  const Outcome outcome = run_nacre({"doctor", "--logs", logs_.string()});
+  EXPECT_EQ(outcome.status, 1) << "a device's cache counts, too";
+  EXPECT_THAT(outcome.out, HasSubstr("simulations-cuda.db has schema version 99"));
+}
+
+TEST_F(Doctor, WhatItSaysToTypeHoldsForFoldersWithBlanks) {
+  logs_ = folder_ / "my logs";
+  EXPECT_EQ(examine("disk space").verdict(), "fault");
+  type(examine("disk space").remedy());
+  EXPECT_TRUE(fs::is_directory(logs_));
 }
 
 TEST_F(Doctor, ProgramsOfDifferentBuildsAreAFault) {

@@ -89,6 +89,14 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
                                   HasSubstr("\"fidelity_name\":\"")));
 }
 
+TEST_F(Launcher, AReaderOfItsOutputWhoGoesEarlyTakesNothingFromTheGame) {
+  std::string command = program("nacre");
+  for (const std::string& argument : arguments()) command += " " + shell_word(argument);
+  const auto answer = runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
+  EXPECT_EQ(answer.end.exit_status, 0) << answer.end.in_words();
+  EXPECT_THAT(answer.output, HasSubstr("run game on UDP port"));
+}
+
 TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
   misbehave("analyser:crash=2");
   const Outcome outcome = run_nacre(arguments());

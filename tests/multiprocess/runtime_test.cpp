@@ -495,6 +495,17 @@ TEST(Recorder, AFullDiskIsNoBadInputAndItMayBeStartedAgain) {
   EXPECT_EQ(WEXITSTATUS(status), 1);
 }
 
+int acks_of_launcher(const std::filesystem::path& log) {
+  int acks = 0;
+  runtime::LogReader reader(log);
+  while (const auto record = reader.next()) {
+    if (record->channel != "ACK") continue;
+    const auto blanked = wire::blank_header(record->channel, record->data);
+    acks += blanked && blanked->header.node == "launcher";
+  }
+  return acks;
+}
+
 TEST(Recorder, KeepsABurstOfEveryMessageOnTheBus) {
   const TemporaryFolder folder;
   runtime::RecorderOptions options;
@@ -506,21 +517,19 @@ TEST(Recorder, KeepsABurstOfEveryMessageOnTheBus) {
   game.start_all();
   EXPECT_TRUE(game.play());
   for (int i = 0; i < 200; ++i) game.launcher().bus().publish({"ACK", wire::encode(ack_t{})});
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  game.watch(20, [&] { return acks_of_launcher(options.log) == 200; });
   stop = true;
   recorder.join();
   Said recorded;
-  int acks = 0;
   runtime::LogReader reader(options.log);
   while (const auto record = reader.next()) {
     EXPECT_NE(record->channel, "LCM_SELF_TEST");
     const auto blanked = wire::blank_header(record->channel, record->data);
     ASSERT_TRUE(blanked) << record->channel;
-    if (record->channel == "ACK") acks += blanked->header.node == "launcher";
     if (record->channel.starts_with("SIMULATE") || record->channel == "PROPOSAL")
       recorded.emplace(record->channel, blanked->payload);
   }
-  EXPECT_EQ(acks, 200);
+  EXPECT_EQ(acks_of_launcher(options.log), 200);
   EXPECT_EQ(difference(recorded, undisturbed_game()), "");
   for (const std::string& node : echo::kParticipants) {
     const auto core = echo::make_core(node);

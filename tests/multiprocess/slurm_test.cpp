@@ -370,10 +370,18 @@ TEST_F(NodeProgramTest, AFarmBesideADeviceHasTheThreadsThatItIsGiven) {
     test::Process farm = start("simulator_farm", {"--executor", "cuda", "--threads", std::to_string(threads), "--cache",
                                                   (run_ / fmt::format("{}.db", threads)).string()});
     EXPECT_TRUE(becomes_true([&] { return errors().find("listens") != std::string::npos; }, 20.0)) << errors();
-    // Those of the pool are there from the start; the one that looks for a device may have ended by then.
-    ::usleep(1'000'000);
-    const fs::directory_iterator tasks(fs::path("/proc") / std::to_string(farm.pid()) / "task");
-    const auto count = std::distance(begin(tasks), end(tasks));
+    // Those of the pool are there from the start; the device's end where there is none, once it has been said.
+    becomes_true([&] { return errors().find("the device cannot be used") != std::string::npos; }, 5.0);
+    std::ptrdiff_t count = 0;
+    int looks_alike = 0;
+    EXPECT_TRUE(becomes_true(
+        [&] {
+          const fs::directory_iterator tasks(fs::path("/proc") / std::to_string(farm.pid()) / "task");
+          const auto last = std::exchange(count, std::distance(begin(tasks), end(tasks)));
+          looks_alike = last == count ? looks_alike + 1 : 0;
+          return looks_alike == 5;
+        },
+        20.0));
     farm.kill();
     fs::remove(run_ / "errors");
     return count;

@@ -69,5 +69,13 @@ TEST(Rounds, CalliperReadingsAnswerTheNominalThickness) {
   EXPECT_FALSE(answers({.orientation_deg = 90.0}, {}));
 }
 
+TEST(Rounds, ReasonsOfOrdersComeBackFromTheirNamesAndNoOtherDoes) {
+  for (const OrderReason reason : {OrderReason::base, OrderReason::mixture, OrderReason::random, OrderReason::proposal,
+                                   OrderReason::discrimination, OrderReason::person, OrderReason::family}) {
+    EXPECT_EQ(order_reason_from_string(to_string(reason)), reason);
+  }
+  EXPECT_FALSE(order_reason_from_string("whim"));
+}
+
 }  // namespace
 }  // namespace nacre::game

@@ -8,6 +8,8 @@
 
 #include <csignal>
 #include <fstream>
+#include <memory>
+#include <thread>
 
 #include <lcm/lcm-cpp.hpp>
 
@@ -219,6 +221,18 @@ TEST(Journal, AFileSizeLimitLeavesAJournalThatResumes) {
   const auto journal = Journal::open(folder.path(), 2);
   EXPECT_GE(count_records(journal->path()), kept);  // all that was reported written is there
   EXPECT_TRUE(journal->append(2, "A", "goes on"));
+}
+
+TEST(Lock, WhoIsThereForAMomentIsWaitedForAndWhoStaysIsNot) {
+  const TemporaryFolder folder;
+  auto held = std::make_unique<FolderLock>(folder.path());
+  EXPECT_THAT([&] { Journal::open(folder.path(), 1); }, ThrowsMessage<InputError>(HasSubstr("another process")));
+  std::thread leaves([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    held.reset();
+  });
+  EXPECT_NO_THROW(Journal::open(folder.path(), 1));
+  leaves.join();
 }
 
 }  // namespace

@@ -154,5 +154,19 @@ TEST(RestartBudget, ANodeThatHasLivedForAWhileHasANewOne) {
   EXPECT_FALSE(budget.take(now + seconds(2)));
 }
 
+TEST(LiveDisplay, AReaderWhoHasGoneOrAFullDiskDoesNotEndIt) {
+  std::FILE* const full = std::fopen("/dev/full", "w");
+  ASSERT_NE(full, nullptr);
+  std::setvbuf(full, nullptr, _IONBF, 0);
+  for (const int columns : {0, 80}) {
+    LiveDisplay display(full, columns);
+    EXPECT_NO_THROW({
+      display.show({busy_node()}, {});
+      display.say("a line");
+    });
+  }
+  std::fclose(full);
+}
+
 }  // namespace
 }  // namespace nacre::runtime

@@ -88,6 +88,22 @@ TEST_F(DatabaseFile, CopiesNeitherOverAFileNorIntoTheLogOfOneThatIsGone) {
   EXPECT_EQ(SimulationCache(copy).size(), 50);
 }
 
+TEST_F(DatabaseFile, ACopyThatIsNotWholeIsNotLeft) {
+  fill(2000);
+  damage(0.5, 6000);
+  EXPECT_THROW(copy_database(file_, folder_ / "copy.db"), InputError);
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("simulations.db"));
+}
+
+TEST_F(DatabaseFile, OneThatAnotherProgramKeepsToItselfIsNotCalledDamaged) {
+  fill(50);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  other.exec("PRAGMA locking_mode = EXCLUSIVE");
+  other.exec("DELETE FROM breaks");
+  EXPECT_THROW((void)check_database(file_, 10), DatabaseUnavailable);
+}
+
 TEST_F(DatabaseFile, OneCacheIsAddedToAnother) {
   fill(50);
   const fs::path other = folder_ / "other.db";

@@ -168,11 +168,11 @@ TEST_F(SimulationCacheFile, ACacheThatAnotherProgramWritesAsksForPatienceAndNotF
   std::string said;
   try {
     cache.insert("key", kAnswer);
-  } catch (const CacheUnavailable& error) {
+  } catch (const DatabaseUnavailable& error) {
     said = error.what();
   }
   EXPECT_THAT(said, testing::AllOf(HasSubstr("another program"), testing::Not(HasSubstr("rebuild"))));
-  EXPECT_THROW(SimulationCache(path_, 10), CacheUnavailable);
+  EXPECT_THROW(SimulationCache(path_, 10), DatabaseUnavailable);
   other.exec("ROLLBACK");
   EXPECT_TRUE(cache.insert("key", kAnswer));
 }
@@ -188,7 +188,7 @@ TEST_F(SimulationCacheFile, AFullDiskAsksForRoomAndNotForARebuild) {
   std::string said;
   try {
     for (int i = 0; i < 1000; ++i) cache.insert("key " + std::to_string(i), kAnswer);
-  } catch (const CacheUnavailable& error) {
+  } catch (const DatabaseUnavailable& error) {
     said = error.what();
   }
   setrlimit(RLIMIT_FSIZE, &before);
