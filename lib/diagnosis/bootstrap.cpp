@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "base/parallel.hpp"
 
@@ -50,10 +51,17 @@ double DrawStatistics::largest_contrast() const {
   return contrasts.empty() ? 0.0 : *std::max_element(contrasts.begin(), contrasts.end());
 }
 
-std::vector<std::size_t> scatter_of_rows(const Observations& observations) {
-  std::vector<std::size_t> scatter;
-  for (const Row& row : observations.rows) scatter.push_back(row.scatter);
-  return scatter;
+std::vector<std::size_t> parts_of_rows(const Observations& observations) {
+  constexpr std::size_t kTests = 3;
+  std::map<std::string, std::size_t> materials;
+  std::vector<std::size_t> parts;
+  for (const Row& row : observations.rows) {
+    parts.push_back(static_cast<std::size_t>(row.test));
+    if (row.group < 0 || row.test != tester::TestKind::tensile) continue;
+    const std::string material = observations.groups[static_cast<std::size_t>(row.group)].material();
+    parts.back() = materials.emplace(material, kTests + materials.size()).first->second;
+  }
+  return parts;
 }
 
 DataSource::DataSource(const Observations& observations)
@@ -61,13 +69,12 @@ DataSource::DataSource(const Observations& observations)
       scatter_share_(observations.size()) {
   const CovarianceParts parts = observations.covariance_parts();
   const Eigen::MatrixXd total = parts.fixed + parts.scatter;
+  for (const ReplicateScatter& scatter : observations.scatter) dof_.emplace_back(scatter.dof, scatter.assumed_dof);
+  const std::vector<std::size_t> part_of = parts_of_rows(observations);
+  std::map<std::size_t, std::vector<Eigen::Index>> rows_of_part;  // rows of one part share a scatter
+  for (std::size_t i = 0; i < part_of.size(); ++i) rows_of_part[part_of[i]].push_back(static_cast<Eigen::Index>(i));
   Eigen::Index next = 0;
-  for (std::size_t k = 0; k < observations.scatter.size(); ++k) {
-    dof_.emplace_back(observations.scatter[k].dof, observations.scatter[k].assumed_dof);
-    std::vector<Eigen::Index> rows;
-    for (int i = 0; i < observations.size(); ++i)
-      if (observations.rows[static_cast<std::size_t>(i)].scatter == k) rows.push_back(i);
-    if (rows.empty()) continue;
+  for (const auto& [part, rows] : rows_of_part) {
     const auto count = static_cast<Eigen::Index>(rows.size());
     const Whitener whitener(total(rows, rows));
     // Whitened from both sides, the scatter is symmetric again, its eigenvalues the shares.
@@ -76,7 +83,8 @@ DataSource::DataSource(const Observations& observations)
     to_combinations_(Eigen::seqN(next, count), rows) =
         shares.eigenvectors().transpose() * whitener(Eigen::MatrixXd::Identity(count, count));
     scatter_share_.segment(next, count) = shares.eigenvalues();
-    scatter_.insert(scatter_.end(), rows.size(), k);
+    scatter_.insert(scatter_.end(), rows.size(), observations.rows[static_cast<std::size_t>(rows.front())].scatter);
+    parts_.insert(parts_.end(), rows.size(), part);
     next += count;
   }
 }
@@ -91,7 +99,7 @@ Anchor DataSource::combined(Anchor anchor) const {
   anchor.fit = combined(std::move(anchor.fit));
   for (Signature& signature : anchor.signatures) signature.changes = combined(signature.changes);
   for (ContrastDirection& direction : anchor.directions) direction.values = combined(Eigen::MatrixXd(direction.values));
-  anchor.scatter = scatter_;
+  anchor.parts = parts_;
   return anchor;
 }
 
@@ -120,9 +128,9 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   const Eigen::VectorXd residual = projector.residual(data.values);
   DrawStatistics statistics;
   statistics.chi2 = residual.squaredNorm();
-  for (std::size_t i = 0; i < anchor.scatter.size(); ++i) {
-    statistics.parts.resize(std::max(statistics.parts.size(), anchor.scatter[i] + 1));
-    statistics.parts[anchor.scatter[i]] += std::pow(residual[static_cast<Eigen::Index>(i)], 2);
+  for (std::size_t i = 0; i < anchor.parts.size(); ++i) {
+    statistics.parts.resize(std::max(statistics.parts.size(), anchor.parts[i] + 1));
+    statistics.parts[anchor.parts[i]] += std::pow(residual[static_cast<Eigen::Index>(i)], 2);
   }
   for (const Signature& signature : anchor.signatures) {
     const Eigen::MatrixXd g = projector.projected(signature.changes);

@@ -22,7 +22,7 @@ struct Signature {
 /// Statistics of one data set against an anchor model.
 struct DrawStatistics {
   double chi2 = 0.0;              ///< of the anchor, refitted
-  std::vector<double> parts;      ///< of chi2: rows of one scatter each (Anchor::scatter)
+  std::vector<double> parts;      ///< of chi2 (Anchor::parts)
   std::vector<double> drops;      ///< by how much each signature lowers it
   std::vector<double> contrasts;  ///< projected residual along each direction, in standard deviations
   double largest_drop() const;
@@ -34,10 +34,12 @@ struct Anchor {
   Fit fit;
   std::vector<Signature> signatures;
   std::vector<ContrastDirection> directions;
-  std::vector<std::size_t> scatter;  ///< of each row (Row::scatter): a part of chi2 is that of rows of one scatter
+  std::vector<std::size_t> parts;  ///< of each row: chi2 is also looked at part by part
 };
-/// Rows of one scatter each, as Anchor wants them.
-std::vector<std::size_t> scatter_of_rows(const Observations& observations);
+
+/// Parts that are independent of each other, of each row: moduli, fracture tests, coupons' history, and behind them
+/// coupons of one material each, in the order of the rows. Rows of one part share a scatter.
+std::vector<std::size_t> parts_of_rows(const Observations& observations);
 
 /// Data with their noise model: the values of the rows and the covariance that these data themselves suggest.
 struct NoisyData {
@@ -67,6 +69,7 @@ class DataSource {
   Eigen::MatrixXd to_combinations_;       ///< makes the covariance the identity and every scatter diagonal
   Eigen::VectorXd scatter_share_;         ///< of a combination's variance that is replicate scatter
   std::vector<std::size_t> scatter_;      ///< of a combination: index in Observations::scatter
+  std::vector<std::size_t> parts_;        ///< of a combination
   std::vector<std::pair<int, int>> dof_;  ///< of each scatter, and how many more are assumed
 };
 

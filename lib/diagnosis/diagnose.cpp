@@ -75,17 +75,16 @@ std::string summary_of(const Diagnosis& d, const Decision& decision) {
   return text;
 }
 
-/// Of which specimens the rows are that scatter together.
-std::string specimens_in_words(const Observations& observations, std::size_t scatter) {
-  const auto row = std::ranges::find_if(observations.rows,
-                                        [&](const Row& each) { return each.group >= 0 && each.scatter == scatter; });
-  if (row == observations.rows.end()) return "";
-  if (row->test == tester::TestKind::modulus) return "moduli";
-  if (row->test == tester::TestKind::toughness) return "notched specimens";
-  constexpr std::size_t kTests = 3;  // behind them coupons of one material each
-  return scatter < kTests
-             ? "coupons"
-             : fmt::format("{} coupons", observations.groups[static_cast<std::size_t>(row->group)].material());
+/// Of which specimens the rows of a part are.
+std::string specimens_in_words(const Observations& observations, std::size_t part) {
+  const std::vector<std::size_t> parts = parts_of_rows(observations);
+  const auto found = std::ranges::find(parts, part);
+  if (found == parts.end()) return "";
+  const Row& row = observations.rows[static_cast<std::size_t>(found - parts.begin())];
+  if (row.test == tester::TestKind::modulus) return "moduli";
+  if (row.test == tester::TestKind::toughness) return "notched specimens";
+  if (row.group < 0) return "coupons";
+  return observations.groups[static_cast<std::size_t>(row.group)].material() + " coupons";
 }
 
 std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
@@ -202,7 +201,7 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   diagnosis.p_misfit = decision.p_misfit;
   diagnosis.p_outside = decision.p_outside;
   diagnosis.contrasts = decision.contrasts;
-  diagnosis.loudest = specimens_in_words(observations, decision.loudest_scatter);
+  diagnosis.loudest = specimens_in_words(observations, decision.loudest_part);
   const auto [feature, test] = shown_scatter(observations);
   diagnosis.replicate_sd = observations.replicate_sd(feature, test);
   diagnosis.noise_known = observations.replicate_dof(test) > 0;

@@ -247,7 +247,7 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   }
   const Observations& observations = evidence.observations;
   if (settings.progress) settings.progress(0.7, "bootstrap of the base model");
-  evidence.base.scatter = scatter_of_rows(observations);
+  evidence.base.parts = parts_of_rows(observations);
   evidence.base_statistics =
       anchor_statistics(evidence.base, {observations.values, Whitener(observations.covariance())});
   evidence.base_draws = bootstrap_anchor(evidence.base, observations, settings.bootstraps, settings.seed);

@@ -42,7 +42,7 @@ std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
 /// doubled because there are two of them.
 double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
   const Anchor anchor{
-      fit, {}, contrast_directions(evidence.observations, fit.predicted), scatter_of_rows(evidence.observations)};
+      fit, {}, contrast_directions(evidence.observations, fit.predicted), parts_of_rows(evidence.observations)};
   const std::vector<DrawStatistics> draws =
       bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 1);
   const DrawStatistics own =
@@ -302,7 +302,7 @@ Decision decide(Evidence& evidence) {
   const double omnibus = omnibus_chance(evidence.base_draws, evidence.base_statistics);
   const double contrast = decision.contrasts.empty() ? 1.0 : decision.contrasts.front().p_family_wise;
   decision.p_misfit = std::min(1.0, 2.0 * std::min(omnibus, contrast));
-  decision.loudest_scatter = loudest_part(evidence.base_draws, evidence.base_statistics);
+  decision.loudest_part = loudest_part(evidence.base_draws, evidence.base_statistics);
   for (const Fit& single : evidence.singles) {
     decision.p_family_wise.push_back(exceedance(largest_drops, evidence.base.fit.chi2 - single.chi2));
     decision.p_fit.push_back(1.0);

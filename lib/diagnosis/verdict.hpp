@@ -43,7 +43,7 @@ struct Decision {
   double p_outside = 1.0;  ///< chance that a cause outside the library would lead to a name as surely (outsider.hpp); 1
                            ///< when not tested
   std::vector<Contrast> contrasts;  ///< of the base model's residuals, strongest first
-  std::size_t loudest_scatter = 0;  ///< of the rows that the base is farthest off from (Row::scatter)
+  std::size_t loudest_part = 0;     ///< of the rows, that the base is farthest off from (Anchor::parts)
   std::string reason;               ///< the step that decided, in words
 };
 

@@ -120,6 +120,28 @@ TEST(Diagnosis, ADriftFromBatchToBatchIsNamed) {
   expect_named(diagnose_effect("batch_drift", 0.05), "batch_drift", 0.05, 0.02);
 }
 
+// Of three batches the last, or the one in the middle, is off: no slope over batches explains that.
+TEST(Diagnosis, ABatchThatIsOffByItselfIsNoDrift) {
+  for (const char* batch : {"batch-2", "batch-3"}) {
+    std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({}, synthetic_truth());
+    for (measurement::SpecimenRecord& specimen : specimens)
+      if (specimen.batch == batch) *specimen.modulus_pa *= 1.1;
+    const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+    EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+    ASSERT_FALSE(diagnosis.contrasts.empty());
+    EXPECT_NE(diagnosis.contrasts.front().name.find(batch), std::string::npos) << diagnosis.summary;
+  }
+}
+
+// One value that is wrong must not pass as scatter without a word.
+TEST(Diagnosis, ReplicatesThatDoNotAgreeAreCautionedOfAlsoWhereNothingIsFound) {
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({.twins = 0}, synthetic_truth());
+  *specimens.front().modulus_pa *= 3.0;
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
+  EXPECT_NE(diagnosis.summary.find("replicates do not agree"), std::string::npos) << diagnosis.summary;
+}
+
 // Alone, rigid_overprint explains more of these data than droplet_mixing does; beside the machine it is the other way.
 TEST(Diagnosis, TwoEffectsAreNamedAlsoWhereALookAlikeLeadsAlone) {
   material::ParameterSet truth = synthetic_truth();
@@ -215,6 +237,38 @@ TEST(CouponDiagnosis, SlackOfTheGripsIsNamedFromCurvesAlone) {
   ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
   EXPECT_EQ(diagnosis.effects[0].name, "toe_slack");
   EXPECT_NEAR(diagnosis.effects[0].parameter, 0.002, 0.0002);
+}
+
+TEST(CouponDiagnosis, MuchSlackIsFoundToo) {
+  const Diagnosis diagnosis = diagnose_coupons("toe_slack", {0.015});
+  ASSERT_EQ(to_string(diagnosis.verdict), "named") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.effects[0].name, "toe_slack");
+  EXPECT_NEAR(diagnosis.effects[0].parameter, 0.015, 0.0005);
+}
+
+// The library ends at 2e-9 /Pa: what leaves nothing there comes nearest, and no second effect makes up for the end.
+TEST(CouponDiagnosis, ASpringBeyondTheEndOfTheRangeComesNearest) {
+  material::ParameterSet truth = synthetic_truth();
+  truth.extensions["machine_compliance"] = {2e-9};
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_coupons(truth, {1e-3, 1e-2}, 3, 0.01, 5);
+  for (measurement::SpecimenRecord& specimen : specimens)
+    for (std::size_t i = 0; i < specimen.curve.size(); ++i)
+      specimen.curve.strain[i] += 2e-10 * specimen.curve.stress_pa[i];
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  EXPECT_NE(diagnosis.summary.find("machine compliance comes nearest"), std::string::npos) << diagnosis.summary;
+  EXPECT_NE(diagnosis.summary.find("at the end of what is searched"), std::string::npos) << diagnosis.summary;
+}
+
+// Materials that answer faster pulls otherwise, each in its own way: no contrast stands for that.
+TEST(CouponDiagnosis, AMaterialThatIsOffByItselfIsSaid) {
+  std::vector<measurement::SpecimenRecord> specimens = synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 3, 0.01, 5);
+  for (measurement::SpecimenRecord& specimen : specimens)
+    if (specimen.design.name() == "soft" && specimen.conditions.strain_rate_per_s > 5e-3)
+      for (double& stress : specimen.curve.stress_pa) stress *= 1.1;
+  const Diagnosis diagnosis = diagnose(specimens, tiny_settings());
+  EXPECT_EQ(to_string(diagnosis.verdict), "unexplained") << diagnosis.summary;
+  EXPECT_EQ(diagnosis.loudest, "soft coupons") << diagnosis.summary;
 }
 
 // The machine stands between what was ordered and what the coupon felt, on the way back too.
