@@ -1,6 +1,7 @@
 #include "base/files.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -23,6 +24,18 @@ struct Descriptor {
     if (fd >= 0) ::close(fd);
   }
 };
+
+/// The file that a chain of links names, there or not; `path` itself where it is no link.
+std::filesystem::path behind_links(std::filesystem::path path) {
+  constexpr int kLongestChain = 40;
+  std::error_code no_link;
+  for (int i = 0; i < kLongestChain && std::filesystem::is_symlink(path, no_link); ++i) {
+    const std::filesystem::path named = std::filesystem::read_symlink(path, no_link);
+    if (no_link) break;
+    path = path.parent_path() / named;  // an absolute one replaces it all
+  }
+  return path;
+}
 
 }  // namespace
 
@@ -88,7 +101,8 @@ void sync_folder(const std::filesystem::path& folder) {
   if (entry.fd >= 0) ::fsync(entry.fd);
 }
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+void write_file_atomically(const std::filesystem::path& link_or_file, std::string_view bytes) {
+  const std::filesystem::path path = behind_links(link_or_file);
   const std::filesystem::path aside = name_aside(path);
   const auto give_up = [&](int reason) {
     ::unlink(aside.c_str());
@@ -97,6 +111,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   {
     const Descriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
     if (file.fd < 0) give_up(errno);
+    struct stat replaced {};
+    if (::stat(path.c_str(), &replaced) == 0) ::fchmod(file.fd, replaced.st_mode & 07777);  // who may read it stays
     std::size_t written = 0;
     while (written < bytes.size()) {
       const ssize_t count = ::write(file.fd, bytes.data() + written, bytes.size() - written);

@@ -47,6 +47,11 @@ struct Recorder::State {
   }
 
   Result<void> record(const Datagram& datagram) {
+    if (datagram.channel.empty()) {  // no reader of logs knows such an event: the rest would be lost with it
+      if (counters.unnamed++ == 0)
+        report(LogLevel::warning, "a message without a channel is not recorded; further ones are not told of");
+      return {};
+    }
     const Result<void> written = writer->append(now_utime(), datagram.channel, datagram.bytes);
     if (!written) return written;
     unflushed = true;

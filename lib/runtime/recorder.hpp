@@ -23,7 +23,8 @@ struct RecorderOptions {
 struct RecorderCounters {
   std::int64_t messages = 0;
   std::int64_t bytes = 0;
-  std::int64_t lost = 0;  ///< gaps in publishers' sequence numbers
+  std::int64_t lost = 0;     ///< gaps in publishers' sequence numbers
+  std::int64_t unnamed = 0;  ///< messages without a channel, not recorded
 };
 
 /// A recorder that the launcher pumps, or that runs in a thread or process of its own.

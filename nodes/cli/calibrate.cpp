@@ -14,6 +14,7 @@
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
+#include "specimen_doubts.hpp"
 #include "sysid/offline.hpp"
 #include "thesis/constants.hpp"
 
@@ -183,7 +184,7 @@ void print_table(const sysid::OfflineCalibration& result, const material::Parame
 }
 
 int calibrate(const Options& options) {
-  prepare_output_file(options.out);
+  prepare_output_file(options.out, {options.set, options.ranges, options.numerics_floor, options.store});
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   sysid::OfflineSettings settings;
@@ -203,6 +204,7 @@ int calibrate(const Options& options) {
   settings.calibration.searches = options.searches;
   settings.calibration.ensemble_size = options.ensemble;
   settings.fidelity = fidelity_from_option(options.fidelity);
+  warn_of_units(set.specimens, settings.calibration.start, settings.fidelity);
   settings.hold_out = options.hold_out;
   settings.store = options.store;
   settings.calibration.floor =

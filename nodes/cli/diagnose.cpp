@@ -20,6 +20,7 @@
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
+#include "specimen_doubts.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -155,7 +156,9 @@ void check_usage(const Options& options) {
 
 int diagnose(const Options& options) {
   check_usage(options);
-  if (!options.report.empty()) prepare_output_file(options.report);
+  if (!options.report.empty())
+    prepare_output_file(options.report,
+                        {options.set, options.parameters, options.ranges, options.numerics_floor, options.store});
   if (options.plan) return plan(options);
   if (!options.table.empty()) return diagnose_table(options);
   if (options.set.empty())
@@ -163,12 +166,13 @@ int diagnose(const Options& options) {
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   diagnosis::DiagnosisSettings settings = settings_from(options);
+  const std::string doubt_of_units = warn_of_units(set.specimens, settings.start, settings.fidelity);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
   const diagnosis::TakingPart part = diagnosis::taking_part(set.specimens, options.fracture);
   diagnosis::Diagnosis d = diagnosis_of(part, settings);
   progress.end();
-  d.summary += part.left_out;
+  d.summary += part.left_out + doubt_of_units;
   if (!options.report.empty())
     write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {

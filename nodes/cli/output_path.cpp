@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include "base/file_aside.hpp"
 #include "base/files.hpp"
@@ -16,7 +17,27 @@ namespace nacre::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Whether the path is under a folder of the system's whose files are no files.
+bool is_device(const fs::path& path) {
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  const auto second = whole.begin() == whole.end() ? whole.end() : std::next(whole.begin());
+  return second != whole.end() && (*second == "dev" || *second == "proc" || *second == "sys");
+}
+
+/// Whether `file` is the table or a curve of the measurement set in `folder`.
+bool is_part_of_set(const fs::path& file, const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored) || file.extension() != ".csv") return false;
+  const fs::path relative = fs::relative(file, folder, ignored);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+}  // namespace
+
 void prepare_output_file(const std::string& file) {
+  if (is_device(file)) throw InputError::format("{}: is no regular file, expected the name of one to write", file);
   if (const fs::path folder = fs::path(file).parent_path(); !folder.empty()) make_folder(folder.string());
   std::error_code unreadable;
   const fs::file_status status = fs::status(file, unreadable);
@@ -34,7 +55,7 @@ void prepare_output_file(const std::string& file, std::initializer_list<std::str
     if (other.empty()) continue;
     std::error_code no_such_file;
     if (fs::absolute(file).lexically_normal() == fs::absolute(other).lexically_normal() ||
-        fs::equivalent(file, other, no_such_file))
+        fs::equivalent(file, other, no_such_file) || is_part_of_set(file, other))
       throw InputError::format("{}: is read by the same command, expected the name of another file to write", file);
   }
   prepare_output_file(file);

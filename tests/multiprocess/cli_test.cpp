@@ -179,6 +179,13 @@ TEST_F(CommandLine, WhereResultsGoIsTriedBeforeTheWork) {
   const std::string parameters = this->file("own.toml", material::to_toml(material::default_parameters()));
   expect_refused(run_nacre({"explore", "--params", parameters, "--budget", "100000", "--out", parameters}),
                  {"own.toml: is read by the same command"});
+  std::filesystem::copy(std::string(NACRE_SOURCE_DIR) + "/data/examples/round1", path("set"),
+                        std::filesystem::copy_options::recursive);
+  const std::string table = path("set/measurements.csv");
+  expect_refused(run_nacre({"calibrate", path("set"), "--out", table}), {"is read by the same command"});
+  expect_refused(run_nacre({"diagnose", path("set"), "--report", table}), {"is read by the same command"});
+  expect_refused(run_nacre({"diagnose", path("set"), "--params", parameters, "--report", parameters}),
+                 {"is read by the same command"});
   expect_refused(run_nacre({"explore", "--cache", "c.db", "--budget", "100000", "--out", "./c.db"}), {"c.db: is read"});
 }
 

@@ -28,6 +28,24 @@ TEST(Files, ANameAsideIsBesideThePathAndNeverGivenTwice) {
   EXPECT_THAT(one.filename().string(), testing::StartsWith("film."));
 }
 
+TEST(Files, ALinkStaysOneAndItsFileIsWrittenAsItMayBeRead) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / name_aside("files_test");
+  std::filesystem::create_directories(folder / "kept");
+  write_file_atomically(folder / "kept" / "shared.csv", "old");
+  std::filesystem::permissions(folder / "kept" / "shared.csv", std::filesystem::perms::owner_read);
+  std::filesystem::create_symlink("kept/shared.csv", folder / "current.csv");
+  std::filesystem::create_symlink("current.csv", folder / "link.csv");
+  write_file_atomically(folder / "link.csv", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.csv"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "current.csv"));
+  EXPECT_EQ(read_file(folder / "kept" / "shared.csv"), "new");
+  EXPECT_EQ(std::filesystem::status(folder / "kept" / "shared.csv").permissions(), std::filesystem::perms::owner_read);
+  std::filesystem::create_symlink("kept/absent.csv", folder / "dangling.csv");
+  write_file_atomically(folder / "dangling.csv", "new");
+  EXPECT_EQ(read_file(folder / "kept" / "absent.csv"), "new");
+  std::filesystem::remove_all(folder);
+}
+
 TEST(NumberBetween, StandsBetweenWordsOrNowhere) {
   EXPECT_EQ(number_between("analyser/r", "/measured", "analyser/r12/measured#ab"), 12);
   EXPECT_EQ(number_between("s", "", "s7"), 7);
