@@ -28,7 +28,8 @@ struct Descriptor {
 std::vector<Descriptor> descriptors();
 
 /// All contrasts that vary over these specimens: each descriptor and the predicted level in log E, log T, slope and
-/// peak stress; every feature as a whole; every row of history by itself.
+/// peak stress; every feature as a whole; what changes from batch to batch and with the print order; every batch of
+/// three and more.
 std::vector<ContrastDirection> contrast_directions(const Observations& observations, const Eigen::VectorXd& predicted);
 
 /// One factor on every stress and stiffness of the turned specimens, and one that grows with 1 / thickness: what causes

@@ -196,14 +196,17 @@ Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) 
 
 Fit begun_again(const Evidence& evidence, Fit fit) {
   constexpr double kMuch = 60.0, kNothing = 0.01;
-  const Eigen::Index own = evidence.base.fit.u.size();
-  const bool found_much = evidence.base.fit.chi2 - fit.chi2 >= kMuch;
-  const bool found_nothing = fit.effects.size() == 1 && std::abs(fit.u[own]) < kNothing &&
-                             evidence.base.fit.chi2 > evidence.observations.size() + kMuch;
-  if (!found_much && !found_nothing) return fit;
-  Fit again = fit_model(evidence.model, evidence.observations, fit.effects,
-                        found_much ? at_first_constants(evidence, fit.u) : promising_start(evidence, fit));
-  return better_of(std::move(fit), std::move(again));
+  const double found = evidence.base.fit.chi2 - fit.chi2;
+  const auto again_from = [&](const Eigen::VectorXd& u) {
+    Fit again = fit_model(evidence.model, evidence.observations, fit.effects, u);
+    return better_of(std::move(fit), std::move(again));
+  };
+  if (found >= kMuch) fit = again_from(at_first_constants(evidence, fit.u));
+  const bool is_far_off = fit.chi2 > evidence.observations.size() + kMuch;
+  if (fit.effects.size() > 1 || !is_far_off) return fit;
+  const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < kNothing;
+  if (found >= kMuch || found_nothing) fit = again_from(promising_start(evidence, fit));
+  return fit;
 }
 
 Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,

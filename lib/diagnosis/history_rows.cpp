@@ -62,30 +62,34 @@ Regressor order_in_batch(const std::vector<Deviation>& deviations) {
 /// Batches by their number.
 std::map<double, std::string> batches_of(const std::vector<Deviation>& deviations) {
   std::map<double, std::string> batches;
-  for (const Deviation& d : deviations) batches.emplace(d.measured->batch_step, d.measured->specimen->batch);
+  for (const Deviation& d : deviations)
+    if (const std::string& batch = d.measured->specimen->batch; !batch.empty())
+      batches.emplace(d.measured->batch_step, batch);
   return batches;
 }
 
-/// 1 for the specimens of one batch.
-Regressor membership(const std::vector<Deviation>& deviations, double batch_step) {
-  Regressor members;
-  for (const Deviation& d : deviations) members.emplace_back(d.measured->batch_step == batch_step ? 1.0 : 0.0);
-  return members;
+/// A number for the batch of each specimen; none where it is not known.
+template <class Value>
+Regressor of_batches(const std::vector<Deviation>& deviations, Value value) {
+  Regressor numbers;
+  for (const Deviation& d : deviations)
+    numbers.push_back(d.measured->specimen->batch.empty() ? std::nullopt
+                                                          : std::optional<double>(value(d.measured->batch_step)));
+  return numbers;
 }
 
 /// The slope over batches, and what single batches differ by beside it.
 void add_batch_rows(std::vector<HistoryRow>& rows, const std::vector<Deviation>& deviations, Feature feature,
                     tester::TestKind test) {
   constexpr double kLeast = 1e-6;
-  Regressor number;
-  for (const Deviation& d : deviations) number.emplace_back(d.measured->batch_step);
-  const auto [steps, values] = centred(deviations, number, feature);
+  const auto [steps, values] = centred(deviations, of_batches(deviations, [](double step) { return step; }), feature);
   if (values.size() < kFewest || steps.squaredNorm() < kLeast) return;
   std::map<std::string, Eigen::VectorXd> members;
   std::vector<Eigen::VectorXd> regressors{steps};
   std::vector<int> numbers{0};
   for (const auto& [step, batch] : batches_of(deviations)) {
-    const Eigen::VectorXd own = centred(deviations, membership(deviations, step), feature).x;
+    const auto is_of_batch = [step = step](double other) { return other == step ? 1.0 : 0.0; };
+    const Eigen::VectorXd own = centred(deviations, of_batches(deviations, is_of_batch), feature).x;
     Eigen::VectorXd rest = own;
     for (const Eigen::VectorXd& before : regressors) rest -= before.dot(rest) / before.squaredNorm() * before;
     if (rest.squaredNorm() > kLeast * static_cast<double>(rest.size())) {

@@ -34,6 +34,15 @@ bool is_part_of_set(const fs::path& file, const fs::path& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
+/// Makes a file beside `file`, as write_file_atomically() does, and takes it away. The error names `shown`.
+void prove_writing(const fs::path& file, const std::string& shown) {
+  const fs::path aside = name_aside(file);
+  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0) throw InputError::format("{}: cannot be written: {}", shown, std::strerror(errno));
+  ::close(descriptor);
+  ::unlink(aside.c_str());
+}
+
 }  // namespace
 
 void prepare_output_file(const std::string& file) {
@@ -43,11 +52,7 @@ void prepare_output_file(const std::string& file) {
   const fs::file_status status = fs::status(file, unreadable);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw InputError::format("{}: is no regular file, expected the name of one to write", file);
-  const fs::path aside = name_aside(file);  // as write_file_atomically() does
-  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor < 0) throw InputError::format("{}: cannot be written: {}", file, std::strerror(errno));
-  ::close(descriptor);
-  ::unlink(aside.c_str());
+  prove_writing(file, file);
 }
 
 void prepare_output_file(const std::string& file, std::initializer_list<std::string> others) {
@@ -61,6 +66,9 @@ void prepare_output_file(const std::string& file, std::initializer_list<std::str
   prepare_output_file(file);
 }
 
-void prepare_output_folder(const std::string& folder) { prepare_output_file((fs::path(folder) / "nacre").string()); }
+void prepare_output_folder(const std::string& folder) {
+  make_folder(folder);
+  prove_writing(fs::path(folder) / "any", folder);
+}
 
 }  // namespace nacre::cli
