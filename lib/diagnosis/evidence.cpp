@@ -202,8 +202,11 @@ Fit begun_again(const Evidence& evidence, Fit fit) {
     return better_of(std::move(fit), std::move(again));
   };
   if (found >= kMuch) fit = again_from(at_first_constants(evidence, fit.u));
+  // A further fit of every effect to moduli of layouts would double the work; what a machine does to curves needs it.
   const bool is_far_off = fit.chi2 > evidence.observations.size() + kMuch;
-  if (fit.effects.size() > 1 || !is_far_off) return fit;
+  const bool is_of_curves =
+      material::acts_in_measurement(fit.effects.front()) && evidence.observations.has(tester::TestKind::tensile);
+  if (fit.effects.size() > 1 || !is_far_off || !is_of_curves) return fit;
   const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < kNothing;
   if (found >= kMuch || found_nothing) fit = again_from(promising_start(evidence, fit));
   return fit;

@@ -72,8 +72,9 @@ Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& 
 Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u);
 
 /// A model that explains much of the base's misfit is fitted once more from the constants where the search for the base
-/// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. So is one
-/// effect that stays far off, or found nothing where the base is. The best of all.
+/// began: a base that bent itself towards the data may stand behind a hill, with constants on their bounds. So are
+/// coupons' curves behind much slack: what acts in the measurement and stays far off begins at a promising size. The
+/// best of all.
 Fit begun_again(const Evidence& evidence, Fit fit);
 
 /// Rows with what finer elements change at this model, in place of what they change at the base and all its rivals.
