@@ -1,13 +1,17 @@
-# The modules of lib/, lowest first: a module may include only modules that stand before it in this list.
-set(NACRE_MODULES base thesis pattern material fem tester gpu crack film animation measurement optimize surrogate sysid explore select diagnosis families fabricate game wire
-                  store runtime dashboard)
+# The modules of lib/ in five storeys, lowest first: a module may include only modules that stand before it.
+set(NACRE_GROUND base thesis pattern material optimize)
+set(NACRE_PHYSICS fem tester gpu crack film animation)
+set(NACRE_KNOWLEDGE measurement surrogate sysid diagnosis)
+set(NACRE_GAME explore select families fabricate game)
+set(NACRE_WORLD wire store runtime report laboratory dashboard)
+set(NACRE_MODULES ${NACRE_GROUND} ${NACRE_PHYSICS} ${NACRE_KNOWLEDGE} ${NACRE_GAME} ${NACRE_WORLD})
 
 add_library(nacre_flags INTERFACE)
 # -ffp-contract=off: the agents' decisions are the same under every compiler; the simulation kernel fuses explicitly.
 target_compile_options(nacre_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
 
 # nacre_module(NAME DEPENDS other modules... LIBRARIES external targets...)
-# Builds every .cpp of lib/NAME into the static library nacre::NAME; the include root is lib/.
+# Builds every .cpp of lib/NAME and lib/NAME/rivals into the static library nacre::NAME; the include root is lib/.
 function(nacre_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES" ${ARGN})
   list(FIND NACRE_MODULES ${name} own_rank)
@@ -17,7 +21,7 @@ function(nacre_module name)
       message(FATAL_ERROR "module ${name} may not depend on ${dependency}: it does not stand before it in NACRE_MODULES")
     endif()
   endforeach()
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/rivals/*.cpp)
   if(sources)
     add_library(nacre_${name} STATIC ${sources})
     set(scope PUBLIC)

@@ -73,15 +73,15 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace
 
-Answer open_answer(const Trial& trial, const std::string& commit, const std::filesystem::path& folder) {
+TrialDiagnosis open_answer(const BlindTrial& trial, const std::string& commit, const std::filesystem::path& folder) {
   const auto diagnosis = nlohmann::json::parse(read_file(folder / "diagnosis.json"));
   const toml::table truth = toml::parse(read_file(folder / "set.truth.toml"));
-  Answer answer{.commit = commit,
-                .verdict = diagnosis["verdict"],
-                .hidden = {},
-                .named = {},
-                .possible = diagnosis["possible"],
-                .p_misfit = diagnosis["p_misfit"]};
+  TrialDiagnosis answer{.commit = commit,
+                        .verdict = diagnosis["verdict"],
+                        .hidden = {},
+                        .named = {},
+                        .possible = diagnosis["possible"],
+                        .p_misfit = diagnosis["p_misfit"]};
   for (const std::string& name : trial.hidden) answer.hidden.push_back(hidden_effect(truth, name));
   for (const auto& effect : diagnosis["effects"])
     answer.named.push_back({effect["name"], effect["parameter"], effect["interval90"][0], effect["interval90"][1]});
@@ -94,7 +94,7 @@ std::vector<std::string> answer_columns() {
           "named", "size",   "low90",  "high90", "possible", "gain",    "p_misfit"};
 }
 
-std::vector<std::string> to_cells(const Answer& a) {
+std::vector<std::string> to_cells(const TrialDiagnosis& a) {
   const auto of_hidden = [&](double Hidden::*field) {
     return joined<Hidden>(a.hidden, [&](const Hidden& h) { return short_number(h.*field); });
   };
@@ -118,14 +118,14 @@ std::vector<std::string> to_cells(const Answer& a) {
           short_number(a.p_misfit)};
 }
 
-Answer answer_from_cells(const std::vector<std::string>& cells) {
-  Answer answer{.commit = cells[0],
-                .verdict = cells[5],
-                .hidden = std::vector<Hidden>(split(cells[1], ';').size()),
-                .named = {},
-                .possible = {},
-                .gain = number(cells[11]),
-                .p_misfit = number(cells[12])};
+TrialDiagnosis answer_from_cells(const std::vector<std::string>& cells) {
+  TrialDiagnosis answer{.commit = cells[0],
+                        .verdict = cells[5],
+                        .hidden = std::vector<Hidden>(split(cells[1], ';').size()),
+                        .named = {},
+                        .possible = {},
+                        .gain = number(cells[11]),
+                        .p_misfit = number(cells[12])};
   double Hidden::*const hidden_fields[] = {&Hidden::size, &Hidden::s, &Hidden::rho, &Hidden::ceiling};
   for (std::size_t i = 0; i < 4; ++i) spread(cells[1 + i], answer.hidden, hidden_fields[i]);
   for (const std::string& name : split(cells[6], ';')) answer.named.push_back({.effect = name});

@@ -23,7 +23,7 @@ struct Named {
   double size = 0.0, low90 = 0.0, high90 = 0.0;
 };
 
-struct Answer {
+struct TrialDiagnosis {
   std::string commit;          ///< of the program that was asked
   std::string verdict;         ///< as in `nacre diagnose --json`
   std::vector<Hidden> hidden;  ///< in the order of Trial::hidden
@@ -34,13 +34,13 @@ struct Answer {
 };
 
 /// Opens the answer of a trial that was diagnosed in `folder` (diagnosis.json, set.truth.toml).
-Answer open_answer(const Trial& trial, const std::string& commit, const std::filesystem::path& folder);
+TrialDiagnosis open_answer(const BlindTrial& trial, const std::string& commit, const std::filesystem::path& folder);
 
 /// Columns of the study's table, the trial's name first.
 std::vector<std::string> answer_columns();
 /// The cells behind the name; several effects are separated by semicolons, several models by slashes.
-std::vector<std::string> to_cells(const Answer& answer);
+std::vector<std::string> to_cells(const TrialDiagnosis& answer);
 /// Throws InputError where a cell is no number.
-Answer answer_from_cells(const std::vector<std::string>& cells);
+TrialDiagnosis answer_from_cells(const std::vector<std::string>& cells);
 
 }  // namespace nacre::blind_trials

@@ -31,7 +31,7 @@ std::uint64_t report_seed(const std::string& commit) {
 }
 
 /// Hides, prints, measures, asks; a trial that was asked before and has no line yet is opened only.
-Answer play(const Trial& trial, const Options& options) {
+TrialDiagnosis play(const BlindTrial& trial, const Options& options) {
   const fs::path folder = fs::path(options.work) / trial.name;
   if (!fs::exists(folder / "diagnosis.json")) {
     generate(trial, options.trials, folder);
@@ -65,7 +65,7 @@ void run(Options options) {
   study::TextTable table(options.table.empty() ? options.work + ".csv" : options.table, answer_columns());
   std::vector<Score> scores;
   int waiting = 0;
-  for (const Trial& trial : all_trials(options.trials)) {
+  for (const BlindTrial& trial : all_trials(options.trials)) {
     if (!options.only.empty() && trial.name.find(options.only) == std::string::npos) continue;
     const bool finished = table.find(trial.name).has_value();
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

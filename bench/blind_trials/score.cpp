@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "laboratory/truth.hpp"
 #include "material/extensions.hpp"
-#include "virtual_lab/truth.hpp"
 
 namespace nacre::blind_trials {
 namespace {
@@ -30,7 +30,7 @@ std::string rate(int good, int all) {
                      100 * std::max(0.0, middle - half), 100 * (middle + half));
 }
 
-std::vector<std::string> names_of(const Answer& answer) {
+std::vector<std::string> names_of(const TrialDiagnosis& answer) {
   std::vector<std::string> names;
   for (const Named& named : answer.named) names.push_back(named.effect);
   return names;
@@ -43,7 +43,7 @@ std::string answer_of(const Score& score) {
 
 /// Of the library; empty for what is of none.
 std::string_view family_of(const std::string& effect) {
-  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+  for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
     if (kind.name != effect) continue;
     return kind.in_library ? material::find_effect(effect)->family : kind.family;
   }
@@ -181,7 +181,7 @@ std::string trial_table(const std::vector<Score>& scores) {
 
 }  // namespace
 
-Score score_of(const Trial& trial, const Answer& answer) {
+Score score_of(const BlindTrial& trial, const TrialDiagnosis& answer) {
   Score score{trial, answer};
   score.right_name = answer.verdict == "named" && same(names_of(answer), trial.hidden);
   score.in_set = std::any_of(answer.possible.begin(), answer.possible.end(),

@@ -9,8 +9,8 @@ namespace nacre::blind_trials {
 
 /// What a diagnosis said of a trial, against the opened answer.
 struct Score {
-  Trial trial;
-  Answer answer;
+  BlindTrial trial;
+  TrialDiagnosis answer;
   bool right_name = false,
        in_set = false;            ///< exactly the hidden effects named; or one of the reported models is exactly them
   bool right_family = false;      ///< what is named is of the hidden effect's family, in whatever form
@@ -18,7 +18,7 @@ struct Score {
   bool covered = false;           ///< the 90 % interval holds the hidden size
 };
 
-Score score_of(const Trial& trial, const Answer& answer);
+Score score_of(const BlindTrial& trial, const TrialDiagnosis& answer);
 
 /// Rates with 95 % bounds, the confusion matrix and every trial, as Markdown.
 std::string report_of(const std::vector<Score>& scores);

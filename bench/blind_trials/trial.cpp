@@ -23,7 +23,7 @@ namespace nacre::blind_trials {
 namespace {
 
 namespace fs = std::filesystem;
-namespace lab = virtual_laboratory;
+namespace lab = laboratory;
 using tester::TestKind;
 
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
@@ -36,15 +36,15 @@ constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cau
 constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
 
 /// Whether rate and batch change together: all fast coupons are of the second batch, all slow ones of the first.
-bool is_pair(const Trial& trial) { return trial.kind == "pair" || trial.kind == "resolved"; }
+bool is_pair(const BlindTrial& trial) { return trial.kind == "pair" || trial.kind == "resolved"; }
 
-lab::ReplicateNoise noise_of(const Trial& trial) {
+lab::ReplicateNoise noise_of(const BlindTrial& trial) {
   const double factor = trial.noisy ? 2.0 : 1.0;
   return {.modulus = 0.01 * factor, .toughness = 0.04 * factor, .strain = 0.01 * factor};
 }
 
 /// The size that a trial hides: in the lower or upper third of the logarithm of what the laboratory draws.
-double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
+double hidden_value(const BlindTrial& trial, const lab::EffectKind& kind) {
   RandomStream random(trial.seed, fmt::format("trial/{}/{}", trial.name, kind.name));
   if (is_pair(trial)) return std::exp(random.uniform(std::log(kPairLeast), std::log(kPairMost)));
   const bool drawn = kind.drawn_maximum > 0.0;
@@ -56,31 +56,33 @@ double hidden_value(const Trial& trial, const lab::EffectKind& kind) {
 }
 
 /// Replicates come from batches of their own.
-std::string batch_of(const Trial& trial, const lab::Question& question, int replicate) {
-  return fmt::format("batch-{}", is_pair(trial) ? (question.conditions.strain_rate_per_s == kFast ? 2 : 1) : replicate);
+std::string batch_of(const BlindTrial& trial, const lab::Experiment& experiment, int replicate) {
+  return fmt::format("batch-{}",
+                     is_pair(trial) ? (experiment.conditions.strain_rate_per_s == kFast ? 2 : 1) : replicate);
 }
 
 /// Homogeneous coupons, each pulled with a curve at every rate.
-std::vector<lab::Question> pulled_coupons(std::span<const double> fractions, std::span<const double> rates_per_s,
-                                          tester::Fidelity fidelity) {
-  std::vector<lab::Question> questions;
+std::vector<lab::Experiment> pulled_coupons(std::span<const double> fractions, std::span<const double> rates_per_s,
+                                            tester::Fidelity fidelity) {
+  std::vector<lab::Experiment> experiments;
   for (const double fraction : fractions) {
     for (const double rate_per_s : rates_per_s) {
-      lab::Question coupon{
+      lab::Experiment coupon{
           .design = pattern::Mixture{fraction}, .test = TestKind::tensile, .conditions = {}, .fidelity = fidelity};
       coupon.conditions.strain_rate_per_s = rate_per_s;
-      questions.push_back(coupon);
+      experiments.push_back(coupon);
     }
   }
-  return questions;
+  return experiments;
 }
 
 /// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
-std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::vector<lab::Question>& questions,
+std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
+                                                 const std::vector<lab::Experiment>& experiments,
                                                  const std::vector<Result<lab::Response>>& responses) {
   std::vector<measurement::SpecimenRecord> records;
-  for (std::size_t i = 0; i < questions.size(); ++i) {
-    const lab::Question& q = questions[i];
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    const lab::Experiment& q = experiments[i];
     for (int r = 0; r < kReplicates; ++r) {
       measurement::SpecimenRecord record;
       record.specimen =
@@ -99,11 +101,11 @@ std::vector<measurement::SpecimenRecord> planned(const Trial& trial, const std::
 }
 
 /// Responses of the laboratory, on all cores.
-std::vector<Result<lab::Response>> responses_of(const lab::Truth& truth, const std::vector<lab::Question>& questions) {
-  std::vector<Result<lab::Response>> responses(questions.size(), fail("not yet"));
-  parallel_for(static_cast<int>(questions.size()), [&](int i) {
-    responses[static_cast<std::size_t>(i)] = lab::respond(truth, questions[static_cast<std::size_t>(i)]);
-  });
+std::vector<Result<lab::Response>> responses_of(const lab::Truth& truth,
+                                                const std::vector<lab::Experiment>& experiments) {
+  std::vector<Result<lab::Response>> responses(experiments.size(), fail("not yet"));
+  parallel_for(static_cast<int>(experiments.size()),
+               [&](int i) { responses[i] = lab::respond(truth, experiments[i]); });
   return responses;
 }
 
@@ -116,13 +118,13 @@ Specimens without_fractures(Specimens specimens) {
 }
 
 /// What the planned specimens show without scatter.
-Specimens without_scatter(lab::Truth truth, const std::vector<lab::Question>& questions,
+Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& experiments,
                           const std::vector<Result<lab::Response>>& responses, const Specimens& planned) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
   Specimens records;
   for (std::size_t i = 0; i < planned.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records.push_back(lab::record_specimen(truth, questions[q], responses[q],
+    records.push_back(lab::record_specimen(truth, experiments[q], responses[q],
                                            {planned[i].specimen, planned[i].batch, planned[i].print_order}));
   }
   return without_fractures(std::move(records));
@@ -141,7 +143,7 @@ Sealing sealing_of(const TrialOptions& options, const lab::Truth& truth) {
   settings.start.modulus = truth.modulus;
   settings.start.toughness = truth.toughness;
   settings.fidelity = options.fidelity;
-  settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
+  settings.floor = diagnosis::read_modulus_floor(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
   sealing.scatter = {.modulus = truth.noise.modulus, .stress = truth.noise.modulus, .strain = truth.noise.strain};
   return sealing;
 }
@@ -164,12 +166,12 @@ lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
 
 /// How well the specimens could show every hidden effect, beyond what the base imitates: the laboratory's own numerics
 /// with it alone and with nothing. Of those that the library knows the nearest rival too.
-std::string signals_of(const Trial& trial, const Sealing& sealing, const lab::Truth& truth,
-                       const std::vector<lab::Question>& questions, const Specimens& planned) {
+std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const lab::Truth& truth,
+                       const std::vector<lab::Experiment>& experiments, const Specimens& planned) {
   if (trial.hidden.empty()) return {};
   const auto shown = [&](std::span<const std::string> names) {
     const lab::Truth hiding = hiding_only(truth, names);
-    return without_scatter(hiding, questions, responses_of(hiding, questions), planned);
+    return without_scatter(hiding, experiments, responses_of(hiding, experiments), planned);
   };
   std::vector<diagnosis::PlannedEffect> library;  // rivals: asked for only where there are any
   if (std::ranges::any_of(trial.hidden, material::find_effect))
@@ -192,8 +194,8 @@ std::string signals_of(const Trial& trial, const Sealing& sealing, const lab::Tr
 
 }  // namespace
 
-std::vector<Trial> all_trials(const TrialOptions& options) {
-  std::vector<Trial> trials;
+std::vector<BlindTrial> all_trials(const TrialOptions& options) {
+  std::vector<BlindTrial> trials;
   std::uint64_t seed = options.first_seed;
   const auto add = [&](const std::string& kind, const std::string& what, std::vector<std::string> hidden, bool large,
                        bool noisy) {
@@ -225,7 +227,7 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
   for (int i = 0; i < options.doubles; ++i) {
     const int a = random.index(static_cast<int>(inside.size()));
     const int b = (a + 1 + random.index(static_cast<int>(inside.size()) - 1)) % static_cast<int>(inside.size());
-    const std::string &first = inside[static_cast<std::size_t>(a)], &second = inside[static_cast<std::size_t>(b)];
+    const std::string &first = inside[a], &second = inside[b];
     add("double", first + "+" + second, {first, second}, true, false);
   }
   const auto add_turns = [&](const std::string& kind, int count, const std::string& one, const std::string& other) {
@@ -238,7 +240,7 @@ std::vector<Trial> all_trials(const TrialOptions& options) {
   return trials;
 }
 
-lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
+lab::Truth truth_of(const BlindTrial& trial, const TrialOptions& options) {
   lab::Truth truth{.seed = trial.seed,
                    .fidelity = options.fidelity,
                    .replicates = kReplicates,
@@ -254,56 +256,55 @@ lab::Truth truth_of(const Trial& trial, const TrialOptions& options) {
   return truth;
 }
 
-std::vector<lab::Question> questions_of(const Trial& trial, const TrialOptions& options) {
+std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options) {
   if (is_pair(trial)) return pulled_coupons(kPairFractions, kPairRates, options.fidelity);
   const std::uint64_t design = trial.seed % kDesigns;
   RandomStream random(design, "blind trials/design");
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(kLayouts - 2, random);
-  std::vector<lab::Question> questions;
+  std::vector<lab::Experiment> experiments;
   std::vector<TestKind> tests = {TestKind::modulus};
   if (options.fracture) tests.push_back(TestKind::toughness);
   for (const TestKind test : tests) {
     const auto add = [&](const pattern::Design& layout, const tester::TestConditions& conditions) {
-      questions.push_back({.design = layout, .test = test, .conditions = conditions, .fidelity = options.fidelity});
+      experiments.push_back({.design = layout, .test = test, .conditions = conditions, .fidelity = options.fidelity});
     };
     for (const pattern::Pattern& each : patterns) add(each, {});
     if (trial.kind == "alike") continue;
-    for (int i = 0; i < kTwins; ++i) add(patterns[static_cast<std::size_t>(i)], {.orientation_deg = 90.0});
+    for (int i = 0; i < kTwins; ++i) add(patterns[i], {.orientation_deg = 90.0});
     for (int i = kTwins; i < kTwins + 2; ++i) {
       tester::TestConditions faster, thinner;
       faster.strain_rate_per_s *= kSecondRate;
       thinner.thickness_mm *= kSecondThickness;
-      add(patterns[static_cast<std::size_t>(i)], faster);
-      add(patterns[static_cast<std::size_t>(i + 2)], thinner);
+      add(patterns[i], faster);
+      add(patterns[i + 2], thinner);
     }
     for (const int period : {2, 5}) add(pattern::checkerboard(period), {});
   }
-  if (trial.kind == "alike") return questions;
+  if (trial.kind == "alike") return experiments;
   const double rate_per_s = tester::TestConditions{}.strain_rate_per_s,
                rates_per_s[] = {rate_per_s, kSecondRate * rate_per_s};
-  const std::vector<lab::Question> coupons = pulled_coupons(kCouponFractions, rates_per_s, options.fidelity);
-  questions.insert(questions.end(), coupons.begin(), coupons.end());
-  return questions;
+  const std::vector<lab::Experiment> coupons = pulled_coupons(kCouponFractions, rates_per_s, options.fidelity);
+  experiments.insert(experiments.end(), coupons.begin(), coupons.end());
+  return experiments;
 }
 
-void generate(const Trial& trial, const TrialOptions& options, const fs::path& folder) {
+void generate(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
-  const std::vector<lab::Question> questions = questions_of(trial, options);
-  const std::vector<Result<lab::Response>> responses = responses_of(truth, questions);
-  Specimens records = planned(trial, questions, responses);
+  const std::vector<lab::Experiment> experiments = experiments_of(trial, options);
+  const std::vector<Result<lab::Response>> responses = responses_of(truth, experiments);
+  Specimens records = planned(trial, experiments, responses);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
   for (std::size_t i = 0; i < records.size(); ++i) order.push_back(static_cast<int>(i) + 1);
   RandomStream random(trial.seed, "trial/print order");
-  for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.index(static_cast<int>(i))]);
   for (std::size_t i = 0; i < records.size(); ++i) records[i].print_order = order[i];
   const Sealing sealing = sealing_of(options, truth);
   const std::string signals = fmt::format("\n[trial]\nname = \"{}\"\nkind = \"{}\"\n{}", trial.name, trial.kind,
-                                          signals_of(trial, sealing, truth, questions, records));
+                                          signals_of(trial, sealing, truth, experiments, records));
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t q = i / kReplicates;
-    records[i] = lab::record_specimen(truth, questions[q], responses[q],
+    records[i] = lab::record_specimen(truth, experiments[q], responses[q],
                                       {records[i].specimen, records[i].batch, records[i].print_order});
   }
   fs::create_directories(folder);
@@ -323,25 +324,25 @@ void diagnose(const TrialOptions& options, const fs::path& folder) {
   fs::rename(answer + ".part", answer);
 }
 
-void print_what_was_ordered(const Trial& trial, const TrialOptions& options, const fs::path& folder) {
+void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const fs::path kept = folder / "first_diagnosis.json";
   fs::rename(folder / "diagnosis.json", kept);
   const lab::Truth truth = truth_of(trial, options);
   std::vector<measurement::SpecimenRecord> records = measurement::read_measurement_set(folder / "set").specimens;
   const auto diagnosis = nlohmann::json::parse(read_file(kept));
   for (const auto& ordered : diagnosis["next_experiments"]) {
-    lab::Question question{.design = *pattern::design_from_name(ordered["design"].get<std::string>()),
-                           .test = *tester::test_kind_from_string(ordered["test"].get<std::string>()),
-                           .conditions = {},
-                           .fidelity = options.fidelity,
-                           .loading = tester::loading_from_string(ordered["loading"].get<std::string>()).value()};
-    question.conditions = {.orientation_deg = ordered["orientation_deg"],
-                           .strain_rate_per_s = ordered["strain_rate_per_s"],
-                           .thickness_mm = ordered["thickness_mm"]};
-    const Result<lab::Response> response = lab::respond(truth, question);
+    lab::Experiment experiment{.design = *pattern::design_from_name(ordered["design"].get<std::string>()),
+                               .test = *tester::test_kind_from_string(ordered["test"].get<std::string>()),
+                               .conditions = {},
+                               .fidelity = options.fidelity,
+                               .loading = tester::loading_from_string(ordered["loading"].get<std::string>()).value()};
+    experiment.conditions = {.orientation_deg = ordered["orientation_deg"],
+                             .strain_rate_per_s = ordered["strain_rate_per_s"],
+                             .thickness_mm = ordered["thickness_mm"]};
+    const Result<lab::Response> response = lab::respond(truth, experiment);
     for (int i = 0; i < ordered["replicates"]; ++i) {
       const std::string number = std::to_string(records.size() + 1);
-      records.push_back(lab::record_specimen(truth, question, response,
+      records.push_back(lab::record_specimen(truth, experiment, response,
                                              {"ordered-" + number, "batch-3", static_cast<int>(records.size()) + 1}));
     }
   }

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "diagnosis/plan.hpp"
-#include "virtual_lab/laboratory.hpp"
+#include "laboratory/laboratory.hpp"
 
 namespace nacre::blind_trials {
 
 /// One trial before it is played. Everything follows from it: designs, constants, scatter.
-struct Trial {
+struct BlindTrial {
   std::string name;  ///< unique, a file name
   std::string kind;  ///< null, effect, outside, double, alike, pair, resolved, form, even
   std::uint64_t seed = 1;
@@ -31,7 +31,7 @@ struct TrialOptions {
 };
 
 /// All trials of a study, nulls first.
-std::vector<Trial> all_trials(const TrialOptions& options);
+std::vector<BlindTrial> all_trials(const TrialOptions& options);
 
 /// One of three fixed designs of 16 layouts, by the trial's seed: random patterns over the strata, turned twins,
 /// checkerboards, a second rate and a thinner twin; beside them homogeneous coupons of five mixtures, pulled with a
@@ -40,19 +40,19 @@ std::vector<Trial> all_trials(const TrialOptions& options);
 /// resolved, what the diagnosis orders is printed in a third batch. Outside: eight causes that the library has no name
 /// for; forms: five effects of the library in another functional form, whose family is the right answer; even: causes
 /// that it has no name for and that act on all turned, or all thin, specimens by one factor.
-std::vector<virtual_laboratory::Question> questions_of(const Trial& trial, const TrialOptions& options);
+std::vector<laboratory::Experiment> experiments_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// What the laboratory of a trial is.
-virtual_laboratory::Truth truth_of(const Trial& trial, const TrialOptions& options);
+laboratory::Truth truth_of(const BlindTrial& trial, const TrialOptions& options);
 
 /// Prints and measures a trial: FOLDER/set, and sealed beside it FOLDER/set.truth.toml with how well the specimens
 /// could show what is hidden (signal-to-noise, nearest rival, chance that all rivals lose; of what the library does not
 /// hold the signal alone), computed before scatter is drawn.
-void generate(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
+void generate(const BlindTrial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
 /// Adds what FOLDER/diagnosis.json orders as next experiments to FOLDER/set, a third batch; the diagnosis that ordered
 /// it goes to FOLDER/first_diagnosis.json. Coupons are pulled without unloading them on the way.
-void print_what_was_ordered(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
+void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
 /// `nacre diagnose FOLDER/set` as a program of its own, answer in FOLDER/diagnosis.json; fracture simulations are kept
 /// in FOLDER/store. Throws InputError when it fails.

@@ -11,12 +11,12 @@ namespace fs = std::filesystem;
 using namespace diagnosis;
 
 /// The hidden effects at their hidden sizes, base constants fitted from those of the base fit.
-Fit true_model(const Evidence& evidence, const virtual_laboratory::Truth& truth,
-               const std::vector<std::string>& hidden) {
+FittedModel true_model(const Evidence& evidence, const laboratory::Truth& truth,
+                       const std::vector<std::string>& hidden) {
   const CoordinateMap map = evidence.model.map(hidden);
   Eigen::VectorXd start = widened_start(evidence.base.fit, map);
   std::vector<int> held;
-  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+  for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
     const auto place = std::ranges::find(map.effects(), kind.name);
     if (place == map.effects().end()) continue;
     const auto parameters = material::find_effect(kind.name)->parameters;
@@ -40,16 +40,17 @@ double reduction_of_features(const Gain& gain) {
 
 }  // namespace
 
-TrueGain true_gain(const Trial& trial, const TrialOptions& options, const fs::path& folder) {
+TrueGain true_gain(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   if (!fs::exists(folder / "set")) generate(trial, options, folder);
   DiagnosisSettings settings;
   settings.start = material::default_parameters();
   settings.fidelity = options.fidelity;
-  settings.floor = read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
-  settings.fracture_numerics = read_fracture_numerics(NACRE_SOURCE_DIR "/data/numerics_floor.toml", options.fidelity);
+  settings.floor = read_modulus_floor(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
+  settings.fracture_discretisation =
+      read_fracture_discretisation(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", options.fidelity);
   Workbench workbench(measurement::read_measurement_set(folder / "set").specimens, settings);
   const Evidence evidence = gather_evidence(workbench, settings);
-  const auto gain_among = [&](const std::vector<Fit>& models, double least_drop) {
+  const auto gain_among = [&](const std::vector<FittedModel>& models, double least_drop) {
     return held_out_gain(evidence.observations, evidence.base.fit, models, trial.hidden, least_drop, settings.seed);
   };
   const Gain named = gain_among(evidence.singles, drop_needed(evidence)),

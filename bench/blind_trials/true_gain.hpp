@@ -15,6 +15,6 @@ struct TrueGain {
 /// The gain of what a diagnosis of FOLDER/set may choose, folds and choice as in the diagnosis, beside that of the true
 /// model: the hidden effects at their hidden sizes, its base refitted. For trials whose effects the library knows;
 /// prints the trial when FOLDER/set is not there.
-TrueGain true_gain(const Trial& trial, const TrialOptions& options, const std::filesystem::path& folder);
+TrueGain true_gain(const BlindTrial& trial, const TrialOptions& options, const std::filesystem::path& folder);
 
 }  // namespace nacre::blind_trials

@@ -12,10 +12,10 @@ namespace nacre::calibration_study {
 
 void study_base_materials(const Options& options) {
   const auto may_go_on = deadline(options.minutes);
-  Table table(options.out + "/base.csv",
-              {"fidelity", "material", "E_measured", "E_simulated", "E_error", "T_measured", "T_simulated", "T_error",
-               "simulations"},
-              2);
+  CalibrationTable table(options.out + "/base.csv",
+                         {"fidelity", "material", "E_measured", "E_simulated", "E_error", "T_measured", "T_simulated",
+                          "T_error", "simulations"},
+                         2);
   if (table.has({options.fidelity, "rigid"})) return;
   const std::vector<measurement::Replicates> measured =
       game::read_base_materials(NACRE_SOURCE_DIR "/data/thesis/base_materials.csv");

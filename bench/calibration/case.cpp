@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kHeldOut = 40;
 
-void add_effect(virtual_laboratory::Truth& truth, const std::string& effect) {
+void add_effect(laboratory::Truth& truth, const std::string& effect) {
   const std::size_t equals = effect.find('=');
-  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+  for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
     if (kind.name != effect.substr(0, equals)) continue;
-    truth.effects.*kind.value = equals == std::string::npos ? virtual_laboratory::draw_effect_value(truth.seed, kind)
+    truth.effects.*kind.value = equals == std::string::npos ? laboratory::draw_effect_value(truth.seed, kind)
                                                             : std::stod(effect.substr(equals + 1));
     if (kind.second.value != nullptr)
-      truth.effects.*kind.second.value = virtual_laboratory::draw_second_value(truth.seed, kind);
+      truth.effects.*kind.second.value = laboratory::draw_second_value(truth.seed, kind);
     return;
   }
   throw InputError::format("--effect {}: expected NAME or NAME=VALUE with a name that the laboratory knows", effect);

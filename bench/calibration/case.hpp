@@ -5,14 +5,14 @@
 #include <functional>
 
 #include "commands.hpp"
+#include "laboratory/truth.hpp"
 #include "measurement/measurement.hpp"
 #include "sysid/offline.hpp"
-#include "virtual_lab/truth.hpp"
 
 namespace nacre::calibration_study {
 
 struct Case {
-  virtual_laboratory::Truth truth;
+  laboratory::Truth truth;
   std::vector<measurement::Replicates> fitted, held_out;
 };
 

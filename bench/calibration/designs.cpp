@@ -25,7 +25,7 @@ std::vector<pattern::Design> front_like() {
 template <class T>
 void shuffle(std::vector<T>& items, RandomStream& random) {
   for (std::size_t i = items.size(); i > 1; --i) {
-    std::swap(items[i - 1], items[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+    std::swap(items[i - 1], items[random.index(static_cast<int>(i))]);
   }
 }
 

@@ -61,8 +61,8 @@ struct Coverage {
 
 /// How many of the parameters called determined have their true value in the 90 % interval; each parameter is a row of
 /// `intervals` behind `cells`.
-Coverage coverage_of(const Calibrated& calibrated, const virtual_laboratory::Truth& truth,
-                     const std::vector<std::string>& cells, Table& intervals) {
+Coverage coverage_of(const Calibrated& calibrated, const laboratory::Truth& truth,
+                     const std::vector<std::string>& cells, CalibrationTable& intervals) {
   const material::ModulusVector theta = to_vector(truth.modulus);
   const material::ToughnessVector eta = to_vector(truth.toughness);
   Coverage coverage;
@@ -84,7 +84,7 @@ Coverage coverage_of(const Calibrated& calibrated, const virtual_laboratory::Tru
 /// Share of held-out designs whose measured T lies within the 90 % interval that the members' spread and the floor
 /// give.
 double inside_90(const std::vector<std::vector<sysid::Prediction>>& members, const Case& study_case,
-                 const Calibrated& calibrated, const sysid::NumericsFloor& floor) {
+                 const Calibrated& calibrated, const sysid::DiscretisationFloor& floor) {
   const std::vector<sysid::Prediction> mean = sysid::mean_prediction(members);
   const sysid::GoodnessOfFit& fit = calibrated.toughness_fit;
   const double factor = fit.count > 0 ? (6.0 + fit.chi_squared) / (6.0 + fit.freedom) : 1.0;
@@ -110,8 +110,9 @@ void append(std::vector<std::string>& cells, std::initializer_list<double> value
   for (const double value : values) cells.push_back(number(value));
 }
 
-sysid::NumericsFloor floor_at(const std::string& fidelity) {
-  return sysid::read_numerics_floor("data/numerics_floor.toml", tester::fidelity_from_string(fidelity).value());
+sysid::DiscretisationFloor floor_at(const std::string& fidelity) {
+  return sysid::read_discretisation_floor("data/discretisation_floor.toml",
+                                          tester::fidelity_from_string(fidelity).value());
 }
 
 Calibrated calibrate(const Case& study_case, const sysid::CalibrationSettings& settings, const Options& options,
@@ -141,12 +142,12 @@ Case next_round(const Case& now, std::uint64_t seed, const Options& options, con
 }
 
 struct Tables {
-  Table held_out, convergence, intervals, next_round;
+  CalibrationTable held_out, convergence, intervals, next_round;
 };
 
 /// Errors of the first of `sets` and of the mean of all on the next round's designs, as a row behind `cells`.
 void add_next_round(std::vector<std::string> cells, const Case& next, const std::vector<material::ParameterSet>& sets,
-                    sysid::LocalSimulator& simulator, Table& table, const std::function<void()>& may_go_on) {
+                    sysid::LocalSimulator& simulator, CalibrationTable& table, const std::function<void()>& may_go_on) {
   const auto predictions = sysid::predict(sets, next.held_out, simulator, may_go_on);
   const PredictionErrors first = sysid::prediction_errors(next.held_out, predictions.front());
   const PredictionErrors mean = sysid::prediction_errors(next.held_out, sysid::mean_prediction(predictions));
@@ -253,17 +254,18 @@ void measure_laboratories(const Options& options) {
 void study_held_out(const Options& options) {
   const auto may_go_on = deadline(options.minutes);
   Tables tables = {
-      Table(options.out + "/held_out.csv", kColumns, kKeyColumns),
-      Table(options.out + "/convergence.csv",
-            {"fidelity", "effect", "seed", "search", "fitted", "budget", "evaluation", "T_objective"}, kKeyColumns + 1),
-      Table(options.out + "/intervals.csv",
-            {"fidelity", "effect", "seed", "search", "fitted", "budget", "parameter", "truth", "estimate", "low90",
-             "high90", "determined"},
-            kKeyColumns + 1),
-      Table(options.out + "/next_round.csv",
-            {"fidelity", "effect", "seed", "search", "fitted", "budget", "next", "E_next", "T_next", "T_ensemble",
-             "T_line", "T_floor"},
-            kKeyColumns)};
+      CalibrationTable(options.out + "/held_out.csv", kColumns, kKeyColumns),
+      CalibrationTable(options.out + "/convergence.csv",
+                       {"fidelity", "effect", "seed", "search", "fitted", "budget", "evaluation", "T_objective"},
+                       kKeyColumns + 1),
+      CalibrationTable(options.out + "/intervals.csv",
+                       {"fidelity", "effect", "seed", "search", "fitted", "budget", "parameter", "truth", "estimate",
+                        "low90", "high90", "determined"},
+                       kKeyColumns + 1),
+      CalibrationTable(options.out + "/next_round.csv",
+                       {"fidelity", "effect", "seed", "search", "fitted", "budget", "next", "E_next", "T_next",
+                        "T_ensemble", "T_line", "T_floor"},
+                       kKeyColumns)};
   for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
     for (const std::string& search : options.searches) {
       study_one(options, static_cast<std::uint64_t>(seed), search, tables, may_go_on);

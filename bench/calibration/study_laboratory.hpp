@@ -5,20 +5,20 @@
 #include <functional>
 #include <vector>
 
+#include "laboratory/laboratory.hpp"
 #include "measurement/measurement.hpp"
-#include "virtual_lab/laboratory.hpp"
 
 namespace nacre::calibration_study {
 
 /// The truth of one laboratory of the study: constants drawn from the seed, no effects, replicate scatter of 5 % in T
 /// and 1 % in E.
-virtual_laboratory::Truth study_truth(std::uint64_t seed, tester::Fidelity fidelity);
+laboratory::Truth study_truth(std::uint64_t seed, tester::Fidelity fidelity);
 
 /// Called between two simulations; throws to stop.
 using MayGoOn = std::function<void()>;
 
 /// All replicates of both tests of `designs`. Responses are looked for in `store`, and added to it.
-std::vector<measurement::SpecimenRecord> measure(const virtual_laboratory::Truth& truth,
+std::vector<measurement::SpecimenRecord> measure(const laboratory::Truth& truth,
                                                  const std::vector<pattern::Design>& designs,
                                                  const std::filesystem::path& store, const MayGoOn& may_go_on);
 

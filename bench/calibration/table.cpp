@@ -11,7 +11,8 @@
 
 namespace nacre::calibration_study {
 
-Table::Table(std::filesystem::path file, std::vector<std::string> columns, std::size_t key_columns)
+CalibrationTable::CalibrationTable(std::filesystem::path file, std::vector<std::string> columns,
+                                   std::size_t key_columns)
     : file_(std::move(file)), key_columns_(key_columns) {
   const std::string head = fmt::format("{}", fmt::join(columns, ","));
   std::filesystem::create_directories(file_.parent_path());
@@ -31,11 +32,11 @@ Table::Table(std::filesystem::path file, std::vector<std::string> columns, std::
   }
 }
 
-bool Table::has(const std::vector<std::string>& key) const {
+bool CalibrationTable::has(const std::vector<std::string>& key) const {
   return std::find(keys_.begin(), keys_.end(), fmt::format("{}", fmt::join(key, ","))) != keys_.end();
 }
 
-void Table::add(const std::vector<std::string>& cells) {
+void CalibrationTable::add(const std::vector<std::string>& cells) {
   assert(cells.size() >= key_columns_);
   std::ofstream(file_, std::ios::app) << fmt::format("{}\n", fmt::join(cells, ","));
   keys_.push_back(

@@ -8,9 +8,9 @@ namespace nacre::calibration_study {
 
 /// A CSV file of results whose first columns name a case. Rows are added one by one; a case that is there is not
 /// computed again.
-class Table {
+class CalibrationTable {
  public:
-  Table(std::filesystem::path file, std::vector<std::string> columns, std::size_t key_columns);
+  CalibrationTable(std::filesystem::path file, std::vector<std::string> columns, std::size_t key_columns);
   bool has(const std::vector<std::string>& key) const;
   void add(const std::vector<std::string>& cells);
 

@@ -39,8 +39,8 @@ std::vector<optimize::Evaluation> read_log(const std::string& file) {
 /// What the schedule found, in sample and on the designs that were not fitted.
 void add_result(const Options& options, std::uint64_t seed, const optimize::Evaluation& best, int evaluations,
                 const Case& study_case, const std::function<void()>& may_go_on) {
-  Table table(options.out + "/thesis.csv",
-              {"fidelity", "seed", "fitted", "evaluations", "T_objective", "T_held_out", "spearman"}, 4);
+  CalibrationTable table(options.out + "/thesis.csv",
+                         {"fidelity", "seed", "fitted", "evaluations", "T_objective", "T_held_out", "spearman"}, 4);
   std::vector<std::string> cells = {options.fidelity, std::to_string(seed), std::to_string(options.fitted),
                                     std::to_string(evaluations)};
   if (table.has(cells)) return;

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "analyser/svg.hpp"
 #include "base/files.hpp"
 #include "base/statistics.hpp"
+#include "report/svg.hpp"
 
 namespace nacre::demo_games {
 namespace {
@@ -53,10 +53,10 @@ std::size_t longest(const Games& games) {
 }
 
 std::string figure(const std::vector<Games>& scenarios, const Column& column) {
-  constexpr analyser::Ink kInks[] = {analyser::Ink::measured, analyser::Ink::simulated, analyser::Ink::homogeneous};
+  constexpr report::Ink kInks[] = {report::Ink::measured, report::Ink::simulated, report::Ink::homogeneous};
   std::vector<double> all;
   double last = kFirstDrawn;
-  std::vector<std::vector<analyser::Point>> lines, games;
+  std::vector<std::vector<report::PlotPoint>> lines, games;
   for (const Games& scenario : scenarios) {
     lines.emplace_back();
     games.emplace_back();
@@ -67,20 +67,20 @@ std::string figure(const std::vector<Games>& scenarios, const Column& column) {
       for (const auto& [seed, rounds] : scenario.by_seed)
         if (round < rounds.size()) games.back().push_back({x, column.unit * column.value(rounds[round])});
     }
-    for (const analyser::Point& point : games.back()) all.push_back(point.y);
+    for (const report::PlotPoint& point : games.back()) all.push_back(point.y);
   }
-  analyser::Plot plot({.title = column.title,
-                       .x_label = "round",
-                       .y_label = column.title,
-                       .x = {kFirstDrawn - 0.2, last + 0.2},
-                       .y = analyser::range_with_zero(all),
-                       .whole_numbers_x = true});
+  report::Plot plot({.title = column.title,
+                     .x_label = "round",
+                     .y_label = column.title,
+                     .x = {kFirstDrawn - 0.2, last + 0.2},
+                     .y = report::range_with_zero(all),
+                     .whole_numbers_x = true});
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    const analyser::Ink ink = kInks[i % std::size(kInks)];
-    plot.line(lines[i], ink, analyser::Stroke::solid, scenarios[i].scenario);
+    const report::Ink ink = kInks[i % std::size(kInks)];
+    plot.line(lines[i], ink, report::Stroke::solid, scenarios[i].scenario);
     plot.dots(games[i], ink, "");
   }
-  return analyser::standalone(plot.svg());
+  return report::standalone(plot.svg());
 }
 
 }  // namespace

@@ -60,8 +60,9 @@ Result<Outcome> pull(const pattern::Pattern& pattern, const Variant& variant) {
       .conditions = {},
       // The presets differ in their time step only where this program does not set it.
       .fidelity = variant.free_step ? tester::Fidelity::preview : tester::Fidelity::full};
-  const tester::Numerics numerics{.rate_scale = variant.rate / tester::loading_rate_scale(simulation.fidelity)};
-  tester::FractureTest test = tester::fracture_test(simulation, numerics);
+  const tester::Discretisation discretisation{.rate_scale =
+                                                  variant.rate / tester::loading_rate_scale(simulation.fidelity)};
+  tester::FractureTest test = tester::fracture_test(simulation, discretisation);
   test.grid = tester::assemble(simulation.design, simulation.parameters, simulation.conditions,
                                tester::AssemblyTarget::toughness, variant.units_x, variant.units_y);
   tester::cut_notch(test.grid, 1);
@@ -107,7 +108,7 @@ void fill_table(Table& table, const std::string& path, const std::vector<pattern
   parallel_for(
       static_cast<int>(patterns.size()),
       [&](int i) {
-        const pattern::Pattern& pattern = patterns[static_cast<std::size_t>(i)];
+        const pattern::Pattern& pattern = patterns[i];
         {
           const std::lock_guard lock(mutex);
           if (table.contains({variant.name, pattern.key()})) return;

@@ -49,8 +49,7 @@ std::vector<Result<tester::ToughnessResult>> pull_all(std::unique_ptr<gpu::Devic
   }
   const auto pulling = std::chrono::steady_clock::now();
   while (batch.pending() > 0) {
-    for (gpu::NumberedResult& over : batch.turn())
-      results[static_cast<std::size_t>(over.number)] = std::move(over.result);
+    for (gpu::NumberedResult& over : batch.turn()) results[over.number] = std::move(over.result);
   }
   times.pulling_s = seconds_since(pulling);
   std::vector<Result<tester::ToughnessResult>> in_order;

@@ -12,14 +12,14 @@
 
 #include "base/parallel.hpp"
 #include "base/result.hpp"
+#include "laboratory/laboratory.hpp"
 #include "pattern/random_pattern.hpp"
-#include "virtual_lab/laboratory.hpp"
 
 namespace {
 
 using namespace nacre;
-using virtual_laboratory::EffectKind;
-using virtual_laboratory::Truth;
+using laboratory::EffectKind;
+using laboratory::Truth;
 using Patterns = std::vector<pattern::Pattern>;
 
 constexpr int kConstants = 6;  // that a static modulus test feels
@@ -31,12 +31,12 @@ Eigen::VectorXd log_moduli(Truth truth, const Patterns& patterns, int threads) {
   parallel_for(
       static_cast<int>(patterns.size()),
       [&](int i) {
-        const virtual_laboratory::Question question{.design = patterns[static_cast<std::size_t>(i)],
-                                                    .test = tester::TestKind::modulus,
-                                                    .conditions = {},
-                                                    .fidelity = tester::Fidelity::full};
-        const auto record = virtual_laboratory::record_specimen(
-            truth, question, respond(truth, question), {.specimen = "noiseless", .batch = "", .print_order = 0});
+        const laboratory::Experiment experiment{.design = patterns[i],
+                                                .test = tester::TestKind::modulus,
+                                                .conditions = {},
+                                                .fidelity = tester::Fidelity::full};
+        const auto record = laboratory::record_specimen(truth, experiment, respond(truth, experiment),
+                                                        {.specimen = "noiseless", .batch = "", .print_order = 0});
         if (!record.modulus_pa) throw InputError(record.note);
         logs(i) = std::log(*record.modulus_pa);
       },
@@ -51,7 +51,7 @@ Eigen::MatrixXd base_tangents(const Truth& truth, const Patterns& patterns, int 
     Truth moved = truth;
     material::ModulusVector constants = material::to_vector(truth.modulus);
     const double step = i < 3 ? 1e-3 : -1e-3;
-    double& value = constants[static_cast<std::size_t>(i)];
+    double& value = constants[i];
     value = i < 3 ? value * std::exp(step) : value + step;
     moved.modulus = material::modulus_from_vector(constants);
     tangents.col(i) = (log_moduli(moved, patterns, threads) - base) / step;
@@ -78,7 +78,7 @@ struct Signature {
 std::vector<Signature> signatures(const Truth& truth, const Patterns& patterns, int threads,
                                   const Eigen::VectorXd& base, const Eigen::MatrixXd& tangents) {
   std::vector<Signature> result;
-  for (const EffectKind& kind : virtual_laboratory::effect_kinds()) {
+  for (const EffectKind& kind : laboratory::effect_kinds()) {
     if (!kind.drawn_unasked) continue;
     std::vector<double> values = {kind.drawn_minimum, kind.drawn_maximum};
     if (kind.either_sign) values = {-kind.drawn_maximum, -kind.drawn_minimum, kind.drawn_minimum, kind.drawn_maximum};
@@ -107,7 +107,7 @@ double beyond_library(const Signature& signature, const std::vector<Signature>& 
 }
 
 void run(int count, std::uint64_t seed, int threads) {
-  Truth truth = virtual_laboratory::draw_truth(seed, tester::Fidelity::full);
+  Truth truth = laboratory::draw_truth(seed, tester::Fidelity::full);
   truth.effects = {};
   RandomStream random(seed, "laboratory effects");
   const Patterns patterns = pattern::stratified_patterns(count, random);

@@ -68,7 +68,7 @@ void load_injection(const Options& options) {
                               run.filename().string()});
   wait_for_orders(game);
   Latencies injecting, asking;
-  runtime::ProgramAnswer answer;
+  runtime::ProgramOutput answer;
   std::atomic<bool> injected = false;
   std::thread injector([&] {
     injecting.time([&] {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "analyser/report.hpp"
 #include "latencies.hpp"
 #include "loads.hpp"
 #include "made_up.hpp"
+#include "report/report.hpp"
 #include "store/run_database.hpp"
 #include "store/run_record.hpp"
 #include "wire/convert.hpp"
@@ -38,7 +38,7 @@ void load_run(const Options& options) {
   reading.time([&] { record = store::read_run_record(file); });
   reading.print("run.db: read the run");
   std::string report;
-  reporting.time([&] { report = analyser::render_report(record, "load"); });
+  reporting.time([&] { report = report::render_report(record, "load"); });
   reporting.print("report.html: make it");
   fmt::print("run: {} specimens, {} rounds of {} samples, run.db {:.0f} MB, report {:.1f} MB, memory {}\n",
              record.specimens.size(), record.rounds.size(), options.gamut,

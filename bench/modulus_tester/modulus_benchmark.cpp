@@ -23,8 +23,8 @@ tester::Simulation published(tester::Fidelity fidelity) {
 
 void modulus(benchmark::State& state, tester::Fidelity fidelity) {
   const tester::Simulation simulation = published(fidelity);
-  const tester::Numerics numerics{.refinement = static_cast<int>(state.range(0))};
-  for (auto _ : state) benchmark::DoNotOptimize(tester::test_modulus(simulation, numerics));
+  const tester::Discretisation discretisation{.refinement = static_cast<int>(state.range(0))};
+  for (auto _ : state) benchmark::DoNotOptimize(tester::test_modulus(simulation, discretisation));
 }
 BENCHMARK_CAPTURE(modulus, full, tester::Fidelity::full)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(modulus, tiny, tester::Fidelity::tiny)->Arg(1)->Unit(benchmark::kMillisecond);
@@ -45,8 +45,7 @@ struct Factorisation {
         tester::assemble(simulation.design, simulation.parameters, {}, tester::AssemblyTarget::modulus, 2, 1);
     held.assign(static_cast<std::size_t>(2 * (grid.columns + 1) * (grid.rows + 1)), 0);
     for (int column = 0; column <= grid.columns; ++column)
-      held[static_cast<std::size_t>(2 * column + 1)] =
-          held[static_cast<std::size_t>(2 * (grid.rows * (grid.columns + 1) + column) + 1)] = 1;
+      held[2 * column + 1] = held[2 * (grid.rows * (grid.columns + 1) + column) + 1] = 1;
     held[0] = 1;
     lame = fem::lame_of(grid);
     cholesky =

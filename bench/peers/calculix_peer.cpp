@@ -60,7 +60,7 @@ void write_deck(const fs::path& file, const fem::Grid& grid) {
     for (int column = 0; column < grid.columns; ++column) {
       const int element = grid.index(row, column), corner = row * per_row + column + 1;
       deck.print("{}, {}, {}, {}, {}\n", element + 1, corner, corner + 1, corner + per_row + 1, corner + per_row);
-      materials[engineering(lame[static_cast<std::size_t>(element)])].push_back(element + 1);
+      materials[engineering(lame[element])].push_back(element + 1);
     }
   int name = 0;
   for (const auto& [constants, elements] : materials) {
@@ -102,16 +102,16 @@ double seconds_of(int who, const Work& work) {
 }
 
 /// An answer and the processor time it took.
-struct Answer {
+struct CalculixResult {
   double modulus_pa = std::nan("");
   double seconds = 0.0;
 };
 
-Answer ask_calculix(const fem::Grid& grid, const std::string& solver, const fs::path& folder) {
+CalculixResult ask_calculix(const fem::Grid& grid, const std::string& solver, const fs::path& folder) {
   write_deck(folder / "specimen.inp", grid);
   const std::string command =
       fmt::format("cd {} && OMP_NUM_THREADS=1 {} -i specimen > log.txt 2>&1", folder.string(), solver);
-  Answer answer;
+  CalculixResult answer;
   answer.seconds = seconds_of(RUSAGE_CHILDREN, [&] {
     if (std::system(command.c_str()) != 0) throw std::runtime_error(command + " failed; see log.txt there");
   });
@@ -119,8 +119,8 @@ Answer ask_calculix(const fem::Grid& grid, const std::string& solver, const fs::
   return answer;
 }
 
-Answer ask_nacre(const tester::Simulation& simulation, const fem::Grid& grid, int repeats) {
-  Answer answer{.modulus_pa = fem::pull(grid, kStrain).value().top_stress_pa / kStrain, .seconds = 0.0};
+CalculixResult ask_nacre(const tester::Simulation& simulation, const fem::Grid& grid, int repeats) {
+  CalculixResult answer{.modulus_pa = fem::pull(grid, kStrain).value().top_stress_pa / kStrain, .seconds = 0.0};
   answer.seconds = seconds_of(RUSAGE_SELF,
                               [&] {
                                 for (int i = 0; i < repeats; ++i) (void)tester::test_modulus(simulation).value();
@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
     const tester::SpecimenUnits units = tester::modulus_units(simulation.fidelity);
     const fem::Grid grid = tester::assemble(simulation.design, simulation.parameters, simulation.conditions,
                                             tester::AssemblyTarget::modulus, units.x, units.y);
-    const Answer nacre = ask_nacre(simulation, grid, 20), calculix = ask_calculix(grid, solver, folder);
+    const CalculixResult nacre = ask_nacre(simulation, grid, 20), calculix = ask_calculix(grid, solver, folder);
     const double difference = nacre.modulus_pa / calculix.modulus_pa - 1.0;
     worst = std::max(worst, std::abs(difference));
     ours += nacre.seconds / count;

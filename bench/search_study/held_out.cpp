@@ -6,7 +6,7 @@
 #include "base/statistics.hpp"
 #include "commands.hpp"
 #include "explore/gamut_csv.hpp"
-#include "foretold.hpp"
+#include "predicted.hpp"
 
 namespace nacre::search_study {
 namespace {
@@ -38,14 +38,14 @@ void predict_held_out(const Options& options) {
     for (const int count : options.checkpoints) {
       const auto learnt = static_cast<std::size_t>(count);
       if (learnt >= gamut.size()) break;
-      const Foretold foretold = foretell(options, seed, gamut, learnt);
-      const auto first = foretold.samples.first(learnt), later = foretold.samples.subspan(learnt);
-      const std::span<const optimize::Performance> guesses(foretold.predicted);
+      const Predicted predicted = predict(options, seed, gamut, learnt);
+      const auto first = predicted.samples.first(learnt), later = predicted.samples.subspan(learnt);
+      const std::span<const optimize::Performance> guesses(predicted.predicted);
       const Accuracy e = accuracy(later, guesses.subspan(learnt), &optimize::Performance::modulus_pa);
       const Accuracy t = accuracy(later, guesses.subspan(learnt), &optimize::Performance::toughness_pa);
       const Accuracy own = accuracy(first, guesses.first(learnt), &optimize::Performance::toughness_pa);
       fmt::print("{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.2f}\n", options.variant, seed, learnt, later.size(),
-                 e.rank, e.error, t.rank, t.error, own.rank, foretold.fitting_s);
+                 e.rank, e.error, t.rank, t.error, own.rank, predicted.fitting_s);
     }
   }
 }

@@ -55,7 +55,7 @@ KeptEvaluations::KeptEvaluations(const Options& options)
       parameters_(parameters_of(options)),
       table_(table_path(options), {"modulus_pa", "toughness_pa"}) {}
 
-KeptEvaluations::Answer KeptEvaluations::operator()(const pattern::Pattern& pattern) {
+KeptEvaluations::KeptPerformance KeptEvaluations::operator()(const pattern::Pattern& pattern) {
   const auto performance = [](double modulus_pa, double toughness_pa) {
     return modulus_pa < 0.0 ? std::nullopt : std::optional(optimize::Performance{modulus_pa, toughness_pa});
   };

@@ -14,12 +14,12 @@ namespace nacre::search_study {
 class KeptEvaluations {
  public:
   explicit KeptEvaluations(const Options& options);
-  struct Answer {
+  struct KeptPerformance {
     std::optional<optimize::Performance> performance;
     double processor_s = 0.0;  ///< 0 when it was looked up
   };
   /// Thread-safe.
-  Answer operator()(const pattern::Pattern& pattern);
+  KeptPerformance operator()(const pattern::Pattern& pattern);
 
  private:
   std::optional<tester::Fidelity> fidelity_;

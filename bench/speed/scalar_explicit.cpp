@@ -30,7 +30,7 @@ ScalarExplicit::ScalarExplicit(const fem::Grid& grid, const fem::ExplicitSetting
 }
 
 void ScalarExplicit::add_element_forces(int row, int column) {
-  Element& element = elements_[static_cast<std::size_t>(row * columns_ + column)];
+  Element& element = elements_[row * columns_ + column];
   if (element.empty) return;
   const int first = row * (columns_ + 1) + column;
   const int node[4] = {first, first + 1, first + columns_ + 1, first + columns_ + 2};
@@ -52,8 +52,8 @@ void ScalarExplicit::add_element_forces(int row, int column) {
     const float pxx = element.mu * (xx - yy) + t * (1.0f + yy), pyy = element.mu * (yy - xx) + t * (1.0f + xx);
     const float shear = element.mu * (xy + yx), pxy = shear - t * yx, pyx = shear - t * xy;
     for (int a = 0; a < 4; ++a) {
-      fx_[static_cast<std::size_t>(node[a])] -= pxx * nx[a] + pxy * ny[a];
-      fy_[static_cast<std::size_t>(node[a])] -= pyx * nx[a] + pyy * ny[a];
+      fx_[node[a]] -= pxx * nx[a] + pxy * ny[a];
+      fy_[node[a]] -= pyx * nx[a] + pyy * ny[a];
     }
     const float isochoric = (xx - yy) * (xx - yy) + (xy + yx) * (xy + yx) + 2.0f * (change - log_j);
     largest = std::fmax(largest, 0.5f * (element.mu * isochoric + element.lambda * log_j * log_j));
@@ -109,8 +109,8 @@ double ScalarExplicit::step() {
   add_forces();
   double bottom = 0.0, top = 0.0;
   for (int column = 0; column <= columns_; ++column) {
-    bottom += fy_[static_cast<std::size_t>(column)];
-    top -= fy_[static_cast<std::size_t>(rows_ * (columns_ + 1) + column)];
+    bottom += fy_[column];
+    top -= fy_[rows_ * (columns_ + 1) + column];
   }
   accelerate();
   smooth();

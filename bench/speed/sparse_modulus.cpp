@@ -16,8 +16,8 @@ std::vector<int> numbered_unknowns(const fem::Grid& grid, int& count) {
   std::vector<int> number(static_cast<std::size_t>(2 * nodes), -1);
   count = 0;
   for (int node = 0; node < nodes; ++node) {
-    if (node > 0) number[static_cast<std::size_t>(2 * node)] = count++;
-    if (node >= per_row && node < nodes - per_row) number[static_cast<std::size_t>(2 * node + 1)] = count++;
+    if (node > 0) number[2 * node] = count++;
+    if (node >= per_row && node < nodes - per_row) number[2 * node + 1] = count++;
   }
   return number;
 }
@@ -36,18 +36,16 @@ double sparse_modulus_pa(const fem::Grid& grid) {
   const auto visit = [&](const auto& use) {
     for (int row = 0; row < grid.rows; ++row)
       for (int column = 0; column < grid.columns; ++column) {
-        const material::Lame& constants = lame[static_cast<std::size_t>(grid.index(row, column))];
+        const material::Lame& constants = lame[grid.index(row, column)];
         const fem::ElementMatrix stiffness =
             constants.mu_pa * fem::unit_stiffness().shear + constants.lambda_pa * fem::unit_stiffness().bulk;
         const auto nodes = fem::element_nodes(grid, row, column);
         for (int a = 0; a < 8; ++a)
-          for (int b = 0; b < 8; ++b)
-            use(2 * nodes[static_cast<std::size_t>(a / 2)] + a % 2, 2 * nodes[static_cast<std::size_t>(b / 2)] + b % 2,
-                stiffness(a, b));
+          for (int b = 0; b < 8; ++b) use(2 * nodes[a / 2] + a % 2, 2 * nodes[b / 2] + b % 2, stiffness(a, b));
       }
   };
   visit([&](int a, int b, double k) {
-    const int i = number[static_cast<std::size_t>(a)], j = number[static_cast<std::size_t>(b)];
+    const int i = number[a], j = number[b];
     if (i < 0) return;
     if (j >= 0)
       triplets.emplace_back(i, j, k);
@@ -63,7 +61,7 @@ double sparse_modulus_pa(const fem::Grid& grid) {
   double force = 0.0;
   visit([&](int a, int b, double k) {
     if (a < top || a % 2 == 0) return;
-    const int j = number[static_cast<std::size_t>(b)];
+    const int j = number[b];
     force += k * (j >= 0 ? solution[j] : prescribed(b));
   });
   return force / grid.columns;

@@ -142,10 +142,10 @@ struct Throughput {
 
 template <class Work>
 Throughput throughput(int count, int threads, const Work& work) {
-  std::vector<double> seconds(static_cast<std::size_t>(count));
+  std::vector<double> seconds(count);
   const auto start = std::chrono::steady_clock::now();
   parallel_for(
-      count, [&](int i) { seconds[static_cast<std::size_t>(i)] = seconds_of([&] { work(i); }); }, threads);
+      count, [&](int i) { seconds[i] = seconds_of([&] { work(i); }); }, threads);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   double sum = 0.0;
   for (const double each : seconds) sum += each;
@@ -162,15 +162,13 @@ void print_testers(int count) {
   const std::vector<pattern::Pattern> patterns = pattern::stratified_patterns(count, random);
   const auto simulation = [&](int i) {
     tester::Simulation s = published(tester::Fidelity::full);
-    s.design = patterns[static_cast<std::size_t>(i % count)];
+    s.design = patterns[i % count];
     return s;
   };
   const int threads = allowed_cores(), moduli = 200;
   const auto modulus = [&](int i) { (void)tester::test_modulus(simulation(i)).value(); };
   std::vector<std::int64_t> steps(patterns.size());
-  const auto toughness = [&](int i) {
-    steps[static_cast<std::size_t>(i)] = tester::test_toughness(simulation(i)).value().steps;
-  };
+  const auto toughness = [&](int i) { steps[i] = tester::test_toughness(simulation(i)).value().steps; };
   const auto both = [&](int i) {
     modulus(i);
     toughness(i);

@@ -24,7 +24,7 @@ namespace {
 using namespace nacre;
 using namespace nacre::bench;
 
-struct Point {
+struct ThroughputPoint {
   std::string series;  ///< "modulus", or "toughness to strain 0.05"
   int batch = 0;
   double processor_seconds = 0.0, wall_seconds = 0.0, steps = 0.0;  ///< per sample
@@ -33,15 +33,15 @@ struct Point {
 
 /// Runs work(i) for the samples of one batch; the number of steps it returns is averaged.
 template <class Work>
-Point run_batch(const std::string& series, int batch, const Work& work) {
-  std::vector<double> seconds(static_cast<std::size_t>(batch)), steps(seconds.size());
+ThroughputPoint run_batch(const std::string& series, int batch, const Work& work) {
+  std::vector<double> seconds(batch), steps(seconds.size());
   const auto start = std::chrono::steady_clock::now();
   parallel_for(batch, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     seconds[at] = seconds_of([&] { steps[at] = work(i); });
   });
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  Point point{.series = series, .batch = batch, .wall_seconds = wall.count() / batch};
+  ThroughputPoint point{.series = series, .batch = batch, .wall_seconds = wall.count() / batch};
   for (std::size_t i = 0; i < seconds.size(); ++i) {
     point.processor_seconds += seconds[i] / batch;
     point.steps += steps[i] / batch;
@@ -55,7 +55,7 @@ struct Axis {
   double place(double value) const { return from + (to - from) * std::log(value / low) / std::log(high / low); }
 };
 
-void draw(std::ostream& out, const std::vector<Point>& points, int cores) {
+void draw(std::ostream& out, const std::vector<ThroughputPoint>& points, int cores) {
   const Axis x{.low = 1.0, .high = 128.0, .from = 70.0, .to = 560.0};
   const Axis y{.low = 1e-3, .high = 10.0, .from = 340.0, .to = 20.0};
   fmt::print(out,
@@ -75,14 +75,14 @@ void draw(std::ostream& out, const std::vector<Point>& points, int cores) {
       "<text x=\"315\" y=\"385\" text-anchor=\"middle\">batch size</text>\n"
       "<text transform=\"translate(16 180) rotate(-90)\" text-anchor=\"middle\">seconds per sample, {} cores</text>\n",
       cores);
-  std::map<std::string, std::vector<Point>> series;
-  for (const Point& point : points) series[point.series].push_back(point);
+  std::map<std::string, std::vector<ThroughputPoint>> series;
+  for (const ThroughputPoint& point : points) series[point.series].push_back(point);
   static constexpr const char* kColours[] = {"#0b6e4f", "#b5179e", "#4361ee", "#f77f00", "#7f5539", "#444"};
   std::size_t next = 0;
   for (const auto& [name, members] : series) {
     const char* const colour = kColours[next++ % std::size(kColours)];
     std::string path;
-    for (const Point& point : members)
+    for (const ThroughputPoint& point : members)
       path +=
           fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.place(point.batch), y.place(point.seconds(cores)));
     fmt::print(out,
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     (void)tester::test_modulus(simulation(i)).value();
     return 0.0;  // no steps: a static solution
   };
-  std::vector<Point> points;
+  std::vector<ThroughputPoint> points;
   for (const int batch : modulus_batches) points.push_back(run_batch("modulus", batch, modulus));
   for (const double limit : limits)
     for (const int batch : toughness_batches)
@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
   std::ofstream csv(table), svg(figure);
   fmt::print(csv,
              "series,batch,seconds_per_sample,processor_seconds_per_sample,wall_seconds_per_sample,steps_per_sample\n");
-  for (const Point& point : points)
+  for (const ThroughputPoint& point : points)
     fmt::print(csv, "{},{},{:.5g},{:.5g},{:.5g},{:.0f}\n", point.series, point.batch, point.seconds(cores),
                point.processor_seconds, point.wall_seconds, point.steps);
   draw(svg, points, cores);

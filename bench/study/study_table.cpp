@@ -59,7 +59,7 @@ int fill(StudyTable& table, const std::vector<Wanted>& wanted, double seconds, i
   parallel_for(
       static_cast<int>(wanted.size()),
       [&](int i) {
-        const Wanted& each = wanted[static_cast<std::size_t>(i)];
+        const Wanted& each = wanted[i];
         if (table.find(each.key)) return;
         if (std::chrono::steady_clock::now() >= end) {
           ++missing;

@@ -25,9 +25,9 @@ inline std::vector<pattern::Pattern> study_patterns(int count, std::uint64_t see
   std::vector<pattern::Pattern> patterns = {pattern::Pattern(0x577fffe9fffdef), pattern::Pattern(0x3ffc9b4ad4d2d9)};
   RandomStream random(seed, "verification study");
   for (int i = 0; static_cast<int>(patterns.size()) < count; ++i)
-    patterns.push_back(i % 2 == 0 ? pattern::stratified_patterns(4, random)[static_cast<std::size_t>(i / 2 % 4)]
+    patterns.push_back(i % 2 == 0 ? pattern::stratified_patterns(4, random)[i / 2 % 4]
                                   : pattern::random_pattern(76 + (7 * i) % 10, random));
-  patterns.resize(static_cast<std::size_t>(count));
+  patterns.resize(count);
   return patterns;
 }
 

@@ -1,6 +1,6 @@
 // How far the toughness of a design moves when its parameters are moved by less than anybody knows them: T is
 // discontinuous, because which element fails next may turn on the last digit. Results: docs/studies/repeatability.md,
-// data/numerics_floor.toml.
+// data/discretisation_floor.toml.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

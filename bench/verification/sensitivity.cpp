@@ -24,7 +24,7 @@ struct Options {
 struct Variant {
   std::string name;
   double gamma_scale = 1.0;
-  tester::Numerics numerics = {};
+  tester::Discretisation discretisation = {};
   bool double_precision = false;
 };
 
@@ -33,8 +33,8 @@ std::vector<Variant> variants() {
   for (const double scale : {0.1, 0.3, 3.0, 10.0})
     list.push_back({.name = fmt::format("gamma x {:g}", scale), .gamma_scale = scale});
   for (const double scale : {0.5, 2.0, 4.0})
-    list.push_back({.name = fmt::format("strain rate x {:g}", scale), .numerics = {.rate_scale = scale}});
-  list.push_back({.name = "time step x 0.5", .numerics = {.time_step_scale = 0.5}});
+    list.push_back({.name = fmt::format("strain rate x {:g}", scale), .discretisation = {.rate_scale = scale}});
+  list.push_back({.name = "time step x 0.5", .discretisation = {.time_step_scale = 0.5}});
   list.push_back({.name = "double precision", .double_precision = true});
   return list;
 }
@@ -47,7 +47,7 @@ Result<tester::ToughnessResult> pull(const pattern::Pattern& pattern, const Vari
                                      tester::Fidelity fidelity) {
   tester::Simulation simulation{pattern, material::default_parameters(), {}, fidelity};
   simulation.parameters.toughness.gamma_per_s *= variant.gamma_scale;
-  const tester::FractureTest test = tester::fracture_test(simulation, variant.numerics);
+  const tester::FractureTest test = tester::fracture_test(simulation, variant.discretisation);
   return variant.double_precision ? tester::run_fracture_test<double>(test) : tester::run_fracture_test<float>(test);
 }
 

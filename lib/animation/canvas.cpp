@@ -34,22 +34,22 @@ void Canvas::fill(std::uint32_t rgb) {
   cairo_paint(context_.get());
 }
 
-void Canvas::rectangle(Point corner, double width, double height, std::uint32_t rgb) {
+void Canvas::rectangle(CanvasPoint corner, double width, double height, std::uint32_t rgb) {
   colour(rgb);
   cairo_rectangle(context_.get(), corner.x, corner.y, width, height);
   cairo_fill(context_.get());
 }
 
-void Canvas::outline(std::span<const Point> points) {
+void Canvas::outline(std::span<const CanvasPoint> points) {
   cairo_new_path(context_.get());
-  for (const Point& point : points) cairo_line_to(context_.get(), point.x, point.y);
+  for (const CanvasPoint& point : points) cairo_line_to(context_.get(), point.x, point.y);
 }
 
-void Canvas::quads(std::span<const std::array<Point, 4>> corners, std::uint32_t rgb) {
+void Canvas::quads(std::span<const std::array<CanvasPoint, 4>> corners, std::uint32_t rgb) {
   cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_NONE);
   colour(rgb);
   cairo_new_path(context_.get());
-  for (const std::array<Point, 4>& quad : corners) {
+  for (const std::array<CanvasPoint, 4>& quad : corners) {
     cairo_move_to(context_.get(), quad[0].x, quad[0].y);
     for (std::size_t i = 1; i < 4; ++i) cairo_line_to(context_.get(), quad[i].x, quad[i].y);
     cairo_close_path(context_.get());
@@ -58,20 +58,20 @@ void Canvas::quads(std::span<const std::array<Point, 4>> corners, std::uint32_t 
   cairo_set_antialias(context_.get(), CAIRO_ANTIALIAS_DEFAULT);
 }
 
-void Canvas::area(std::span<const Point> points, std::uint32_t rgb) {
+void Canvas::area(std::span<const CanvasPoint> points, std::uint32_t rgb) {
   colour(rgb);
   outline(points);
   cairo_fill(context_.get());
 }
 
-void Canvas::line(std::span<const Point> points, double width, std::uint32_t rgb) {
+void Canvas::line(std::span<const CanvasPoint> points, double width, std::uint32_t rgb) {
   colour(rgb);
   outline(points);
   cairo_set_line_width(context_.get(), width);
   cairo_stroke(context_.get());
 }
 
-void Canvas::disc(Point centre, double radius, std::uint32_t rgb) {
+void Canvas::disc(CanvasPoint centre, double radius, std::uint32_t rgb) {
   colour(rgb);
   cairo_new_path(context_.get());
   cairo_arc(context_.get(), centre.x, centre.y, radius, 0.0, 2.0 * std::numbers::pi);
@@ -91,7 +91,7 @@ double Canvas::text_width(const std::string& text, const TextStyle& style) {
   return extents.x_advance;
 }
 
-void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
+void Canvas::text(CanvasPoint at, const std::string& text, const TextStyle& style) {
   const double width = text_width(text, style);
   const double back = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::centre ? 0.5 * width : width;
   cairo_save(context_.get());
@@ -112,8 +112,7 @@ Picture Canvas::picture() const {
   const unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
   picture.rgb.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   for (int y = 0; y < picture.height; ++y)
-    std::memcpy(&picture.rgb[static_cast<std::size_t>(y * picture.width)], bytes + y * stride,
-                static_cast<std::size_t>(picture.width) * 4);
+    std::memcpy(&picture.rgb[y * picture.width], bytes + y * stride, static_cast<std::size_t>(picture.width) * 4);
   for (std::uint32_t& rgb : picture.rgb) rgb &= 0xffffff;
   return picture;
 }

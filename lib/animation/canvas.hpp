@@ -14,7 +14,7 @@ typedef struct _cairo_surface cairo_surface_t;
 
 namespace nacre::animation {
 
-struct Point {
+struct CanvasPoint {
   double x = 0.0, y = 0.0;
 };
 
@@ -35,21 +35,21 @@ class Canvas {
   Canvas(double width_units, double height_units, int width_points);
 
   void fill(std::uint32_t rgb);
-  void rectangle(Point corner, double width, double height, std::uint32_t rgb);
+  void rectangle(CanvasPoint corner, double width, double height, std::uint32_t rgb);
   /// Many quadrilaterals of one colour, all turning the same way, without smoothing: neighbours meet without seams, and
   /// the picture keeps few colours.
-  void quads(std::span<const std::array<Point, 4>> corners, std::uint32_t rgb);
-  void area(std::span<const Point> outline, std::uint32_t rgb);
-  void line(std::span<const Point> points, double width, std::uint32_t rgb);
-  void disc(Point centre, double radius, std::uint32_t rgb);
-  void text(Point at, const std::string& text, const TextStyle& style = {});
+  void quads(std::span<const std::array<CanvasPoint, 4>> corners, std::uint32_t rgb);
+  void area(std::span<const CanvasPoint> outline, std::uint32_t rgb);
+  void line(std::span<const CanvasPoint> points, double width, std::uint32_t rgb);
+  void disc(CanvasPoint centre, double radius, std::uint32_t rgb);
+  void text(CanvasPoint at, const std::string& text, const TextStyle& style = {});
   double text_width(const std::string& text, const TextStyle& style);
 
   Picture picture() const;
 
  private:
   void colour(std::uint32_t rgb);
-  void outline(std::span<const Point> points);
+  void outline(std::span<const CanvasPoint> points);
   void font(const TextStyle& style);
   std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface_;
   std::unique_ptr<cairo_t, void (*)(cairo_t*)> context_;

@@ -30,7 +30,7 @@ struct Axes {
     strain_percent = std::max(100.0 * film.failure_strain, 1e-3) * 1.04;
     stress_mpa = std::max({1e-6 * highest, 1e-6 * film.peak_stress_pa, 1e-6}) * 1.1;
   }
-  Point at(double strain, double stress_pa) const {
+  CanvasPoint at(double strain, double stress_pa) const {
     const double x = kLeft + (kRight - kLeft) * 100.0 * strain / strain_percent;
     const double y = kBottom - (kBottom - kTop) * 1e-6 * std::max(stress_pa, 0.0) / stress_mpa;
     return {x, y};
@@ -43,17 +43,17 @@ void draw_axes(Canvas& canvas, const Axes& axes) {
   const double across = tick_distance(axes.strain_percent), up = tick_distance(axes.stress_mpa);
   for (double value = 0.0; value <= axes.stress_mpa * 1.0001; value += up) {
     const double y = axes.at(0.0, 1e6 * value).y;
-    const std::array<Point, 2> rule = {{{kLeft, y}, {kRight, y}}};
+    const std::array<CanvasPoint, 2> rule = {{{kLeft, y}, {kRight, y}}};
     canvas.line(rule, 0.7, kRule);
     canvas.text({kLeft - 6.0, y + 4.3}, fmt::format("{:g}", std::round(value / up) * up), number_left);
   }
   for (double value = 0.0; value <= axes.strain_percent * 1.0001; value += across) {
     const double x = axes.at(0.01 * value, 0.0).x;
-    const std::array<Point, 2> tick = {{{x, kBottom}, {x, kBottom + 4.0}}};
+    const std::array<CanvasPoint, 2> tick = {{{x, kBottom}, {x, kBottom + 4.0}}};
     canvas.line(tick, 1.0, kInk);
     canvas.text({x, kBottom + 18.0}, fmt::format("{:g}", std::round(value / across) * across), number);
   }
-  const std::array<Point, 3> frame = {{{kLeft, kTop - 6.0}, {kLeft, kBottom}, {kRight, kBottom}}};
+  const std::array<CanvasPoint, 3> frame = {{{kLeft, kTop - 6.0}, {kLeft, kBottom}, {kRight, kBottom}}};
   canvas.line(frame, 1.2, kInk);
   const TextStyle label{.size = 13.0, .rgb = kInk, .anchor = Anchor::centre};
   canvas.text({0.5 * (kLeft + kRight), kBottom + 38.0}, "nominal strain in %", label);
@@ -63,8 +63,8 @@ void draw_axes(Canvas& canvas, const Axes& axes) {
 }
 
 /// The curve up to a strain, which becomes its last point.
-std::vector<Point> curve_until(const film::Film& film, const Axes& axes, const film::Frame& frame) {
-  std::vector<Point> points;
+std::vector<CanvasPoint> curve_until(const film::Film& film, const Axes& axes, const film::Frame& frame) {
+  std::vector<CanvasPoint> points;
   for (std::size_t i = 0; i < film.curve.size() && film.curve.strain[i] < frame.strain; ++i)
     points.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
   points.push_back(axes.at(frame.strain, frame.stress_pa));
@@ -72,11 +72,11 @@ std::vector<Point> curve_until(const film::Film& film, const Axes& axes, const f
 }
 
 void draw_curve(Canvas& canvas, const film::Film& film, const Axes& axes, const film::Frame& frame) {
-  std::vector<Point> whole;
+  std::vector<CanvasPoint> whole;
   for (std::size_t i = 0; i < film.curve.size(); ++i)
     whole.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
-  std::vector<Point> passed = curve_until(film, axes, frame);
-  std::vector<Point> under = passed;
+  std::vector<CanvasPoint> passed = curve_until(film, axes, frame);
+  std::vector<CanvasPoint> under = passed;
   under.push_back({passed.back().x, kBottom});
   under.push_back({passed.front().x, kBottom});
   canvas.area(under, kPassedArea);
@@ -111,7 +111,7 @@ void draw_figures(Canvas& canvas, const film::Film& film, const film::Frame& fra
     canvas.text({kRight, y}, value, {.size = 13.0, .rgb = kInk, .anchor = Anchor::right});
     y += 20.0;
   }
-  const std::array<Point, 2> rule = {{{kLeft - 44.0, y - 10.0}, {kRight, y - 10.0}}};
+  const std::array<CanvasPoint, 2> rule = {{{kLeft - 44.0, y - 10.0}, {kRight, y - 10.0}}};
   canvas.line(rule, 0.7, kRule);
   canvas.text({kLeft - 44.0, 506.0}, "toughness", {.size = 13.0, .rgb = kInk, .bold = true});
   canvas.text({kRight, 506.0}, fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * film.toughness_pa),
@@ -121,7 +121,7 @@ void draw_figures(Canvas& canvas, const film::Film& film, const film::Frame& fra
 }  // namespace
 
 void draw_chart(Canvas& canvas, const film::Film& film, int index) {
-  const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
+  const film::Frame& frame = film.frames[index];
   draw_curve(canvas, film, Axes(film), frame);
   draw_figures(canvas, film, frame);
 }

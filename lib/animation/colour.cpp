@@ -79,8 +79,7 @@ std::uint32_t element_colour(int material, double energy_level) {
   constexpr double kBegin = 0.32, kFull = 0.62, kTop = 0.92;  // the last decade fraction: single elements
   const double rise = std::clamp((energy_level - kBegin) / (kFull - kBegin), 0.0, 1.0);
   const double cover = rise * rise * (3.0 - 2.0 * rise);
-  return blend(kMaterials[static_cast<std::size_t>(std::clamp(material, 0, 2))],
-               glow((energy_level - kBegin) / (kTop - kBegin)), cover);
+  return blend(kMaterials[std::clamp(material, 0, 2)], glow((energy_level - kBegin) / (kTop - kBegin)), cover);
 }
 
 }  // namespace nacre::animation

@@ -104,7 +104,7 @@ class Encoder {
     EGifGCBToExtension(&control, block.data());
     check(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, block.data()));
     check(EGifPutImageDesc(file_, left, top, right - left, bottom - top, false, nullptr));
-    std::vector<GifPixelType> line(static_cast<std::size_t>(right - left));
+    std::vector<GifPixelType> line(right - left);
     for (int y = top; y < bottom; ++y) {
       std::copy_n(indices.begin() + y * width + left, line.size(), line.begin());
       check(EGifPutLine(file_, line.data(), right - left));

@@ -28,12 +28,12 @@ struct Placement {
     scale = std::min((kRight - kLeft) / width_m, (kBottom - kTop - 2.0 * kGripHeight) / height_m);
     left = 0.5 * (kLeft + kRight - scale * width_m);
   }
-  Point at(double x_m, double y_m) const { return {left + scale * x_m, kBottom - kGripHeight - scale * y_m}; }
+  CanvasPoint at(double x_m, double y_m) const { return {left + scale * x_m, kBottom - kGripHeight - scale * y_m}; }
 };
 
-std::vector<Point> node_positions(const film::Film& film, const film::Frame& frame, const Placement& placement) {
-  std::vector<Point> positions;
-  positions.reserve(static_cast<std::size_t>(film.node_count()));
+std::vector<CanvasPoint> node_positions(const film::Film& film, const film::Frame& frame, const Placement& placement) {
+  std::vector<CanvasPoint> positions;
+  positions.reserve(film.node_count());
   for (int node = 0; node < film.node_count(); ++node) {
     const double x_m = (node % (film.columns + 1)) * film.element_size_m + film.displacement_x_m(frame, node);
     const double y_m = (node / (film.columns + 1)) * film.element_size_m + film.displacement_y_m(frame, node);
@@ -46,26 +46,25 @@ std::vector<Point> node_positions(const film::Film& film, const film::Frame& fra
 std::vector<int> ages(const film::Film& film, int frame) {
   std::vector<int> age(film.material.size(), 0);
   for (std::size_t e = 0; e < age.size(); ++e) age[e] = film.material[e] == kVoid ? 1 : 0;
-  const int now = film.frames[static_cast<std::size_t>(frame)].broken;
-  const int before = film.frames[static_cast<std::size_t>(std::max(frame - 1, 0))].broken;
-  for (int i = 0; i < now; ++i)
-    age[static_cast<std::size_t>(film.crack.order[static_cast<std::size_t>(i)].element)] = i < before ? 1 : 2;
+  const int now = film.frames[frame].broken;
+  const int before = film.frames[std::max(frame - 1, 0)].broken;
+  for (int i = 0; i < now; ++i) age[film.crack.order[i].element] = i < before ? 1 : 2;
   return age;
 }
 
 void draw_elements(Canvas& canvas, const film::Film& film, int index, const Placement& placement) {
-  const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
-  const std::vector<Point> node = node_positions(film, frame, placement);
+  const film::Frame& frame = film.frames[index];
+  const std::vector<CanvasPoint> node = node_positions(film, frame, placement);
   const std::vector<int> age = ages(film, index);
-  std::map<std::uint32_t, std::vector<std::array<Point, 4>>> by_colour;
-  std::vector<std::array<Point, 4>> fresh;
+  std::map<std::uint32_t, std::vector<std::array<CanvasPoint, 4>>> by_colour;
+  std::vector<std::array<CanvasPoint, 4>> fresh;
   for (int row = 0; row < film.rows; ++row)
     for (int column = 0; column < film.columns; ++column) {
       const auto e = static_cast<std::size_t>(row * film.columns + column);
       if (age[e] == 1) continue;
       const auto corner = static_cast<std::size_t>(row * (film.columns + 1) + column);
       const std::size_t above = corner + static_cast<std::size_t>(film.columns) + 1;
-      const std::array<Point, 4> quad = {node[corner], node[corner + 1], node[above + 1], node[above]};
+      const std::array<CanvasPoint, 4> quad = {node[corner], node[corner + 1], node[above + 1], node[above]};
       const double level = frame.energy_level[e] / (film::kEnergyLevels - 1.0);
       age[e] == 2 ? fresh.push_back(quad) : by_colour[element_colour(film.material[e], level)].push_back(quad);
     }
@@ -80,9 +79,9 @@ struct MarkStyle {
 constexpr std::array<MarkStyle, crack::kMarkKinds> kMarkStyles = {
     {{"D", 0x7a3fb0}, {"B", 0xb0307a}, {"L", 0x2d7d46}, {"A", 0xb05a00}, {"G", 0x4a5568}}};
 
-MarkStyle style_of(crack::MarkKind kind) { return kMarkStyles[static_cast<std::size_t>(kind)]; }
+MarkStyle style_of(crack::MarkKind kind) { return kMarkStyles[kind]; }
 
-void draw_tag(Canvas& canvas, Point at, const MarkStyle& style) {
+void draw_tag(Canvas& canvas, CanvasPoint at, const MarkStyle& style) {
   constexpr double kRadius = 7.5;
   canvas.disc(at, kRadius + 1.2, kPage);
   canvas.disc(at, kRadius, style.rgb);
@@ -101,17 +100,17 @@ fem::Grid grid_of(const film::Film& film) {
 
 /// Letters beside the crack where a mechanism shows at this moment, and what they mean.
 void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placement& placement) {
-  const film::Frame& frame = film.frames[static_cast<std::size_t>(index)];
+  const film::Frame& frame = film.frames[index];
   const std::vector<crack::Mark> marks = crack::marks_of(grid_of(film), film.crack);
-  const std::vector<Point> node = node_positions(film, frame, placement);
+  const std::vector<CanvasPoint> node = node_positions(film, frame, placement);
   constexpr double kAside = 14.0;  // the crack itself stays in sight
   constexpr int kMostOfAKind = 5;  // more would cover the specimen; branches come longest first
   std::array<int, crack::kMarkKinds> shown{};
   for (const crack::Mark& mark : marks) {
     if (frame.strain < mark.strain || frame.strain > mark.until_strain) continue;
-    if (++shown[static_cast<std::size_t>(mark.kind)] > kMostOfAKind) continue;
+    if (++shown[mark.kind] > kMostOfAKind) continue;
     const int corner = mark.element / film.columns * (film.columns + 1) + mark.element % film.columns;
-    const Point at = node[static_cast<std::size_t>(corner)];
+    const CanvasPoint at = node[corner];
     const bool above = mark.kind == crack::MarkKind::bridging || mark.kind == crack::MarkKind::soft_arrest;
     const double left = mark.kind == crack::MarkKind::deflection ? kAside : 0.0;  // a guided stretch often has its turn
     draw_tag(canvas, {at.x - left, at.y + (above ? -kAside : kAside)}, style_of(mark.kind));
@@ -130,12 +129,12 @@ void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placeme
 
 void draw_grips(Canvas& canvas, const film::Film& film, const film::Frame& frame, const Placement& placement) {
   const double width_m = film.columns * film.element_size_m, height_m = film.rows * film.element_size_m;
-  const Point lower = placement.at(0.0, 0.0), upper = placement.at(0.0, height_m * (1.0 + frame.strain));
+  const CanvasPoint lower = placement.at(0.0, 0.0), upper = placement.at(0.0, height_m * (1.0 + frame.strain));
   const double width = placement.scale * width_m;
   canvas.rectangle({lower.x - 8.0, lower.y}, width + 16.0, kGripHeight, kGrip);
   canvas.rectangle({upper.x - 8.0, upper.y - kGripHeight}, width + 16.0, kGripHeight, kGrip);
   const double x = lower.x + 0.5 * width, y = upper.y - kGripHeight - 3.0;
-  const std::array<Point, 3> arrow = {{{x - 5.0, y}, {x + 5.0, y}, {x, y - 8.0}}};
+  const std::array<CanvasPoint, 3> arrow = {{{x - 5.0, y}, {x + 5.0, y}, {x, y - 8.0}}};
   canvas.area(arrow, kGrip);
 }
 
@@ -152,19 +151,19 @@ void draw_legend(Canvas& canvas, const film::Film& film, const Placement& placem
   const double length_mm = round_length_mm(1e3 * film.columns * film.element_size_m);
   const double length = placement.scale * 1e-3 * length_mm;
   const double left = placement.at(0.0, 0.0).x;
-  const std::array<Point, 2> bar = {{{left, y - 4.5}, {left + length, y - 4.5}}};
+  const std::array<CanvasPoint, 2> bar = {{{left, y - 4.5}, {left + length, y - 4.5}}};
   canvas.line(bar, 2.5, kInk);
   canvas.text({left + length + 8.0, y}, fmt::format("{:g} mm", length_mm), {.size = 13.0, .rgb = kInk});
-  struct Entry {
+  struct ColourKey {
     const char* name;
     std::uint32_t rgb;
   };
-  const std::array<Entry, 4> entries = {{{"rigid", element_colour(1, 0.0)},
-                                         {"interface", element_colour(2, 0.0)},
-                                         {"soft", element_colour(0, 0.0)},
-                                         {"failing", kAccent}}};
+  const std::array<ColourKey, 4> entries = {{{"rigid", element_colour(1, 0.0)},
+                                             {"interface", element_colour(2, 0.0)},
+                                             {"soft", element_colour(0, 0.0)},
+                                             {"failing", kAccent}}};
   double x = left + length + 78.0;
-  for (const Entry& entry : entries) {
+  for (const ColourKey& entry : entries) {
     canvas.rectangle({x, y - 10.0}, 11.0, 11.0, entry.rgb);
     const TextStyle style{.size = 13.0, .rgb = kInk};
     canvas.text({x + 16.0, y}, entry.name, style);
@@ -177,7 +176,7 @@ void draw_legend(Canvas& canvas, const film::Film& film, const Placement& placem
 void draw_specimen(Canvas& canvas, const film::Film& film, int index) {
   const Placement placement(film);
   draw_elements(canvas, film, index, placement);
-  draw_grips(canvas, film, film.frames[static_cast<std::size_t>(index)], placement);
+  draw_grips(canvas, film, film.frames[index], placement);
   draw_legend(canvas, film, placement);
   draw_marks(canvas, film, index, placement);
 }
@@ -199,7 +198,7 @@ void draw_energy_scale(Canvas& canvas, const film::Film& film) {
     const double share = 1.0 - (highest - static_cast<double>(power)) / film::kEnergyDecades;
     if (share < 0.0 || share > 1.0) continue;
     const double y = kLowest - share * (kLowest - kHighest);
-    const std::array<Point, 2> tick = {{{kX + kWidth, y}, {kX + kWidth + 4.0, y}}};
+    const std::array<CanvasPoint, 2> tick = {{{kX + kWidth, y}, {kX + kWidth + 4.0, y}}};
     canvas.line(tick, 1.0, kInk);
     canvas.text({kX + kWidth + 8.0, y + 4.5}, kPowers[power], {.size = 12.0, .rgb = kInk});
   }

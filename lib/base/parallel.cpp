@@ -35,7 +35,7 @@ void parallel_for(int count, const std::function<void(int)>& body, int threads) 
     }
   };
   std::vector<std::thread> pool;
-  pool.reserve(static_cast<std::size_t>(std::max(workers, 0)));
+  pool.reserve(std::max(workers, 0));
   try {
     for (int t = 1; t < workers; ++t) pool.emplace_back(work);
   } catch (const std::exception&) {  // the system gives no more threads: those there are do it

@@ -20,18 +20,18 @@ constexpr double kLatenessCost = 1e-6;
 struct Field {
   const fem::Grid& grid;
   std::vector<double> lateness;  ///< 0..1 in the order of failing; below 0 where nothing failed
-  bool failed(int element) const { return lateness[static_cast<std::size_t>(element)] >= 0.0; }
-  bool empty(int element) const { return grid.phase[static_cast<std::size_t>(element)] == fem::Phase::empty; }
+  bool failed(int element) const { return lateness[element] >= 0.0; }
+  bool empty(int element) const { return grid.phase[element] == fem::Phase::empty; }
   int column(int element) const { return element % grid.columns; }
 };
 
 Field field_of(const fem::Grid& grid, const std::vector<tester::Break>& order) {
-  Field field{grid, std::vector<double>(static_cast<std::size_t>(grid.element_count()), -1.0)};
+  Field field{grid, std::vector<double>(grid.element_count(), -1.0)};
   const double last = order.empty() ? 0.0 : order.back().strain;
   for (const tester::Break& broken : order) {
     assert(broken.element >= 0 && broken.element < grid.element_count() && !field.empty(broken.element));
     // By strain, not by place in the list: elements of one step failed together.
-    field.lateness[static_cast<std::size_t>(broken.element)] = last > 0.0 ? broken.strain / last : 0.0;
+    field.lateness[broken.element] = last > 0.0 ? broken.strain / last : 0.0;
   }
   return field;
 }
@@ -54,15 +54,14 @@ std::vector<int> cheapest_way(const Field& field, const std::vector<int>& from,
                               const std::vector<tester::Break>& order) {
   const auto cost = [&](int e) {
     if (field.empty(e)) return 1.0;
-    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[static_cast<std::size_t>(e)] : kStandingCost;
+    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[e] : kStandingCost;
   };
   int right = 0;
   for (const tester::Break& broken : order) right = std::max(right, field.column(broken.element));
   const auto arrived = [&](int e) { return field.failed(e) && field.column(e) == right; };
   const Distances distances = distances_from(field.grid, from, cost, arrived);
   std::vector<int> way;
-  for (int e = *distances.arrived; e >= 0 && !field.empty(e); e = distances.previous[static_cast<std::size_t>(e)])
-    way.push_back(e);
+  for (int e = *distances.arrived; e >= 0 && !field.empty(e); e = distances.previous[e]) way.push_back(e);
   std::reverse(way.begin(), way.end());
   return way;
 }
@@ -79,7 +78,7 @@ Path measured(const Field& field, std::vector<int> way) {
     length += share;
     if (!field.failed(way[i])) continue;
     failed_length += share;
-    path.material[static_cast<std::size_t>(grid.phase[static_cast<std::size_t>(way[i])])] += share;
+    path.material[grid.phase[way[i]]] += share;
   }
   for (double& share : path.material) share /= failed_length;
   const auto [left, right] = std::minmax({field.column(way.front()), field.column(way.back())});
@@ -102,13 +101,13 @@ std::vector<int> tips_of_branches(const Field& field, const std::vector<int>& pa
     if (field.failed(e)) taken.push_back(e);
   Distances distances = distances_from(field.grid, taken, cost);
   for (const tester::Break& broken : order)
-    if (!std::isfinite(distances.cost[static_cast<std::size_t>(broken.element)])) unreached.push_back(broken.element);
+    if (!std::isfinite(distances.cost[broken.element])) unreached.push_back(broken.element);
   std::vector<int> tips;
   while (true) {
     int tip = -1;
     double farthest = shortest;
     for (const tester::Break& broken : order) {
-      const double distance = distances.cost[static_cast<std::size_t>(broken.element)];
+      const double distance = distances.cost[broken.element];
       if (!std::isfinite(distance) || distance < farthest || (distance == farthest && tip >= 0)) continue;
       farthest = distance;
       tip = broken.element;
@@ -116,7 +115,7 @@ std::vector<int> tips_of_branches(const Field& field, const std::vector<int>& pa
     if (tip < 0) return tips;
     tips.push_back(tip);
     std::vector<int> branch;
-    for (int e = tip; e >= 0; e = distances.previous[static_cast<std::size_t>(e)]) branch.push_back(e);
+    for (int e = tip; e >= 0; e = distances.previous[e]) branch.push_back(e);
     shorten(field.grid, branch, cost, distances);
   }
 }
@@ -126,8 +125,8 @@ int count_groups(const Field& field, std::vector<int> elements) {
   int groups = 0;
   while (!elements.empty()) {
     const Distances distances = distances_from(field.grid, {elements.front()}, cost);
-    const auto rest = std::partition(elements.begin(), elements.end(),
-                                     [&](int e) { return std::isfinite(distances.cost[static_cast<std::size_t>(e)]); });
+    const auto rest =
+        std::partition(elements.begin(), elements.end(), [&](int e) { return std::isfinite(distances.cost[e]); });
     if (rest - elements.begin() >= kSmallestCrackElements) ++groups;
     elements.erase(elements.begin(), rest);
   }

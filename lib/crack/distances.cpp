@@ -16,7 +16,7 @@ void spread(const fem::Grid& grid, Queue& queue, const ElementCost& cost, const 
   while (!queue.empty()) {
     const auto [distance, element] = queue.top();
     queue.pop();
-    if (distance > distances.cost[static_cast<std::size_t>(element)]) continue;  // a shorter way was found meanwhile
+    if (distance > distances.cost[element]) continue;  // a shorter way was found meanwhile
     if (arrived && arrived(element)) {
       distances.arrived = element;
       return;
@@ -29,9 +29,9 @@ void spread(const fem::Grid& grid, Queue& queue, const ElementCost& cost, const 
         if (next == element) continue;
         const double length = r != row && c != column ? std::numbers::sqrt2 : 1.0;
         const double reached = distance + 0.5 * length * (own_cost + cost(next));
-        if (!(reached < distances.cost[static_cast<std::size_t>(next)])) continue;
-        distances.cost[static_cast<std::size_t>(next)] = reached;
-        distances.previous[static_cast<std::size_t>(next)] = element;
+        if (!(reached < distances.cost[next])) continue;
+        distances.cost[next] = reached;
+        distances.previous[next] = element;
         queue.emplace(reached, next);
       }
   }
@@ -39,8 +39,8 @@ void spread(const fem::Grid& grid, Queue& queue, const ElementCost& cost, const 
 
 void add_origins(const std::vector<int>& origins, Queue& queue, Distances& distances) {
   for (const int element : origins) {
-    distances.cost[static_cast<std::size_t>(element)] = 0.0;
-    distances.previous[static_cast<std::size_t>(element)] = -1;
+    distances.cost[element] = 0.0;
+    distances.previous[element] = -1;
     queue.emplace(0.0, element);
   }
 }

@@ -9,7 +9,7 @@
 namespace nacre::crack {
 namespace {
 
-fem::Phase phase_of(const fem::Grid& grid, int element) { return grid.phase[static_cast<std::size_t>(element)]; }
+fem::Phase phase_of(const fem::Grid& grid, int element) { return grid.phase[element]; }
 
 /// The tip passes an element of the path when that and all failed ones before it have failed. What it waited for is the
 /// element that failed last, soft or not.

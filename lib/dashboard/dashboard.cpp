@@ -52,7 +52,7 @@ std::string model_of(const Request& request) {
 
 /// What would change nothing.
 Response void_response(const std::string& reason) {
-  return json_response({{"answer", to_string(Answer::conflicting)}, {"error", reason}}, 409);
+  return json_response({{"answer", to_string(Delivery::conflicting)}, {"error", reason}}, 409);
 }
 
 bool is_round(const std::string& model) { return model.find_first_not_of("0123456789") == std::string::npos; }
@@ -78,7 +78,7 @@ Response binary(std::string bytes) {
 
 }  // namespace
 
-Dashboard::Dashboard(Settings settings, Desk& desk)
+Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
     : settings_(std::move(settings)),
       desk_(desk),
       data_(settings_.run_folder),
@@ -106,7 +106,7 @@ const std::map<std::string, Dashboard::Route>& Dashboard::readings() {
 
 const std::map<std::string, Dashboard::Route>& Dashboard::entries() {
   static const std::map<std::string, Route> routes = {{"/api/measurement", &Dashboard::enter},
-                                                      {"/api/review", &Dashboard::judge},
+                                                      {"/api/review", &Dashboard::review},
                                                       {"/api/approval", &Dashboard::decide},
                                                       {"/api/simulate", &Dashboard::simulate},
                                                       {"/api/grouping", &Dashboard::group}};
@@ -311,14 +311,14 @@ Response Dashboard::report(const Request&) {
               {"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
 }
 
-Response Dashboard::answered(Answer answer, const std::vector<std::string>& doubts) {
+Response Dashboard::answered(Delivery answer, const std::vector<std::string>& doubts) {
   laboratory_fresh_until_us_ = 0;
-  const int status = answer == Answer::unanswered ? 504 : answer == Answer::conflicting ? 409 : 200;
+  const int status = answer == Delivery::unanswered ? 504 : answer == Delivery::conflicting ? 409 : 200;
   Json json = {{"answer", to_string(answer)}};
   if (!doubts.empty()) json["doubts"] = doubts;
-  if (answer == Answer::unanswered)
+  if (answer == Delivery::unanswered)
     json["error"] = "not every node answered: does the game play? Handing it in again is safe.";
-  if (answer == Answer::conflicting)
+  if (answer == Delivery::conflicting)
     json["error"] = "the run has another measurement of this name, which stays: take a new name, or judge the old one";
   return json_response(json, status);
 }
@@ -329,18 +329,18 @@ Response Dashboard::enter(const Request& request) {
   return answered(desk_.enter(specimen), desk_.doubts_about(specimen));
 }
 
-Response Dashboard::judge(const Request& request) {
-  const auto judgement = or_refuse(judgement_from_json(request.body));
+Response Dashboard::review(const Request& request) {
+  const auto review = or_refuse(specimen_review_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  if (const auto reason = desk_.against(judgement)) return void_response(*reason);
-  return answered(desk_.judge(judgement));
+  if (const auto reason = desk_.against(review)) return void_response(*reason);
+  return answered(desk_.review(review));
 }
 
 Response Dashboard::decide(const Request& request) {
-  const auto decision = or_refuse(decision_from_json(request.body));
+  const auto approval = or_refuse(approval_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  if (const auto reason = desk_.against(decision)) return void_response(*reason);
-  return answered(desk_.decide(decision));
+  if (const auto reason = desk_.against(approval)) return void_response(*reason);
+  return answered(desk_.decide(approval));
 }
 
 Response Dashboard::group(const Request& request) {
@@ -352,18 +352,18 @@ Response Dashboard::group(const Request& request) {
         throw Unanswerable{400, fmt::format("{}: seed {} is not measured in both tests", family.name, seed.key())};
   const std::lock_guard lock(desk_mutex_);
   desk_.keep_grouping(family_folder_.path(), grouping);
-  return answered(Answer::accepted);
+  return answered(Delivery::accepted);
 }
 
-std::string_view to_string(Answer answer) {
+std::string_view to_string(Delivery answer) {
   switch (answer) {
-    case Answer::accepted:
+    case Delivery::accepted:
       return "accepted";
-    case Answer::repeated:
+    case Delivery::repeated:
       return "repeated";
-    case Answer::conflicting:
+    case Delivery::conflicting:
       return "conflicting";
-    case Answer::unanswered:
+    case Delivery::unanswered:
       break;
   }
   return "unanswered";

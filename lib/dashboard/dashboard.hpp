@@ -18,7 +18,7 @@
 
 namespace nacre::dashboard {
 
-struct Settings {
+struct DashboardSettings {
   std::filesystem::path run_folder;
   std::filesystem::path page_folder;
   std::filesystem::path family_folder;  ///< of `nacre families`; need not exist
@@ -31,7 +31,7 @@ struct Settings {
 class Dashboard {
  public:
   /// `desk` must outlive it.
-  Dashboard(Settings settings, Desk& desk);
+  Dashboard(DashboardSettings settings, Desk& desk);
   /// Never throws: what is wrong comes back as a status with `{"error": ...}`.
   Response handle(const Request& request);
 
@@ -55,7 +55,7 @@ class Dashboard {
   Response families(const Request&);
   Response report(const Request&);
   Response enter(const Request&);
-  Response judge(const Request&);
+  Response review(const Request&);
   Response decide(const Request&);
   Response simulate(const Request&);
   Response group(const Request&);
@@ -76,9 +76,9 @@ class Dashboard {
   bool is_by_game(const Breaking& breaking);
   Background::State made(const Breaking& breaking);
   Json simulation_state(const Breaking& breaking);
-  Response answered(Answer answer, const std::vector<std::string>& doubts = {});
+  Response answered(Delivery answer, const std::vector<std::string>& doubts = {});
 
-  Settings settings_;
+  DashboardSettings settings_;
   Desk& desk_;
   std::mutex desk_mutex_;  ///< the desk serves one at a time
   Json laboratory_;        ///< as last read; reading a long journal takes a while

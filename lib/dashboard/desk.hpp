@@ -18,16 +18,16 @@
 namespace nacre::dashboard {
 
 /// What became of something that was handed in.
-enum class Answer {
+enum class Delivery {
   accepted,     ///< every node that listens has it
   repeated,     ///< the validation agent had it already
   conflicting,  ///< it has a specimen of this name with other content, which stays
   unanswered,   ///< a node did not answer in time
 };
-std::string_view to_string(Answer answer);
+std::string_view to_string(Delivery answer);
 
 /// A person's yes or no to a proposed design; round -1: a design of the person's own, to be measured too.
-struct Decision {
+struct Approval {
   std::string design;
   int round = -1;
   bool approved = true;
@@ -35,7 +35,7 @@ struct Decision {
 };
 
 /// A person's judgement on one specimen.
-struct Judgement {
+struct SpecimenReview {
   std::string specimen;
   bool valid = true;
   std::string by, why;
@@ -76,12 +76,12 @@ class Desk {
   /// What a person should look at again in a specimen that was handed in, as sentences.
   virtual std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) = 0;
   // Handing in: waits for the validation agent for some seconds.
-  virtual Answer enter(const measurement::SpecimenRecord& specimen) = 0;
-  virtual Answer judge(const Judgement& judgement) = 0;
-  virtual Answer decide(const Decision& decision) = 0;
+  virtual Delivery enter(const measurement::SpecimenRecord& specimen) = 0;
+  virtual Delivery review(const SpecimenReview& review) = 0;
+  virtual Delivery decide(const Approval& approval) = 0;
   /// Why a judgement or a decision would change nothing, as a sentence; nothing where it counts.
-  virtual std::optional<std::string> against(const Judgement& judgement) = 0;
-  virtual std::optional<std::string> against(const Decision& decision) = 0;
+  virtual std::optional<std::string> against(const SpecimenReview& review) = 0;
+  virtual std::optional<std::string> against(const Approval& approval) = 0;
   /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is
   /// called.
   virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;

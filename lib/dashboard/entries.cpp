@@ -105,7 +105,7 @@ Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text) {
   return std::move(*specimen);
 }
 
-Result<Judgement> judgement_from_json(std::string_view text) {
+Result<SpecimenReview> specimen_review_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
   const auto specimen = text_of(*object, "specimen", true), by = text_of(*object, "by", true),
@@ -114,10 +114,10 @@ Result<Judgement> judgement_from_json(std::string_view text) {
   for (const auto* each : {&specimen, &by, &why})
     if (!*each) return tl::unexpected(each->error());
   if (!valid) return tl::unexpected(valid.error());
-  return Judgement{*specimen, *valid, *by, *why};
+  return SpecimenReview{*specimen, *valid, *by, *why};
 }
 
-Result<Decision> decision_from_json(std::string_view text) {
+Result<Approval> approval_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
   const auto design = design_of(*object, "design");
@@ -130,7 +130,7 @@ Result<Decision> decision_from_json(std::string_view text) {
   if (!by) return tl::unexpected(by.error());
   if (!why) return tl::unexpected(why.error());
   if (*round < 0 && !*approved) return fail("approved: a design of one's own is only ever asked for, expected true");
-  return Decision{design->name(), *round, *approved, *by, *why};
+  return Approval{design->name(), *round, *approved, *by, *why};
 }
 
 Result<std::vector<families::Family>> grouping_from_json(std::string_view text) {

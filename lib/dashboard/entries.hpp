@@ -14,10 +14,10 @@ namespace nacre::dashboard {
 Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text);
 
 /// `specimen`, `valid`, `by`, `why` (not empty).
-Result<Judgement> judgement_from_json(std::string_view text);
+Result<SpecimenReview> specimen_review_from_json(std::string_view text);
 
 /// `design` (canonical name), `round` (-1 or absent: a design of the person's own), `approved`, `by`, `why`.
-Result<Decision> decision_from_json(std::string_view text);
+Result<Approval> approval_from_json(std::string_view text);
 
 /// What a model is asked for by: the number of a round or the name of a family.
 bool is_model_name(std::string_view name);

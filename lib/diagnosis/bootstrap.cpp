@@ -13,7 +13,7 @@ namespace {
 /// Whitened projector off the anchor's free coordinates: data rows, then the prior's rows.
 class Projector {
  public:
-  Projector(const Fit& fit, const Whitener& whitener) : fit_(fit), whitener_(whitener) {
+  Projector(const FittedModel& fit, const Whitener& whitener) : fit_(fit), whitener_(whitener) {
     const Eigen::MatrixXd a = fit.whitened_columns(whitener);
     q_ = a.householderQr().householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
   }
@@ -29,7 +29,7 @@ class Projector {
 
  private:
   Eigen::MatrixXd off(const Eigen::MatrixXd& b) const { return b - q_ * (q_.transpose() * b); }
-  const Fit& fit_;
+  const FittedModel& fit_;
   const Whitener& whitener_;
   Eigen::MatrixXd q_;
 };
@@ -58,7 +58,7 @@ std::vector<std::size_t> parts_of_rows(const Observations& observations) {
   for (const Row& row : observations.rows) {
     parts.push_back(static_cast<std::size_t>(row.test));
     if (row.group < 0 || row.test != tester::TestKind::tensile) continue;
-    const std::string material = observations.groups[static_cast<std::size_t>(row.group)].material();
+    const std::string material = observations.groups[row.group].material();
     parts.back() = materials.emplace(material, kTests + materials.size()).first->second;
   }
   return parts;
@@ -83,13 +83,13 @@ DataSource::DataSource(const Observations& observations)
     to_combinations_(Eigen::seqN(next, count), rows) =
         shares.eigenvectors().transpose() * whitener(Eigen::MatrixXd::Identity(count, count));
     scatter_share_.segment(next, count) = shares.eigenvalues();
-    scatter_.insert(scatter_.end(), rows.size(), observations.rows[static_cast<std::size_t>(rows.front())].scatter);
+    scatter_.insert(scatter_.end(), rows.size(), observations.rows[rows.front()].scatter);
     parts_.insert(parts_.end(), rows.size(), part);
     next += count;
   }
 }
 
-Fit DataSource::combined(Fit fit) const {
+FittedModel DataSource::combined(FittedModel fit) const {
   fit.predicted = combined(Eigen::MatrixXd(fit.predicted));
   fit.jacobian = combined(fit.jacobian);
   return fit;
@@ -113,7 +113,7 @@ ScatterFactors DataSource::draw_factors(RandomStream& random) const {
 Eigen::VectorXd DataSource::variances(const ScatterFactors& factors) const {
   Eigen::VectorXd variances(scatter_share_.size());
   for (Eigen::Index i = 0; i < variances.size(); ++i)
-    variances[i] = 1.0 + (factors[scatter_[static_cast<std::size_t>(i)]] - 1.0) * scatter_share_[i];
+    variances[i] = 1.0 + (factors[scatter_[i]] - 1.0) * scatter_share_[i];
   return variances;
 }
 
@@ -130,7 +130,7 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   statistics.chi2 = residual.squaredNorm();
   for (std::size_t i = 0; i < anchor.parts.size(); ++i) {
     statistics.parts.resize(std::max(statistics.parts.size(), anchor.parts[i] + 1));
-    statistics.parts[anchor.parts[i]] += std::pow(residual[static_cast<Eigen::Index>(i)], 2);
+    statistics.parts[anchor.parts[i]] += std::pow(residual[i], 2);
   }
   for (const Signature& signature : anchor.signatures) {
     const Eigen::MatrixXd g = projector.projected(signature.changes);
@@ -145,8 +145,7 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   // Directions are given in the features' own units; whitened and projected they are contrasts that noise scatters with
   // unit variance.
   Eigen::MatrixXd directions(data.values.size(), static_cast<Eigen::Index>(anchor.directions.size()));
-  for (Eigen::Index k = 0; k < directions.cols(); ++k)
-    directions.col(k) = anchor.directions[static_cast<std::size_t>(k)].values;
+  for (Eigen::Index k = 0; k < directions.cols(); ++k) directions.col(k) = anchor.directions[k].values;
   const Eigen::MatrixXd whitened = projector.whitened(directions), g = projector.projected(directions);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     const double length = g.col(k).norm();
@@ -159,23 +158,22 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
 
 std::vector<DrawStatistics> bootstrap_anchor(const Anchor& anchor, const Observations& observations, int count,
                                              std::uint64_t seed) {
-  std::vector<DrawStatistics> draws(static_cast<std::size_t>(count));
+  std::vector<DrawStatistics> draws(count);
   const DataSource source(observations);
   const Anchor combined = source.combined(anchor);
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "anchor/" + std::to_string(i));
-    draws[static_cast<std::size_t>(i)] = anchor_statistics(combined, source.draw(combined.fit.predicted, random));
+    draws[i] = anchor_statistics(combined, source.draw(combined.fit.predicted, random));
   });
   return draws;
 }
 
-RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations,
-                                int count, std::uint64_t seed) {
-  RivalStatistics statistics{std::vector<double>(static_cast<std::size_t>(count)),
-                             std::vector<double>(static_cast<std::size_t>(count))};
+RivalStatistics bootstrap_rival(const std::vector<FittedModel>& rivals, std::size_t truth,
+                                const Observations& observations, int count, std::uint64_t seed) {
+  RivalStatistics statistics{std::vector<double>(count), std::vector<double>(count)};
   const DataSource source(observations);
-  std::vector<Fit> combined;
-  for (const Fit& rival : rivals) combined.push_back(source.combined(rival));
+  std::vector<FittedModel> combined;
+  for (const FittedModel& rival : rivals) combined.push_back(source.combined(rival));
   parallel_for(count, [&](int i) {
     RandomStream random(seed, "rival/" + std::to_string(truth) + "/" + std::to_string(i));
     const NoisyData data = source.draw(combined[truth].predicted, random);
@@ -184,8 +182,8 @@ RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t trut
     for (std::size_t k = 0; k < combined.size(); ++k) {
       if (k != truth) best_other = std::min(best_other, linear_refit(combined[k], data.values, data.whitener));
     }
-    statistics.chi2[static_cast<std::size_t>(i)] = own;
-    statistics.lead_of_best_other[static_cast<std::size_t>(i)] = own - best_other;
+    statistics.chi2[i] = own;
+    statistics.lead_of_best_other[i] = own - best_other;
   });
   return statistics;
 }
@@ -234,12 +232,13 @@ std::size_t loudest_part(const std::vector<DrawStatistics>& draws, const DrawSta
   return loudest;
 }
 
-SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener) {
+SignatureSize signature_size(const FittedModel& anchor, const Eigen::VectorXd& change, const Whitener& whitener) {
   const Projector projector(anchor, whitener);
   return {projector.whitened(change).norm(), projector.projected(change).norm()};
 }
 
-Eigen::MatrixXd projected_signatures(const Fit& anchor, const Eigen::MatrixXd& changes, const Whitener& whitener) {
+Eigen::MatrixXd projected_signatures(const FittedModel& anchor, const Eigen::MatrixXd& changes,
+                                     const Whitener& whitener) {
   return Projector(anchor, whitener).projected(changes);
 }
 

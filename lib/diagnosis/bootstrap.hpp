@@ -31,7 +31,7 @@ struct DrawStatistics {
 
 /// An anchor model with the effects that may be added to it and the directions its residuals are looked at along.
 struct Anchor {
-  Fit fit;
+  FittedModel fit;
   std::vector<Signature> signatures;
   std::vector<ContrastDirection> directions;
   std::vector<std::size_t> parts;  ///< of each row: chi2 is also looked at part by part
@@ -55,7 +55,7 @@ class DataSource {
   explicit DataSource(const Observations& observations);
   /// Columns over the rows, as columns over the combinations.
   Eigen::MatrixXd combined(const Eigen::MatrixXd& columns) const { return to_combinations_ * columns; }
-  Fit combined(Fit fit) const;
+  FittedModel combined(FittedModel fit) const;
   Anchor combined(Anchor anchor) const;
   /// Variances of the combinations where replicates scatter by these factors; 1 where all factors are 1.
   Eigen::VectorXd variances(const ScatterFactors& factors) const;
@@ -86,8 +86,8 @@ struct RivalStatistics {
   std::vector<double> chi2;
   std::vector<double> lead_of_best_other;
 };
-RivalStatistics bootstrap_rival(const std::vector<Fit>& rivals, std::size_t truth, const Observations& observations,
-                                int count, std::uint64_t seed);
+RivalStatistics bootstrap_rival(const std::vector<FittedModel>& rivals, std::size_t truth,
+                                const Observations& observations, int count, std::uint64_t seed);
 
 /// (1 + number of draws at least as large) / (1 + draws).
 double exceedance(const std::vector<double>& draws, double observed);
@@ -110,8 +110,9 @@ struct SignatureSize {
   /// Share that the anchor imitates: 1 - projected^2 / whitened^2.
   double absorption() const { return whitened > 0.0 ? 1.0 - projected * projected / (whitened * whitened) : 1.0; }
 };
-SignatureSize signature_size(const Fit& anchor, const Eigen::VectorXd& change, const Whitener& whitener);
+SignatureSize signature_size(const FittedModel& anchor, const Eigen::VectorXd& change, const Whitener& whitener);
 /// Signatures as columns, whitened and projected off the anchor's tangent space.
-Eigen::MatrixXd projected_signatures(const Fit& anchor, const Eigen::MatrixXd& changes, const Whitener& whitener);
+Eigen::MatrixXd projected_signatures(const FittedModel& anchor, const Eigen::MatrixXd& changes,
+                                     const Whitener& whitener);
 
 }  // namespace nacre::diagnosis

@@ -9,8 +9,8 @@
 namespace nacre::diagnosis {
 namespace {
 
-bool holds(const std::vector<Fit>& fits, const std::string& effect) {
-  return std::any_of(fits.begin(), fits.end(), [&](const Fit& f) {
+bool holds(const std::vector<FittedModel>& fits, const std::string& effect) {
+  return std::any_of(fits.begin(), fits.end(), [&](const FittedModel& f) {
     return std::find(f.effects.begin(), f.effects.end(), effect) != f.effects.end();
   });
 }
@@ -49,16 +49,16 @@ std::optional<double> smallest_strength(std::span<const double> strengths, const
   return std::nullopt;
 }
 
-std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision) {
+std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decision& decision) {
   const Whitener whitener(evidence.observations.covariance());
   Eigen::MatrixXd changes(evidence.observations.size(), static_cast<Eigen::Index>(evidence.effects.size()));
   for (std::size_t k = 0; k < evidence.effects.size(); ++k)
     changes.col(static_cast<Eigen::Index>(k)) =
         change_of(evidence, k, decision.p_family_wise[k] <= evidence.settings.name_level);
   const Eigen::MatrixXd projected = projected_signatures(evidence.base.fit, changes, whitener);
-  std::vector<Candidate> candidates;
+  std::vector<CandidateEffect> candidates;
   for (const material::Effect& effect : material::effect_library()) {
-    Candidate candidate;
+    CandidateEffect candidate;
     candidate.name = effect.name;
     const auto found = std::find(evidence.effects.begin(), evidence.effects.end(), effect.name);
     if (found == evidence.effects.end()) {
@@ -67,7 +67,7 @@ std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& d
       continue;
     }
     const auto k = static_cast<std::size_t>(found - evidence.effects.begin());
-    const Fit& single = evidence.singles[k];
+    const FittedModel& single = evidence.singles[k];
     const SignatureSize typical =
         signature_size(evidence.base.fit, evidence.base.signatures[k].changes.col(kTypicalSize), whitener);
     candidate.statistic = evidence.base.fit.chi2 - single.chi2;

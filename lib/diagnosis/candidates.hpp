@@ -35,7 +35,7 @@ std::optional<double> smallest_strength(std::span<const double> strengths, const
 /// What became of every effect of the library: fitted size and drop, absorption, signal-to-noise at the fitted size
 /// where it was noticed and at a typical one otherwise (0.3 of its range), and its nearest rival among the effects that
 /// act.
-std::vector<Candidate> candidates_of(const Evidence& evidence, const Decision& decision);
+std::vector<CandidateEffect> candidates_of(const Evidence& evidence, const Decision& decision);
 
 /// The finest thing that all possible models share: an effect, a family, the material or measurement side; empty:
 /// nothing.

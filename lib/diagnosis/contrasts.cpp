@@ -70,7 +70,7 @@ double rigid_percolates(const Layout& layout) {
   std::array<std::array<bool, kSide>, kSide> seen{};
   std::vector<std::pair<int, int>> open;
   for (int c = 0; c < kSide; ++c) {
-    if (layout.rigid(0, c)) open.emplace_back(0, c), seen[0][static_cast<std::size_t>(c)] = true;
+    if (layout.rigid(0, c)) open.emplace_back(0, c), seen[0][c] = true;
   }
   constexpr std::array<std::pair<int, int>, 4> kNeighbours = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   while (!open.empty()) {
@@ -79,10 +79,8 @@ double rigid_percolates(const Layout& layout) {
     if (r == kSide - 1) return 1.0;
     for (const auto& [dr, dc] : kNeighbours) {
       const int nr = r + dr, nc = (c + dc + kSide) % kSide;
-      if (nr < 0 || nr >= kSide || !layout.rigid(nr, nc) ||
-          seen[static_cast<std::size_t>(nr)][static_cast<std::size_t>(nc)])
-        continue;
-      seen[static_cast<std::size_t>(nr)][static_cast<std::size_t>(nc)] = true;
+      if (nr < 0 || nr >= kSide || !layout.rigid(nr, nc) || seen[nr][nc]) continue;
+      seen[nr][nc] = true;
       open.emplace_back(nr, nc);
     }
   }
@@ -124,7 +122,7 @@ void add_if_varying(std::vector<ContrastDirection>& directions, const std::strin
 std::vector<int> rows_of(const Observations& observations, Feature feature, tester::TestKind test) {
   std::vector<int> rows;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     if (row.probe == Probe::mean && row.feature == feature && row.test == test) rows.push_back(i);
   }
   return rows;
@@ -190,7 +188,7 @@ std::vector<ContrastDirection> contrast_directions(const Observations& observati
                      spread(observations, rows, descriptor.of), rows);
   }
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     if (row.probe == Probe::mean || row.probe == Probe::batch_rest) continue;
     directions.push_back({fmt::format("{} from {} to the next", in_words(row.feature),
                                       row.probe == Probe::batch ? "one batch" : "one specimen printed"),
@@ -210,7 +208,7 @@ std::vector<ContrastDirection> even_directions(const Observations& observations)
       Descriptor{"thickness", [](const Observation& g) { return 1.0 / g.conditions.thickness_mm; }}};
   std::vector<int> rows;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     const bool scales = row.feature == Feature::log_modulus || is_curve_stress(row.feature);
     if (row.probe == Probe::mean && scales) rows.push_back(i);
   }

@@ -40,7 +40,7 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
   const auto add_moduli = [&](Block block, material::FitTarget target) {
     for (int i = 0; i < 6; ++i) {
       const bool logarithmic = i < 3;
-      const Bounds b = widened(basis.ranges.modulus(target)[static_cast<std::size_t>(i)], logarithmic);
+      const Bounds b = widened(basis.ranges.modulus(target)[i], logarithmic);
       base_.push_back({block, i, b.low, b.high, logarithmic, kWidePrior});
     }
   };
@@ -63,8 +63,8 @@ CoordinateMap::CoordinateMap(const Basis& basis, std::span<const std::string> ef
 }
 
 const material::EffectParameter& CoordinateMap::parameter_of(int i) const {
-  const EffectCoordinate& c = extension_[static_cast<std::size_t>(i - base_count())];
-  return c.effect->parameters[static_cast<std::size_t>(c.parameter)];
+  const EffectCoordinate& c = extension_[i - base_count()];
+  return c.effect->parameters[c.parameter];
 }
 
 double CoordinateMap::lower(int i) const {
@@ -94,8 +94,7 @@ double CoordinateMap::plain(const BaseCoordinate& c, double u) const {
 }
 
 double CoordinateMap::value(int i, double u) const {
-  return i >= base_count() ? material::value_at_strength(parameter_of(i), u)
-                           : plain(base_[static_cast<std::size_t>(i)], u);
+  return i >= base_count() ? material::value_at_strength(parameter_of(i), u) : plain(base_[i], u);
 }
 
 std::vector<std::string> CoordinateMap::moduli_at_an_end(const Eigen::VectorXd& u) const {
@@ -103,10 +102,10 @@ std::vector<std::string> CoordinateMap::moduli_at_an_end(const Eigen::VectorXd& 
   constexpr int kModuli = 3;
   std::vector<std::string> found;
   for (int i = 0; i < base_count(); ++i) {
-    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    const BaseCoordinate& c = base_[i];
     if (c.block == Block::toughness || c.index >= kModuli || std::min(u[i], 1.0 - u[i]) > kEnd) continue;
-    found.push_back(fmt::format("{} = {:.3g}{}", material::modulus_parameter_names()[static_cast<std::size_t>(c.index)],
-                                value(i, u[i]), c.block == Block::coupon ? " of coupons" : ""));
+    found.push_back(fmt::format("{} = {:.3g}{}", material::modulus_parameter_names()[c.index], value(i, u[i]),
+                                c.block == Block::coupon ? " of coupons" : ""));
   }
   return found;
 }
@@ -124,9 +123,9 @@ material::ParameterSet CoordinateMap::parameters(const Eigen::VectorXd& u) const
   material::ModulusVector theta = to_vector(set.modulus);
   material::ToughnessVector eta = to_vector(set.toughness);
   for (int i = 0; i < base_count(); ++i) {
-    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
-    if (c.block == Block::modulus) theta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
-    if (c.block == Block::toughness) eta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
+    const BaseCoordinate& c = base_[i];
+    if (c.block == Block::modulus) theta[c.index] = plain(c, u[i]);
+    if (c.block == Block::toughness) eta[c.index] = plain(c, u[i]);
   }
   set.modulus = material::modulus_from_vector(theta);
   set.toughness = material::toughness_from_vector(eta);
@@ -137,8 +136,8 @@ material::ParameterSet CoordinateMap::coupon_parameters(const Eigen::VectorXd& u
   material::ParameterSet set = centre_;
   material::ModulusVector theta = to_vector(centre_.modulus);
   for (int i = 0; i < base_count(); ++i) {
-    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
-    if (c.block == Block::coupon) theta[static_cast<std::size_t>(c.index)] = plain(c, u[i]);
+    const BaseCoordinate& c = base_[i];
+    if (c.block == Block::coupon) theta[c.index] = plain(c, u[i]);
   }
   set.modulus = material::modulus_from_vector(theta);
   return with_extensions(std::move(set), u);
@@ -149,7 +148,7 @@ Eigen::VectorXd CoordinateMap::coordinates(const material::ParameterSet& paramet
   const material::ToughnessVector eta = to_vector(parameters.toughness);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(size());
   for (int i = 0; i < base_count(); ++i) {
-    const BaseCoordinate& c = base_[static_cast<std::size_t>(i)];
+    const BaseCoordinate& c = base_[i];
     const auto index = static_cast<std::size_t>(c.index);
     const double plain_value = c.block == Block::toughness ? eta[index] : theta[index];
     const double x = c.logarithmic ? std::log(plain_value) : plain_value;

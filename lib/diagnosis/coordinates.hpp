@@ -41,7 +41,7 @@ class CoordinateMap {
   double lower(int i) const;
   double upper(int i) const;
   /// Standard deviation of the prior of a base coordinate about its middle, 0.5.
-  double prior_sd(int i) const { return base_[static_cast<std::size_t>(i)].prior_sd; }
+  double prior_sd(int i) const { return base_[i].prior_sd; }
   /// Young's moduli whose base coordinate is an end of what is searched, `e_vw_pa = 1.39e+09` (`... of coupons`): no
   /// prior would leave them there, the ranges are those of other inks.
   std::vector<std::string> moduli_at_an_end(const Eigen::VectorXd& u) const;

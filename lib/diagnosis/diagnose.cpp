@@ -3,12 +3,12 @@
 #include <numeric>
 
 #include "base/result.hpp"
+#include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/effect_size.hpp"
 #include "diagnosis/experiments.hpp"
 #include "diagnosis/gain.hpp"
-#include "diagnosis/looked_for.hpp"
-#include "diagnosis/named_size.hpp"
 #include "diagnosis/procedure.hpp"
 #include "diagnosis/sanity.hpp"
 #include "diagnosis/verdict.hpp"
@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kNextExperiments = 4;
 
-std::string names_of(const std::vector<Fit>& fits) {
+std::string names_of(const std::vector<FittedModel>& fits) {
   std::string text;
-  for (const Fit& fit : fits) {
+  for (const FittedModel& fit : fits) {
     if (!text.empty()) text += ", or ";
     text += in_words(fit.effects);
   }
@@ -80,26 +80,27 @@ std::string specimens_in_words(const Observations& observations, std::size_t par
   const std::vector<std::size_t> parts = parts_of_rows(observations);
   const auto found = std::ranges::find(parts, part);
   if (found == parts.end()) return "";
-  const Row& row = observations.rows[static_cast<std::size_t>(found - parts.begin())];
+  const Row& row = observations.rows[found - parts.begin()];
   if (row.test == tester::TestKind::modulus) return "moduli";
   if (row.test == tester::TestKind::toughness) return "notched specimens";
   if (row.group < 0) return "coupons";
-  return observations.groups[static_cast<std::size_t>(row.group)].material() + " coupons";
+  return observations.groups[row.group].material() + " coupons";
 }
 
-std::vector<ResidualRow> residual_rows(const Observations& observations, const Fit& base, const Fit& extended) {
+std::vector<ResidualRow> residual_rows(const Observations& observations, const FittedModel& base,
+                                       const FittedModel& extended) {
   // What numerics share among rows is in the predictions, as far as these residuals tell it.
   const Eigen::VectorXd variances = observations.own_variances();
-  const auto with_numerics = [&](const Fit& fit) -> Eigen::VectorXd {
-    std::vector<Eigen::Index> all(static_cast<std::size_t>(observations.size()));
+  const auto with_discretisation = [&](const FittedModel& fit) -> Eigen::VectorXd {
+    std::vector<Eigen::Index> all(observations.size());
     std::iota(all.begin(), all.end(), 0);
-    return fit.predicted + observations.shared_numerics(observations.values - fit.predicted, all);
+    return fit.predicted + observations.shared_discretisation(observations.values - fit.predicted, all);
   };
-  const Eigen::VectorXd by_base = with_numerics(base), by_extended = with_numerics(extended);
+  const Eigen::VectorXd by_base = with_discretisation(base), by_extended = with_discretisation(extended);
   const std::vector<Descriptor> described = descriptors();
   std::vector<ResidualRow> rows;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     if (row.probe != Probe::mean) continue;
     const Observation& g = observations.group_of(i);
     ResidualRow shown{g.design.name(),
@@ -119,8 +120,8 @@ std::vector<ResidualRow> residual_rows(const Observations& observations, const F
 }
 
 /// Curves at both fits: fracture tests from the run nearest to the fit, coupons computed.
-std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observations& observations, const Fit& base,
-                                   const Fit& extended) {
+std::vector<GroupCurves> curves_of(const Workbench& workbench, const Observations& observations,
+                                   const FittedModel& base, const FittedModel& extended) {
   std::vector<GroupCurves> curves;
   for (std::size_t g = 0; g < observations.groups.size(); ++g) {
     const Observation& group = observations.groups[g];
@@ -165,18 +166,19 @@ std::string assumption_in_words(const Observations& observations) {
 }
 
 /// Models that the next test should separate: the rivals left, or what an unexplained misfit comes nearest to.
-std::vector<Fit> models_to_separate(const Evidence& evidence, const Decision& decision) {
+std::vector<FittedModel> models_to_separate(const Evidence& evidence, const Decision& decision) {
   if (decision.verdict == Verdict::ambiguous) return decision.possible;
   if (decision.verdict == Verdict::named) return {decision.possible.front(), evidence.base.fit};
   if (decision.verdict != Verdict::unexplained) return {};
-  std::vector<Fit> models = evidence.singles;
-  std::stable_sort(models.begin(), models.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+  std::vector<FittedModel> models = evidence.singles;
+  std::stable_sort(models.begin(), models.end(),
+                   [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
   models.resize(std::min<std::size_t>(models.size(), 3));
   models.push_back(evidence.base.fit);
   return models;
 }
 
-FittedConstants constants_of(const Evidence& evidence, const Fit& fit) {
+FittedConstants constants_of(const Evidence& evidence, const FittedModel& fit) {
   const Basis& basis = evidence.model.basis();
   FittedConstants constants;
   if (basis.modulus) constants.modulus = fit.parameters.modulus;
@@ -188,10 +190,10 @@ FittedConstants constants_of(const Evidence& evidence, const Fit& fit) {
 
 /// What finer elements change of a modulus along the shared directions, root mean square over the layouts: other rows
 /// know nothing of them.
-double shared_numerics_sd(const Observations& observations) {
+double shared_discretisation_sd(const Observations& observations) {
   int moduli = 0;
   for (int row = 0; row < observations.size(); ++row) moduli += is_modulus_of_layout(observations, row) ? 1 : 0;
-  return moduli > 0 ? observations.numerics_shared.norm() / std::sqrt(moduli) : 0.0;
+  return moduli > 0 ? observations.discretisation_shared.norm() / std::sqrt(moduli) : 0.0;
 }
 
 /// What the data are like, and what was tried on them.
@@ -205,11 +207,11 @@ void describe(Diagnosis& diagnosis, const Evidence& evidence, const Decision& de
   const auto [feature, test] = shown_scatter(observations);
   diagnosis.replicate_sd = observations.replicate_sd(feature, test);
   diagnosis.noise_known = observations.replicate_dof(test) > 0;
-  diagnosis.numerics_sd = observations.numerics_sd;
-  diagnosis.numerics_shared_sd = shared_numerics_sd(observations);
+  diagnosis.discretisation_sd = observations.discretisation_sd;
+  diagnosis.discretisation_shared_sd = shared_discretisation_sd(observations);
   diagnosis.base_fit = constants_of(evidence, evidence.base.fit);
   diagnosis.candidates = candidates_of(evidence, decision);
-  for (const Fit& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
+  for (const FittedModel& fit : decision.possible) diagnosis.possible.push_back(fit.effects);
   diagnosis.common_ground = common_ground(diagnosis.possible);
   for (const Descriptor& descriptor : descriptors()) diagnosis.descriptors.push_back(descriptor.name);
 }
@@ -337,10 +339,10 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
 
   Diagnosis diagnosis;
   describe(diagnosis, evidence, decision);
-  const Fit& decided = !decision.possible.empty() ? decision.possible.front()
-                       : decision.partial         ? *decision.partial
-                                                  : evidence.base.fit;
-  Fit extended = decided;
+  const FittedModel& decided = !decision.possible.empty() ? decision.possible.front()
+                               : decision.partial         ? *decision.partial
+                                                          : evidence.base.fit;
+  FittedModel extended = decided;
   if (decision.verdict == Verdict::named) {
     report(0.92, "the size of what is named");
     NamedModel named = measure_size(evidence, decided);
@@ -351,7 +353,7 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   diagnosis.residuals = residual_rows(observations, evidence.base.fit, extended);
   diagnosis.curves = curves_of(workbench, observations, evidence.base.fit, extended);
   if (decision.verdict == Verdict::named || decision.verdict == Verdict::unexplained) {
-    std::vector<Fit> models = evidence.singles;
+    std::vector<FittedModel> models = evidence.singles;
     // As it was decided, sizes free: folds must not know a size that all the data told.
     if (decided.effects.size() > 1) models.push_back(decided);
     const Gain gain =
@@ -364,8 +366,8 @@ Diagnosis diagnose(const std::vector<measurement::SpecimenRecord>& specimens, co
   if (workbench.runs()) diagnosis.simulations = workbench.runs()->simulations();
   diagnosis.procedure = procedure_hash(settings);
   report(0.98, "other numerics on three specimens");
-  if (settings.check_numerics)
-    diagnosis.sanity = check_numerics(observations, evidence.base.fit.parameters, settings.fidelity);
+  if (settings.check_discretisation)
+    diagnosis.sanity = check_discretisation(observations, evidence.base.fit.parameters, settings.fidelity);
   const CoordinateMap map(evidence.model.basis(), decided.effects);
   diagnosis.summary = summary_with_cautions(diagnosis, decision, observations, map.moduli_at_an_end(decided.u),
                                             groups_out_of_line(specimens));

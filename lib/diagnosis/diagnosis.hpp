@@ -9,8 +9,8 @@
 
 #include "base/result.hpp"
 #include "diagnosis/features.hpp"
+#include "diagnosis/fracture_discretisation.hpp"
 #include "diagnosis/modulus_floor.hpp"
-#include "diagnosis/numerics.hpp"
 #include "material/ranges.hpp"
 #include "measurement/measurement.hpp"
 #include "tester/loading.hpp"
@@ -42,7 +42,7 @@ struct NamedEffect {
 };
 
 /// What became of one effect of the library.
-struct Candidate {
+struct CandidateEffect {
   std::string name;
   std::string status;          ///< in_set, excluded, invisible, not_applicable
   double statistic = 0.0;      ///< drop of the weighted sum of squares when the effect is fitted jointly with the base
@@ -168,19 +168,20 @@ struct Diagnosis {
       possible;               ///< models that stay possible, the best first: names of their effects
   std::string common_ground;  ///< what the possible models share: "effect interface_anisotropy", "family geometry",
                               ///< "measurement side"; empty: nothing
-  std::vector<Candidate> candidates;  ///< in the order of the library
-  std::vector<Contrast> contrasts;    ///< strongest first
-  std::string loudest;                ///< specimens whose residuals are largest against their noise: "soft coupons"
-  std::optional<Gain> gain;           ///< of the named model
-  std::optional<Gain> partial_gain;   ///< of what comes nearest, when unexplained
+  std::vector<CandidateEffect> candidates;  ///< in the order of the library
+  std::vector<Contrast> contrasts;          ///< strongest first
+  std::string loudest;               ///< specimens whose residuals are largest against their noise: "soft coupons"
+  std::optional<Gain> gain;          ///< of the named model
+  std::optional<Gain> partial_gain;  ///< of what comes nearest, when unexplained
   std::vector<NextExperiment> next_experiments;
   double p_misfit = 1.0;  ///< omnibus: chance of a base misfit as large
   double p_outside =
       1.0;  ///< chance that a cause outside the library would lead to a name as surely; 1 when no name was in question
-  double replicate_sd = 0.0;        ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
-  double numerics_sd = 0.0;         ///< what numerics leave of log E: independent part, per layout
-  double numerics_shared_sd = 0.0;  ///< and along the directions that all layouts share, root mean square over these
-  bool noise_known = true;          ///< false: that test has no replicates, replicate_sd is assumed
+  double replicate_sd = 0.0;       ///< pooled standard deviation of log E, else of log T, else of a coupon's stress
+  double discretisation_sd = 0.0;  ///< what numerics leave of log E: independent part, per layout
+  double discretisation_shared_sd =
+      0.0;                  ///< and along the directions that all layouts share, root mean square over these
+  bool noise_known = true;  ///< false: that test has no replicates, replicate_sd is assumed
   FittedConstants base_fit;
   FittedConstants extended_fit;  ///< of what is named, else of the best that stays possible or comes nearest
   std::vector<ResidualRow> residuals;
@@ -198,14 +199,14 @@ struct DiagnosisSettings {
   tester::Fidelity fidelity = tester::Fidelity::full;
   int bootstraps = 2000;  ///< at least 2 / name_level: fewer could never reach the level
   std::uint64_t seed = 1;
-  ModulusFloor floor;                  ///< from data/numerics_floor.toml
-  FractureNumerics fracture_numerics;  ///< from the same file
-  int search_budget = 40;           ///< evaluations of the fracture tests in search of a base fit; 0: begin at `start`
-  std::filesystem::path store;      ///< file that keeps fracture simulations; empty: none
-  int threads = 0;                  ///< 0 all allowed cores
-  bool check_numerics = true;       ///< simulate three specimens with other numerics too
-  double name_level = 0.003;        ///< family-wise level of a name
-  double unexplained_level = 0.01;  ///< level of a misfit without a name
+  ModulusFloor floor;                              ///< from data/discretisation_floor.toml
+  FractureDiscretisation fracture_discretisation;  ///< from the same file
+  int search_budget = 40;            ///< evaluations of the fracture tests in search of a base fit; 0: begin at `start`
+  std::filesystem::path store;       ///< file that keeps fracture simulations; empty: none
+  int threads = 0;                   ///< 0 all allowed cores
+  bool check_discretisation = true;  ///< simulate three specimens with other numerics too
+  double name_level = 0.003;         ///< family-wise level of a name
+  double unexplained_level = 0.01;   ///< level of a misfit without a name
   /// Called now and then with the share of the work done (0..1) and what is being done.
   std::function<void(double, std::string_view)> progress = {};
 };

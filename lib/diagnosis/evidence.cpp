@@ -30,21 +30,21 @@ struct Stretch {
 };
 
 /// The base model with what is seen from it.
-void put_base(Evidence& evidence, Fit base) {
+void put_base(Evidence& evidence, FittedModel base) {
   evidence.base.fit = std::move(base);
   evidence.base.signatures = signatures_on(evidence.model, evidence.base.fit, evidence.effects);
   evidence.base.directions = contrast_directions(evidence.observations, evidence.base.fit.predicted);
 }
 
 /// A base and one effect from where it promises most.
-Fit fit_single(const Evidence& evidence, std::size_t effect) {
+FittedModel fit_single(const Evidence& evidence, std::size_t effect) {
   return fit_model(
       evidence.model, evidence.observations, {evidence.effects[effect]},
-      best_start(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
+      best_initial_guess(evidence.model, evidence.observations, evidence.base.fit, evidence.base.signatures[effect]));
 }
 
 /// First constants, with the size at which the effect promises most there.
-Eigen::VectorXd promising_start(const Evidence& evidence, const Fit& fit) {
+Eigen::VectorXd promising_initial_guess(const Evidence& evidence, const FittedModel& fit) {
   const Eigen::VectorXd first = at_first_constants(evidence, fit.u);
   const Eigen::Index own = evidence.base.fit.u.size();
   const CoordinateMap map = evidence.model.map(fit.effects);
@@ -66,12 +66,12 @@ Eigen::VectorXd promising_start(const Evidence& evidence, const Fit& fit) {
 
 /// The base gets the start that the best extended fit ended with: a gain must not be better optimisation. Where that
 /// helps it, every effect begins once more from there.
-void begin_base_again(Evidence& evidence) {
+void restart_base(Evidence& evidence) {
   constexpr double kBetter = 0.1;
   const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
-                                     [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+                                     [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
   if (best == evidence.singles.end() || best->chi2 > evidence.base.fit.chi2 - 1.0) return;
-  Fit again = fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count));
+  FittedModel again = fit_model(evidence.model, evidence.observations, {}, best->u.head(best->base_count));
   if (again.chi2 >= evidence.base.fit.chi2 - kBetter) return;
   put_base(evidence, std::move(again));
   for (std::size_t k = 0; k < evidence.singles.size(); ++k)
@@ -79,9 +79,9 @@ void begin_base_again(Evidence& evidence) {
 }
 
 /// An effect that ended with more than the base leaves went astray: without any of it, it is the base.
-void begin_at_the_base(Evidence& evidence) {
+void restart_at_the_base(Evidence& evidence) {
   constexpr double kMore = 0.02;
-  for (Fit& single : evidence.singles) {
+  for (FittedModel& single : evidence.singles) {
     if (single.chi2 <= evidence.base.fit.chi2 + kMore) continue;
     const CoordinateMap map = evidence.model.map(single.effects);
     single = better_of(std::move(single), fit_model(evidence.model, evidence.observations, single.effects,
@@ -96,10 +96,10 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
       evidence.settings.progress(stretch.begin + share * (stretch.end - stretch.begin), phase);
   };
   report(0.0, "fitting the base model");
-  Fit base = fit_model(evidence.model, evidence.observations, {}, start);
+  FittedModel base = fit_model(evidence.model, evidence.observations, {}, start);
   report(0.3, "signatures of the effects");
   put_base(evidence, std::move(base));
-  std::vector<Fit> singles;
+  std::vector<FittedModel> singles;
   for (std::size_t k = 0; k < evidence.effects.size(); ++k) {
     report(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(evidence.effects.size()),
            "fitting base and " + evidence.effects[k]);
@@ -111,29 +111,29 @@ void fit_models(Evidence& evidence, const Eigen::VectorXd& start, Stretch stretc
               : fit_single(evidence, k));
   }
   evidence.singles = std::move(singles);
-  for (Fit& single : evidence.singles) single = begun_again(evidence, std::move(single));
-  begin_base_again(evidence);
-  begin_at_the_base(evidence);
+  for (FittedModel& single : evidence.singles) single = restarted(evidence, std::move(single));
+  restart_base(evidence);
+  restart_at_the_base(evidence);
 }
 
 /// Models whose change with finer elements is shared among moduli: the base, and every effect of the material that acts
 /// on them.
-void share_numerics(Evidence& evidence) {
-  evidence.numerics = {{{}, evidence.base.fit.u}};
-  for (const Fit& single : evidence.singles)
+void share_discretisation(Evidence& evidence) {
+  evidence.discretisation = {{{}, evidence.base.fit.u}};
+  for (const FittedModel& single : evidence.singles)
     if (material::find_effect(single.effects.front())->side == material::EffectSide::material)
-      evidence.numerics.push_back({single.effects, single.u});
+      evidence.discretisation.push_back({single.effects, single.u});
   const Eigen::MatrixXd all = shared_directions(evidence, evidence.model);
   std::vector<Eigen::Index> kept;
   std::vector<ModelPoint> acting;
   for (Eigen::Index k = 0; k < all.cols(); ++k) {
     if (k > 0 && all.col(k).norm() < 1e-9) continue;
     kept.push_back(k);
-    acting.push_back(std::move(evidence.numerics[static_cast<std::size_t>(k)]));
+    acting.push_back(std::move(evidence.discretisation[k]));
   }
-  evidence.numerics = std::move(acting);
-  evidence.observations.numerics_shared = all(Eigen::all, kept);
-  evidence.observations.numerics_sd = evidence.settings.floor.mesh_remainder_sd;
+  evidence.discretisation = std::move(acting);
+  evidence.observations.discretisation_shared = all(Eigen::all, kept);
+  evidence.observations.discretisation_sd = evidence.settings.floor.mesh_remainder_sd;
 }
 
 /// Simulates the fracture tests at the base fit and at those of the effects that come nearest, until the emulator knows
@@ -141,9 +141,10 @@ void share_numerics(Evidence& evidence) {
 void refine_fractures(Evidence& evidence, Workbench& workbench) {
   if (!workbench.has_fractures()) return;
   for (int pass = 0; pass < kRefinements; ++pass) {
-    std::vector<const Fit*> order;
-    for (const Fit& single : evidence.singles) order.push_back(&single);
-    std::stable_sort(order.begin(), order.end(), [](const Fit* a, const Fit* b) { return a->chi2 < b->chi2; });
+    std::vector<const FittedModel*> order;
+    for (const FittedModel& single : evidence.singles) order.push_back(&single);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const FittedModel* a, const FittedModel* b) { return a->chi2 < b->chi2; });
     std::vector<material::ParameterSet> sets = {evidence.base.fit.parameters};
     for (std::size_t k = 0; k < std::min(order.size(), kRefinedEffects); ++k) sets.push_back(order[k]->parameters);
     const double error = workbench.refine(sets);
@@ -155,7 +156,7 @@ void refine_fractures(Evidence& evidence, Workbench& workbench) {
 
 }  // namespace
 
-std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& anchor,
+std::vector<Signature> signatures_on(const FeatureModel& model, const FittedModel& anchor,
                                      const std::vector<std::string>& effects, std::span<const double> sizes) {
   std::vector<Signature> signatures;
   for (const std::string& effect : effects) {
@@ -176,9 +177,9 @@ std::vector<Signature> signatures_on(const FeatureModel& model, const Fit& ancho
 }
 
 Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& model) {
-  Eigen::MatrixXd directions(model.size(), static_cast<Eigen::Index>(evidence.numerics.size()));
-  for (std::size_t k = 0; k < evidence.numerics.size(); ++k) {
-    const ModelPoint& point = evidence.numerics[k];
+  Eigen::MatrixXd directions(model.size(), static_cast<Eigen::Index>(evidence.discretisation.size()));
+  for (std::size_t k = 0; k < evidence.discretisation.size(); ++k) {
+    const ModelPoint& point = evidence.discretisation[k];
     directions.col(static_cast<Eigen::Index>(k)) =
         evidence.settings.floor.mesh_amplitude * model.mesh_change(model.map(point.effects), point.u);
     if (k > 0) directions.col(static_cast<Eigen::Index>(k)) -= directions.col(0);
@@ -186,7 +187,7 @@ Eigen::MatrixXd shared_directions(const Evidence& evidence, const FeatureModel& 
   return directions;
 }
 
-Fit better_of(Fit a, Fit b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
+FittedModel better_of(FittedModel a, FittedModel b) { return a.chi2 <= b.chi2 ? std::move(a) : std::move(b); }
 
 Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) {
   const Eigen::VectorXd first = evidence.model.base_map().coordinates(evidence.model.basis().centre);
@@ -194,11 +195,11 @@ Eigen::VectorXd at_first_constants(const Evidence& evidence, Eigen::VectorXd u) 
   return u;
 }
 
-Fit begun_again(const Evidence& evidence, Fit fit) {
+FittedModel restarted(const Evidence& evidence, FittedModel fit) {
   constexpr double kMuch = 60.0, kNothing = 0.01;
   const double found = evidence.base.fit.chi2 - fit.chi2;
   const auto again_from = [&](const Eigen::VectorXd& u) {
-    Fit again = fit_model(evidence.model, evidence.observations, fit.effects, u);
+    FittedModel again = fit_model(evidence.model, evidence.observations, fit.effects, u);
     return better_of(std::move(fit), std::move(again));
   };
   if (found >= kMuch) fit = again_from(at_first_constants(evidence, fit.u));
@@ -208,12 +209,12 @@ Fit begun_again(const Evidence& evidence, Fit fit) {
       material::acts_in_measurement(fit.effects.front()) && evidence.observations.has(tester::TestKind::tensile);
   if (fit.effects.size() > 1 || !is_far_off || !is_of_curves) return fit;
   const bool found_nothing = std::abs(fit.u[evidence.base.fit.u.size()]) < kNothing;
-  if (found >= kMuch || found_nothing) fit = again_from(promising_start(evidence, fit));
+  if (found >= kMuch || found_nothing) fit = again_from(promising_initial_guess(evidence, fit));
   return fit;
 }
 
-Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observations, const Fit& anchor,
-                           const Signature& signature) {
+Eigen::VectorXd best_initial_guess(const FeatureModel& model, const Observations& observations,
+                                   const FittedModel& anchor, const Signature& signature) {
   std::vector<std::string> names = anchor.effects;
   names.push_back(signature.effect);
   const CoordinateMap map = model.map(names);
@@ -223,7 +224,7 @@ Eigen::VectorXd best_start(const FeatureModel& model, const Observations& observ
   double least = anchor.chi2;
   const std::vector<double> sizes = signed_sizes(kSizes, signature.one_sided);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    Fit shifted = anchor;
+    FittedModel shifted = anchor;
     shifted.predicted += signature.changes.col(static_cast<Eigen::Index>(i));
     Eigen::VectorXd step;
     const double chi2 = linear_refit(shifted, observations.values, whitener, &step);
@@ -245,7 +246,7 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   const int passes =
       settings.floor.mesh_amplitude > 0.0 && evidence.observations.has(tester::TestKind::modulus) ? 1 + kMeshPasses : 1;
   for (int pass = 0; pass < passes; ++pass) {
-    if (pass > 0) share_numerics(evidence);
+    if (pass > 0) share_discretisation(evidence);
     const double begin = first + (0.6 - first) * pass / passes, end = first + (0.6 - first) * (pass + 1) / passes;
     fit_models(evidence, pass == 0 ? map.coordinates(evidence.model.basis().centre) : evidence.base.fit.u,
                {begin, end});
@@ -260,24 +261,24 @@ Evidence gather_evidence(Workbench& workbench, const DiagnosisSettings& settings
   return evidence;
 }
 
-Observations with_numerics_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
+Observations with_discretisation_at(const Evidence& evidence, const CoordinateMap& map, const Eigen::VectorXd& u) {
   Observations observations = evidence.observations;
-  if (observations.has_shared_numerics())
-    observations.numerics_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
+  if (observations.has_shared_discretisation())
+    observations.discretisation_shared = evidence.settings.floor.mesh_amplitude * evidence.model.mesh_change(map, u);
   return observations;
 }
 
-OwnFit fit_with_own_numerics(const Evidence& evidence, const std::vector<std::string>& effects,
-                             const Eigen::VectorXd& start, const std::vector<int>& held, double hopeless) {
+ProfileFit fit_with_own_discretisation(const Evidence& evidence, const std::vector<std::string>& effects,
+                                       const Eigen::VectorXd& start, const std::vector<int>& held, double hopeless) {
   const auto fitted_from = [&](const Eigen::VectorXd& u) {
-    const Observations observations = with_numerics_at(evidence, evidence.model.map(effects), u);
-    OwnFit at{fit_model(evidence.model, observations, effects, u, held)};
+    const Observations observations = with_discretisation_at(evidence, evidence.model.map(effects), u);
+    ProfileFit at{fit_model(evidence.model, observations, effects, u, held)};
     const Eigen::LLT<Eigen::MatrixXd> factor(observations.covariance());
     at.deviance = at.fit.chi2 + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
     return at;
   };
-  OwnFit first = fitted_from(start);
-  if (!evidence.observations.has_shared_numerics() || first.deviance > hopeless) return first;
+  ProfileFit first = fitted_from(start);
+  if (!evidence.observations.has_shared_discretisation() || first.deviance > hopeless) return first;
   return fitted_from(first.fit.u);
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.hpp"
-#include "diagnosis/foretold_tests.hpp"
+#include "diagnosis/predicted_tests.hpp"
 
 namespace nacre::diagnosis {
 namespace {
@@ -31,16 +31,16 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t models) {
 
 }  // namespace
 
-std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<Fit>& models, int count,
-                                             int replicates) {
+std::vector<NextExperiment> next_experiments(const Evidence& evidence, const std::vector<FittedModel>& models,
+                                             int count, int replicates) {
   if (models.size() < 2) return {};
   const std::vector<PossibleTest> tests = tests_worth_their_cost(evidence.observations);
-  const ForetoldTests foretold(evidence, models, tests, replicates);
+  const PredictedTests predicted(evidence, models, tests, replicates);
   const auto pairs = pairs_of(models.size());
   std::vector<TestValue> values(tests.size());
   parallel_for(static_cast<int>(tests.size()), [&](int job) {
     const auto t = static_cast<std::size_t>(job);
-    values[t] = {tests[t].words, foretold.separations(t, pairs)};
+    values[t] = {tests[t].words, predicted.separations(t, pairs)};
   });
   std::vector<NextExperiment> experiments;
   for (const TestChoice& choice : choose_tests(values, count)) {

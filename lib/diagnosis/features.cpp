@@ -137,8 +137,8 @@ void put_unloading(FeatureValues& values, const tester::Curve& curve) {
 
 }  // namespace
 
-std::string_view to_string(Feature feature) { return kNames[static_cast<std::size_t>(feature)].name; }
-std::string_view in_words(Feature feature) { return kNames[static_cast<std::size_t>(feature)].words; }
+std::string_view to_string(Feature feature) { return kNames[feature].name; }
+std::string_view in_words(Feature feature) { return kNames[feature].words; }
 
 bool is_curve_stress(Feature f) {
   return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 ||
@@ -147,7 +147,7 @@ bool is_curve_stress(Feature f) {
 
 Result<Feature> feature_from_string(std::string_view name) {
   for (int i = 0; i < kFeatureCount; ++i) {
-    if (kNames[static_cast<std::size_t>(i)].name == name) return static_cast<Feature>(i);
+    if (kNames[i].name == name) return static_cast<Feature>(i);
   }
   return fail("unknown feature '{}'", name);
 }

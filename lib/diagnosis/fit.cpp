@@ -25,7 +25,7 @@ constexpr int kIterations = 12;
 /// A drop of chi2 that no threshold would notice.
 constexpr double kConverged = 0.02;
 
-double prior_chi2(const Fit& fit, const Eigen::VectorXd& u) {
+double prior_chi2(const FittedModel& fit, const Eigen::VectorXd& u) {
   return ((u.head(fit.base_count).array() - 0.5) / fit.prior_sd.array()).square().sum();
 }
 
@@ -35,9 +35,9 @@ Eigen::VectorXd clamped(const CoordinateMap& map, Eigen::VectorXd u) {
 }
 
 /// Coordinates that may move at all, and do not stand on a bound which the descent direction would leave.
-std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, const Eigen::VectorXd& y,
+std::vector<int> free_coordinates(const FittedModel& fit, const CoordinateMap& map, const Eigen::VectorXd& y,
                                   const Whitener& whitener, const std::vector<int>& held) {
-  Fit whole = fit;
+  FittedModel whole = fit;
   whole.free_all();
   const Eigen::VectorXd descent = whole.whitened_columns(whitener).transpose() * whole.whitened_residual(y, whitener);
   std::vector<int> free;
@@ -50,7 +50,8 @@ std::vector<int> free_coordinates(const Fit& fit, const CoordinateMap& map, cons
 }
 
 /// Levenberg-Marquardt step over the free coordinates.
-Eigen::VectorXd damped_step(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, double damping) {
+Eigen::VectorXd damped_step(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
+                            double damping) {
   const Eigen::MatrixXd a = fit.whitened_columns(whitener);
   Eigen::MatrixXd normal = a.transpose() * a;
   normal.diagonal() *= 1.0 + damping;
@@ -82,12 +83,12 @@ bool ends_on_bound(const CoordinateMap& map, const Eigen::VectorXd& u) {
 
 }  // namespace
 
-void Fit::free_all() {
-  free.resize(static_cast<std::size_t>(u.size()));
+void FittedModel::free_all() {
+  free.resize(u.size());
   std::iota(free.begin(), free.end(), 0);
 }
 
-Eigen::MatrixXd Fit::whitened_columns(const Whitener& whitener) const {
+Eigen::MatrixXd FittedModel::whitened_columns(const Whitener& whitener) const {
   const Eigen::Index n = jacobian.rows();
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + base_count, static_cast<Eigen::Index>(free.size()));
   columns.topRows(n) = whitener(jacobian(Eigen::all, free));
@@ -97,21 +98,21 @@ Eigen::MatrixXd Fit::whitened_columns(const Whitener& whitener) const {
   return columns;
 }
 
-Eigen::VectorXd Fit::whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const {
+Eigen::VectorXd FittedModel::whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const {
   Eigen::VectorXd residual(y.size() + base_count);
   residual.head(y.size()) = whitener(y - predicted);
   for (int i = 0; i < base_count; ++i) residual[y.size() + i] = (0.5 - u[i]) / prior_sd[i];
   return residual;
 }
 
-Fit Fit::restricted(const std::vector<Eigen::Index>& rows) const {
-  Fit part = *this;
+FittedModel FittedModel::restricted(const std::vector<Eigen::Index>& rows) const {
+  FittedModel part = *this;
   part.predicted = predicted(rows);
   part.jacobian = jacobian(rows, Eigen::all);
   return part;
 }
 
-double Fit::variance(int coordinate, const Whitener& whitener) const {
+double FittedModel::variance(int coordinate, const Whitener& whitener) const {
   const auto place = std::find(free.begin(), free.end(), coordinate);
   if (place == free.end()) return 0.0;
   const Eigen::MatrixXd a = whitened_columns(whitener);
@@ -123,8 +124,8 @@ double Fit::variance(int coordinate, const Whitener& whitener) const {
 namespace {
 
 /// A fit at `start` that knows its map and what is predicted there.
-Fit begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& start) {
-  Fit fit;
+FittedModel begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::VectorXd& start) {
+  FittedModel fit;
   fit.effects = map.effects();
   fit.base_count = map.base_count();
   fit.prior_sd.resize(fit.base_count);
@@ -138,28 +139,29 @@ Fit begun(const FeatureModel& model, const CoordinateMap& map, const Eigen::Vect
 
 }  // namespace
 
-Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map) {
+Eigen::VectorXd widened_start(const FittedModel& fit, const CoordinateMap& map) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(map.size());
   u.head(fit.u.size()) = fit.u;
   for (int i = static_cast<int>(fit.u.size()) + 1; i < map.size(); ++i) u[i] = map.usual(i);
   return u;
 }
 
-Fit linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u) {
+FittedModel linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u) {
   const CoordinateMap map = model.map(effects);
-  Fit fit = begun(model, map, u);
+  FittedModel fit = begun(model, map, u);
   fit.jacobian = model.slopes(map, fit.u, fit.predicted, kStep);
   fit.free_all();
   fit.parameters = map.parameters(fit.u);
   return fit;
 }
 
-Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
-              const Eigen::VectorXd& start, const std::vector<int>& held) {
+FittedModel fit_model(const FeatureModel& model, const Observations& observations,
+                      const std::vector<std::string>& effects, const Eigen::VectorXd& start,
+                      const std::vector<int>& held) {
   const CoordinateMap map = model.map(effects);
   const Eigen::VectorXd& y = observations.values;
   const Whitener whitener(observations.covariance());
-  Fit fit = begun(model, map, start);
+  FittedModel fit = begun(model, map, start);
   fit.chi2 = whitener.chi2(y - fit.predicted) + prior_chi2(fit, fit.u);
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -189,10 +191,11 @@ Fit fit_model(const FeatureModel& model, const Observations& observations, const
   return fit;
 }
 
-double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener, Eigen::VectorXd* delta) {
+double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
+                    Eigen::VectorXd* delta) {
   // Data that no longer determine a coordinate would send it out of its range: what leaves is put on its bound, and the
   // others are solved for again.
-  Fit part = fit;
+  FittedModel part = fit;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.u.size());
   Eigen::VectorXd b = fit.whitened_residual(y, whitener);
   while (!part.free.empty()) {
@@ -201,16 +204,16 @@ double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& wh
     Eigen::Index worst = -1;
     double excess = 1e-9, bounded = 0.0;
     for (Eigen::Index k = 0; k < step.size(); ++k) {
-      const int i = part.free[static_cast<std::size_t>(k)];
+      const int i = part.free[k];
       const double inside = std::clamp(fit.u[i] + step[k], fit.lower[i], fit.upper[i]) - fit.u[i];
       if (std::abs(step[k] - inside) > excess) excess = std::abs(step[k] - inside), worst = k, bounded = inside;
     }
     if (worst < 0) {
-      for (Eigen::Index k = 0; k < step.size(); ++k) moved[part.free[static_cast<std::size_t>(k)]] = step[k];
+      for (Eigen::Index k = 0; k < step.size(); ++k) moved[part.free[k]] = step[k];
       b -= a * step;
       break;
     }
-    moved[part.free[static_cast<std::size_t>(worst)]] = bounded;
+    moved[part.free[worst]] = bounded;
     b -= a.col(worst) * bounded;
     part.free.erase(part.free.begin() + worst);
   }

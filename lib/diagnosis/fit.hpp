@@ -13,7 +13,7 @@ std::string in_words(const std::vector<std::string>& effects);
 
 /// A model fitted to observations by weighted least squares, with its local linearisation. The base coordinates carry a
 /// wide Gaussian prior about the middle of their ranges, so that parameters that the data do not determine stay put.
-struct Fit {
+struct FittedModel {
   std::vector<std::string> effects;  ///< extensions fitted with the base; empty: the base model
   int base_count = 0;                ///< coordinates that are base constants: the first ones
   Eigen::VectorXd prior_sd;          ///< of the base coordinates, about their middle 0.5
@@ -31,27 +31,28 @@ struct Fit {
   /// Whitened residual of data: rows, then those of the prior.
   Eigen::VectorXd whitened_residual(const Eigen::VectorXd& y, const Whitener& whitener) const;
   /// The same fit, seen from some of its rows.
-  Fit restricted(const std::vector<Eigen::Index>& rows) const;
+  FittedModel restricted(const std::vector<Eigen::Index>& rows) const;
   /// Variance of one coordinate; 0 when it is held.
   double variance(int coordinate, const Whitener& whitener) const;
 };
 
 /// Levenberg-Marquardt from `start` (coordinates of the map for `effects`), inside the bounds. About (coordinates + 1)
 /// predictions of all rows an iteration. Coordinates that are `held` stay where they start.
-Fit fit_model(const FeatureModel& model, const Observations& observations, const std::vector<std::string>& effects,
-              const Eigen::VectorXd& start, const std::vector<int>& held = {});
+FittedModel fit_model(const FeatureModel& model, const Observations& observations,
+                      const std::vector<std::string>& effects, const Eigen::VectorXd& start,
+                      const std::vector<int>& held = {});
 
 /// Start of a model with one effect more than `fit` has: the same coordinates, the new effect at zero, what belongs to
 /// it at its usual value.
-Eigen::VectorXd widened_start(const Fit& fit, const CoordinateMap& map);
+Eigen::VectorXd widened_start(const FittedModel& fit, const CoordinateMap& map);
 
 /// Base and effects at given coordinates, with the linearisation there and every coordinate free; chi2 is not computed.
-Fit linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u);
+FittedModel linearised(const FeatureModel& model, const std::vector<std::string>& effects, const Eigen::VectorXd& u);
 
 /// The smallest weighted sum of squares that the linearised fit reaches on other data: min over delta of
 /// |y - predicted - J delta|^2, whitened, + prior, over the free coordinates inside their bounds. `delta` returns the
 /// minimiser when wanted.
-double linear_refit(const Fit& fit, const Eigen::VectorXd& y, const Whitener& whitener,
+double linear_refit(const FittedModel& fit, const Eigen::VectorXd& y, const Whitener& whitener,
                     Eigen::VectorXd* delta = nullptr);
 
 }  // namespace nacre::diagnosis

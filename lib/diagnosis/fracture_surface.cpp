@@ -44,33 +44,33 @@ FractureSurface::FractureSurface(const Observations& observations, const Fractur
                                  material::ToughnessParameters centre)
     : observations_(observations), runs_(runs), centre_(to_vector(centre)) {
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     if (row.probe != Probe::mean || row.test != tester::TestKind::toughness) continue;
     const auto at = std::find(runs.groups().begin(), runs.groups().end(), row.group);
     rows_.push_back({i, static_cast<int>(at - runs.groups().begin()), row.feature});
   }
 }
 
-FractureSurface::Point FractureSurface::point_of(const material::ParameterSet& set) const {
-  Point point;
+FractureSurface::SurfacePoint FractureSurface::point_of(const material::ParameterSet& set) const {
+  SurfacePoint point;
   const material::ToughnessVector eta = to_vector(set.toughness);
   point.log_eta.resize(static_cast<Eigen::Index>(sysid::kSearchedEta.size()));
   for (Eigen::Index k = 0; k < point.log_eta.size(); ++k) {
-    const std::size_t i = sysid::kSearchedEta[static_cast<std::size_t>(k)];
+    const std::size_t i = sysid::kSearchedEta[k];
     point.log_eta[k] = std::log(eta[i] / centre_[i]);
   }
   for (const auto& [name, values] : simulated_side(set).extensions) {
     const material::Effect& effect = *material::find_effect(name);
     Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
     for (std::size_t p = 0; p < values.size(); ++p) {
-      x[static_cast<Eigen::Index>(p)] = material::strength_of(effect.parameters[p], values[p]);
+      x[p] = material::strength_of(effect.parameters[p], values[p]);
     }
     if (std::abs(x[0]) > kNoEffect) point.effects.emplace(library_index(name), x);
   }
   return point;
 }
 
-double FractureSurface::covariance(const Kernel& kernel, const Point& a, const Point& b) {
+double FractureSurface::covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b) {
   const double near = matern52_at((a.log_eta - b.log_eta).norm() / kCurvedLength);
   double sum = square(kOffset) + square(kernel.linear) * a.log_eta.dot(b.log_eta) + square(kernel.curved) * near;
   for (const auto& [effect, x] : a.effects) {
@@ -87,9 +87,7 @@ Eigen::MatrixXd FractureSurface::covariance_matrix(const Kernel& kernel, const s
   Eigen::MatrixXd matrix(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j)
-      matrix(i, j) = matrix(j, i) =
-          covariance(kernel, points_[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])],
-                     points_[static_cast<std::size_t>(at[static_cast<std::size_t>(j)])]);
+      matrix(i, j) = matrix(j, i) = covariance(kernel, points_[at[i]], points_[at[j]]);
     matrix(i, i) += square(kernel.noise);
   }
   return matrix;
@@ -108,9 +106,7 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (points_[k].effects.size() != 1) continue;
     Eigen::VectorXd row(static_cast<Eigen::Index>(base.size()));
-    for (std::size_t j = 0; j < base.size(); ++j)
-      row[static_cast<Eigen::Index>(j)] =
-          covariance(learnt.kernel, points_[k], points_[static_cast<std::size_t>(base[j])]);
+    for (std::size_t j = 0; j < base.size(); ++j) row[j] = covariance(learnt.kernel, points_[k], points_[base[j]]);
     const Eigen::RowVectorXd change = centred.row(static_cast<Eigen::Index>(k)) - row.transpose() * weights;
     const auto& [effect, x] = *points_[k].effects.begin();
     auto& [sum, expected] = squares[effect];
@@ -123,13 +119,13 @@ void FractureSurface::learn_effects(Learnt& learnt, const Eigen::MatrixXd& centr
 
 FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>& at,
                                                           const Eigen::MatrixXd& targets) const {
-  struct Question {
+  struct Posterior {
     const FractureSurface& surface;
     const std::vector<int>& at;
     const Eigen::MatrixXd& targets;
-  } question{*this, at, targets};
+  } posterior{*this, at, targets};
   const auto cost = [](const std::vector<double>& x, std::vector<double>&, void* data) {
-    const Question& asked = *static_cast<Question*>(data);
+    const Posterior& asked = *static_cast<Posterior*>(data);
     const Kernel kernel{std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), {}};
     const Eigen::LLT<Eigen::MatrixXd> factor(asked.surface.covariance_matrix(kernel, asked.at));
     const Eigen::MatrixXd lower = factor.matrixL();
@@ -145,7 +141,7 @@ FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>
     search.set_upper_bounds({3.0, 2.0, 1.0});
     search.set_initial_step(0.5);
     search.set_maxeval(50);
-    search.set_min_objective(cost, &question);
+    search.set_min_objective(cost, &posterior);
     try {
       double smallest = 0.0;
       search.optimize(x, smallest);
@@ -158,10 +154,8 @@ FractureSurface::Kernel FractureSurface::likeliest_kernel(const std::vector<int>
 std::vector<int> FractureSurface::half_nearest_to_the_centre() const {
   std::vector<int> order(points_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return points_[static_cast<std::size_t>(a)].log_eta.squaredNorm() <
-           points_[static_cast<std::size_t>(b)].log_eta.squaredNorm();
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return points_[a].log_eta.squaredNorm() < points_[b].log_eta.squaredNorm(); });
   order.resize((order.size() + 1) / 2);
   return order;
 }
@@ -201,8 +195,7 @@ void FractureSurface::learn() {
     double sum = 0.0;
     int known = 0;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const auto& prediction =
-          runs_.runs()[static_cast<std::size_t>(k)].predictions[static_cast<std::size_t>(rows_[r].group)];
+      const auto& prediction = runs_.runs()[k].predictions[rows_[r].group];
       const auto value = value_of(shown_features(prediction, {}), rows_[r].feature);
       values(k, static_cast<Eigen::Index>(r)) = value.value_or(std::nan(""));
       if (value) sum += *value, ++known;
@@ -219,13 +212,13 @@ void FractureSurface::learn() {
   variance_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   learnt_.assign(kinds.size(), {});
   parallel_for(static_cast<int>(kinds.size()), [&](int k) {
-    const auto& rows = kinds[static_cast<std::size_t>(k)];
-    learnt_[static_cast<std::size_t>(k)] = learn_feature(rows, values(Eigen::all, rows));
+    const auto& rows = kinds[k];
+    learnt_[k] = learn_feature(rows, values(Eigen::all, rows));
   });
 }
 
 /// What the testing machine changes in every row: on the curves of the runs nearest to the point, averaged.
-Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& set, const Point& at) const {
+Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& set, const SurfacePoint& at) const {
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     double distance = (points_[k].log_eta - at.log_eta).squaredNorm();
@@ -242,10 +235,10 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
   Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   Eigen::VectorXd known = change;
   for (const auto& [distance, k] : order) {
-    const FractureRun& run = runs_.runs()[static_cast<std::size_t>(k)];
+    const FractureRun& run = runs_.runs()[k];
     std::vector<FeatureValues> plain, shown;
     for (std::size_t g = 0; g < runs_.groups().size(); ++g) {
-      const Observation& group = observations_.groups[static_cast<std::size_t>(runs_.groups()[g])];
+      const Observation& group = observations_.groups[runs_.groups()[g]];
       plain.push_back(shown_features(run.predictions[g], {}));
       shown.push_back(shown_features(run.predictions[g], set.extensions, {.batch_step = group.batch_step}));
     }
@@ -254,22 +247,21 @@ Eigen::VectorXd FractureSurface::machine_change(const material::ParameterSet& se
       const auto& before = value_of(plain[group], rows_[r].feature);
       const auto& after = value_of(shown[group], rows_[r].feature);
       if (!before || !after) continue;
-      change[static_cast<Eigen::Index>(r)] += *after - *before;
-      known[static_cast<Eigen::Index>(r)] += 1.0;
+      change[r] += *after - *before;
+      known[r] += 1.0;
     }
   }
   return change.cwiseQuotient(known.cwiseMax(1.0));
 }
 
 Eigen::VectorXd FractureSurface::predict(const material::ParameterSet& set) const {
-  const Point at = point_of(set);
+  const SurfacePoint at = point_of(set);
   Eigen::VectorXd result(static_cast<Eigen::Index>(rows_.size()));
   for (const Learnt& learnt : learnt_) {
     Eigen::VectorXd to_runs(static_cast<Eigen::Index>(points_.size()));
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      to_runs[static_cast<Eigen::Index>(k)] = covariance(learnt.kernel, at, points_[k]);
+    for (std::size_t k = 0; k < points_.size(); ++k) to_runs[k] = covariance(learnt.kernel, at, points_[k]);
     const Eigen::RowVectorXd values = learnt.mean + to_runs.transpose() * learnt.weights;
-    for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[static_cast<Eigen::Index>(r)];
+    for (std::size_t r = 0; r < learnt.rows.size(); ++r) result[learnt.rows[r]] = values[r];
   }
   const bool machine = std::any_of(set.extensions.begin(), set.extensions.end(), [](const auto& extension) {
     return material::acts_in_measurement(extension.first) &&

@@ -41,7 +41,7 @@ class FractureSurface {
   const Eigen::VectorXd& cross_validated_variance() const { return variance_; }
 
  private:
-  struct Point {
+  struct SurfacePoint {
     Eigen::VectorXd log_eta;
     std::map<int, Eigen::VectorXd> effects;  ///< strengths, by index in the library
   };
@@ -55,21 +55,21 @@ class FractureSurface {
     Eigen::RowVectorXd mean;
     Eigen::MatrixXd weights;  ///< runs x rows
   };
-  Point point_of(const material::ParameterSet& set) const;
-  static double covariance(const Kernel& kernel, const Point& a, const Point& b);
+  SurfacePoint point_of(const material::ParameterSet& set) const;
+  static double covariance(const Kernel& kernel, const SurfacePoint& a, const SurfacePoint& b);
   Eigen::MatrixXd covariance_matrix(const Kernel& kernel, const std::vector<int>& at) const;
   /// The most probable amplitudes for what the runs of the base model say; targets are of unit spread.
   Kernel likeliest_kernel(const std::vector<int>& at, const Eigen::MatrixXd& targets) const;
   std::vector<int> half_nearest_to_the_centre() const;
   Learnt learn_feature(const std::vector<int>& rows, const Eigen::MatrixXd& values);
   void learn_effects(Learnt& learnt, const Eigen::MatrixXd& centred) const;
-  Eigen::VectorXd machine_change(const material::ParameterSet& set, const Point& at) const;
+  Eigen::VectorXd machine_change(const material::ParameterSet& set, const SurfacePoint& at) const;
 
   const Observations& observations_;
   const FractureRuns& runs_;
   material::ToughnessVector centre_;
   std::vector<SurfaceRow> rows_;
-  std::vector<Point> points_;
+  std::vector<SurfacePoint> points_;
   std::vector<Learnt> learnt_;
   Eigen::VectorXd variance_;
 };

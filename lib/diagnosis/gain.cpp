@@ -15,18 +15,19 @@ struct Refit {
   Eigen::VectorXd delta;
 };
 
-Refit refit(const Fit& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y, const Whitener& whitener) {
+Refit refit(const FittedModel& fit, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& y,
+            const Whitener& whitener) {
   Refit result;
   result.chi2 = linear_refit(fit.restricted(rows), y(rows), whitener, &result.delta);
   return result;
 }
 
 /// All rows by a model refitted to `rows`, with what those rows say of the numerics that all layouts share.
-Eigen::VectorXd predicted_from(const Observations& observations, const Fit& fit, const Refit& refit,
+Eigen::VectorXd predicted_from(const Observations& observations, const FittedModel& fit, const Refit& refit,
                                const std::vector<Eigen::Index>& rows) {
   const Eigen::VectorXd model = fit.predicted + fit.jacobian * refit.delta;
   const Eigen::VectorXd residuals = observations.values - model;
-  return model + observations.shared_numerics(residuals(rows), rows);
+  return model + observations.shared_discretisation(residuals(rows), rows);
 }
 
 /// Whether the figure of the whole is that of coupons: there are no layouts, or none of these effects acts on the tests
@@ -70,30 +71,30 @@ struct HeldOut {
   Eigen::VectorXd before, after;
 };
 
-HeldOut hold_out(const Observations& observations, const Fit& base, const std::vector<Fit>& models, double least_drop,
-                 const std::vector<std::vector<Eigen::Index>>& designs) {
+HeldOut hold_out(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
+                 double least_drop, const std::vector<std::vector<Eigen::Index>>& designs) {
   const Eigen::VectorXd& y = observations.values;
   const Eigen::MatrixXd covariance = observations.covariance();
   HeldOut result{Eigen::VectorXd::Zero(y.size()), Eigen::VectorXd::Zero(y.size())};
   for (int fold = 0; fold < kFolds; ++fold) {
-    std::vector<bool> held(static_cast<std::size_t>(y.size()), false);
+    std::vector<bool> held(y.size(), false);
     for (std::size_t d = static_cast<std::size_t>(fold); d < designs.size(); d += kFolds)
-      for (const Eigen::Index row : designs[d]) held[static_cast<std::size_t>(row)] = true;
+      for (const Eigen::Index row : designs[d]) held[row] = true;
     std::vector<Eigen::Index> train;
     for (Eigen::Index row = 0; row < y.size(); ++row)
-      if (!held[static_cast<std::size_t>(row)]) train.push_back(row);
+      if (!held[row]) train.push_back(row);
     const Whitener whitener(covariance(train, train));
     const Refit plain = refit(base, train, y, whitener);
-    const Fit* chosen = &base;
+    const FittedModel* chosen = &base;
     Refit chosen_refit = plain;
-    for (const Fit& model : models) {
+    for (const FittedModel& model : models) {
       const Refit own = refit(model, train, y, whitener);
       if (own.chi2 < chosen_refit.chi2 && own.chi2 < plain.chi2 - least_drop) chosen = &model, chosen_refit = own;
     }
     const Eigen::VectorXd before = y - predicted_from(observations, base, plain, train),
                           after = y - predicted_from(observations, *chosen, chosen_refit, train);
     for (Eigen::Index row = 0; row < y.size(); ++row)
-      if (held[static_cast<std::size_t>(row)]) result.before[row] = before[row], result.after[row] = after[row];
+      if (held[row]) result.before[row] = before[row], result.after[row] = after[row];
   }
   return result;
 }
@@ -110,13 +111,12 @@ std::string held_out_with(const Observation& group) {
 std::vector<std::vector<Eigen::Index>> shuffled_designs(const Observations& observations, std::uint64_t seed) {
   std::map<std::string, std::vector<Eigen::Index>> rows_of;
   for (int i = 0; i < observations.size(); ++i)
-    if (observations.rows[static_cast<std::size_t>(i)].group >= 0)
-      rows_of[held_out_with(observations.group_of(i))].push_back(i);
+    if (observations.rows[i].group >= 0) rows_of[held_out_with(observations.group_of(i))].push_back(i);
   std::vector<std::vector<Eigen::Index>> designs;
   for (const auto& [name, rows] : rows_of) designs.push_back(rows);
   RandomStream random(seed, "gain/folds");
   for (std::size_t i = designs.size(); i > 1; --i)
-    std::swap(designs[i - 1], designs[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+    std::swap(designs[i - 1], designs[random.index(static_cast<int>(i))]);
   return designs;
 }
 
@@ -139,8 +139,7 @@ void put_reduction(Gain& gain, const std::vector<DesignErrors>& errors, std::uin
 
 /// Rows of one feature of layouts, under tests of one kind and the same conditions.
 bool same_contest(const Observations& observations, int a, int b) {
-  const Row &one = observations.rows[static_cast<std::size_t>(a)],
-            &other = observations.rows[static_cast<std::size_t>(b)];
+  const Row &one = observations.rows[a], &other = observations.rows[b];
   if (one.group < 0 || other.group < 0 || one.feature != other.feature || one.test != other.test) return false;
   const Observation &g = observations.group_of(a), &h = observations.group_of(b);
   return g.design.layout() && h.design.layout() && g.conditions == h.conditions;
@@ -155,11 +154,11 @@ Ranking ranking_by(Feature feature, const Observations& observations, const Held
     return (y[a] > y[b]) == (y[a] - errors[a] > y[b] - errors[b]);
   };
   for (int b = 1; b < observations.size(); ++b) {
-    const Row& row = observations.rows[static_cast<std::size_t>(b)];
+    const Row& row = observations.rows[b];
     if (row.feature != feature) continue;
     for (int a = 0; a < b; ++a) {
       if (!same_contest(observations, a, b)) continue;
-      const double weight = observations.rows[static_cast<std::size_t>(a)].weight + row.weight;
+      const double weight = observations.rows[a].weight + row.weight;
       const double error = observations.replicate_sd(feature, row.test) * std::sqrt(weight);
       if (std::abs(y[a] - y[b]) < kSetApart * error) continue;
       ++ranking.pairs;
@@ -175,7 +174,7 @@ std::vector<FeatureGain> gain_by_feature(const Observations& observations, const
   const Eigen::VectorXd deviation = observations.own_variances().cwiseSqrt();
   std::map<Feature, std::pair<FeatureGain, int>> by_feature;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     if (row.group < 0) continue;
     auto& [sums, count] = by_feature[row.feature];
     sums.feature = row.feature;
@@ -201,7 +200,7 @@ double drop_needed(const Evidence& evidence) {
   return threshold(std::move(drops), evidence.settings.name_level);
 }
 
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
+Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
                    const std::vector<std::string>& effects, double least_drop, std::uint64_t seed) {
   const std::vector<std::vector<Eigen::Index>> designs = shuffled_designs(observations, seed);
   const HeldOut held = hold_out(observations, base, models, least_drop, designs);
@@ -211,7 +210,7 @@ Gain held_out_gain(const Observations& observations, const Fit& base, const std:
   std::vector<DesignErrors> errors(designs.size());
   for (std::size_t d = 0; d < designs.size(); ++d) {
     for (const Eigen::Index row : designs[d]) {
-      if (!counts(observations.rows[static_cast<std::size_t>(row)], gain.of_coupons)) continue;
+      if (!counts(observations.rows[row], gain.of_coupons)) continue;
       errors[d].before += std::abs(held.before[row]);
       errors[d].after += std::abs(held.after[row]);
       ++rows;

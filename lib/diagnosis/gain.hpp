@@ -13,7 +13,7 @@ double drop_needed(const Evidence& evidence);
 /// fold among `models`, linear refits around the full fits. The figure of the whole is that of moduli and toughness of
 /// layouts, or of slopes and stresses of coupons where none of `effects` acts on layouts. A model that lowers chi2 by
 /// less than `least_drop` is not preferred to the base. 90 % interval by bootstrap over designs.
-Gain held_out_gain(const Observations& observations, const Fit& base, const std::vector<Fit>& models,
+Gain held_out_gain(const Observations& observations, const FittedModel& base, const std::vector<FittedModel>& models,
                    const std::vector<std::string>& effects, double least_drop, std::uint64_t seed);
 
 }  // namespace nacre::diagnosis

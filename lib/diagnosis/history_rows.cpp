@@ -34,7 +34,7 @@ Centred centred(const std::vector<Deviation>& deviations, const Regressor& regre
   const auto count = static_cast<Eigen::Index>(shown.size());
   Centred both{Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for (Eigen::Index k = 0; k < count; ++k) {
-    const std::size_t i = shown[static_cast<std::size_t>(k)];
+    const std::size_t i = shown[k];
     const Sums& sums = groups[deviations[i].group];
     both.x[k] = *regressor[i] - sums.x / sums.count;
     both.y[k] = *value_of(deviations[i].from_mean, feature) - sums.y / sums.count;

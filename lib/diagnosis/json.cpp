@@ -22,7 +22,7 @@ ordered_json json_of(const NamedEffect& e) {
   return json;
 }
 
-ordered_json json_of(const Candidate& c) {
+ordered_json json_of(const CandidateEffect& c) {
   return {{"name", c.name},
           {"status", c.status},
           {"statistic", c.statistic},
@@ -127,8 +127,8 @@ std::string to_json(const Diagnosis& d) {
                                  {"p_misfit", d.p_misfit},
                                  {"p_outside_library", d.p_outside},
                                  {"replicate_sd", d.replicate_sd},
-                                 {"numerics_sd", d.numerics_sd},
-                                 {"numerics_shared_sd", d.numerics_shared_sd},
+                                 {"numerics_sd", d.discretisation_sd},
+                                 {"numerics_shared_sd", d.discretisation_shared_sd},
                                  {"noise_known", d.noise_known},
                                  {"procedure", d.procedure},
                                  {"possible", d.possible},

@@ -63,8 +63,8 @@ FeatureModel::FeatureModel(const Observations& observations, const Basis& basis,
       rows_of_group_(observations.groups.size()),
       last_(observations.groups.size()) {
   for (int i = 0; i < observations.size(); ++i) {
-    const int group = observations.rows[static_cast<std::size_t>(i)].group;
-    if (group >= 0) rows_of_group_[static_cast<std::size_t>(group)].push_back(i);
+    const int group = observations.rows[i].group;
+    if (group >= 0) rows_of_group_[group].push_back(i);
   }
 }
 
@@ -123,8 +123,8 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
     values = tensile_features(coupon_curve(g, without));
   }
   for (const int row : rows_of_group_[group]) {
-    const auto& value = value_of(values, observations_.rows[static_cast<std::size_t>(row)].feature);
-    rows[row] = value.value_or(unshown(values, observations_.rows[static_cast<std::size_t>(row)].feature));
+    const auto& value = value_of(values, observations_.rows[row].feature);
+    rows[row] = value.value_or(unshown(values, observations_.rows[row].feature));
   }
 }
 
@@ -132,7 +132,7 @@ void FeatureModel::put_group(std::size_t group, const material::ParameterSet& se
 /// batch, no effect goes.
 void FeatureModel::put_history(const material::ParameterSet& set, Eigen::Ref<Eigen::VectorXd> rows) const {
   for (int i = 0; i < observations_.size(); ++i) {
-    const Row& row = observations_.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations_.rows[i];
     if (row.probe == Probe::mean) continue;
     rows[i] = 0.0;
     if (row.probe != Probe::batch || set.extensions.empty()) continue;
@@ -157,12 +157,11 @@ void FeatureModel::predict_others(const CoordinateMap& map, std::span<const Eige
     put_group(group, map.coupon_parameters(u[point]), y.col(static_cast<Eigen::Index>(point)));
   });
   parallel_for(points, [&](int p) {
-    const material::ParameterSet set = map.parameters(u[static_cast<std::size_t>(p)]);
+    const material::ParameterSet set = map.parameters(u[p]);
     put_history(set, y.col(p));
     if (surface_ == nullptr || !basis_.toughness) return;
     const Eigen::VectorXd values = surface_->predict(set);
-    for (std::size_t k = 0; k < surface_->rows().size(); ++k)
-      y(surface_->rows()[k].row, p) = values[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < surface_->rows().size(); ++k) y(surface_->rows()[k].row, p) = values[k];
   });
 }
 
@@ -197,7 +196,7 @@ Eigen::MatrixXd FeatureModel::slopes(const CoordinateMap& map, const Eigen::Vect
     if (g.test != TestKind::modulus || !g.design.layout()) return;
     const auto solved = probe(group, own);
     for (int k = 0; k < map.size(); ++k) {
-      const material::ParameterSet set = map.parameters(points[static_cast<std::size_t>(k)]);
+      const material::ParameterSet set = map.parameters(points[k]);
       put_modulus(group, solved->nearby(simulated_side(set)), set, y.col(k));
     }
   });
@@ -208,7 +207,7 @@ Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen:
   const material::ParameterSet set = map.parameters(u);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(observations_.size());
   parallel_for(static_cast<int>(observations_.groups.size()), [&](int i) {
-    const Observation& group = observations_.groups[static_cast<std::size_t>(i)];
+    const Observation& group = observations_.groups[i];
     if (group.test != TestKind::modulus || !group.design.layout()) return;
     const auto result = tester::test_modulus({group.design, set, group.conditions, fidelity_}, {.refinement = 2});
     if (!result)
@@ -216,7 +215,7 @@ Eigen::VectorXd FeatureModel::mesh_change(const CoordinateMap& map, const Eigen:
     const double finer = std::log(measurement::observe_modulus(result->modulus_pa, set.extensions));
     const double own =
         std::log(measurement::observe_modulus(modulus(static_cast<std::size_t>(i), set), set.extensions));
-    for (const int row : rows_of_group_[static_cast<std::size_t>(i)]) change[row] = finer - own;
+    for (const int row : rows_of_group_[i]) change[row] = finer - own;
   });
   return change;
 }

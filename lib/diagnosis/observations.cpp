@@ -131,7 +131,7 @@ std::vector<BatchOffset> batch_offsets(const std::vector<HistoryRow>& history, s
     for (const auto& [batch, value] : history[k].of_batches) {
       Eigen::VectorXd& rows = by_batch[{row.test, row.feature, batch}];
       if (rows.size() == 0) rows = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(row_count));
-      rows[static_cast<Eigen::Index>(row_count - history.size() + k)] = value;
+      rows[row_count - history.size() + k] = value;
     }
   }
   std::vector<BatchOffset> offsets;
@@ -154,13 +154,12 @@ Eigen::MatrixXd with_correlations_of(const Eigen::MatrixXd& all, const Eigen::Ma
 /// Scatter of every test, and of each material's coupons where their replicates say enough of it.
 void put_scatter(Observations& observations, const std::vector<std::vector<Measured>>& groups) {
   constexpr int kLeastDof = 5;
-  for (int t = 0; t < 3; ++t)
-    observations.scatter[static_cast<std::size_t>(t)] = pooled_scatter(groups, static_cast<TestKind>(t));
+  for (int t = 0; t < 3; ++t) observations.scatter[t] = pooled_scatter(groups, static_cast<TestKind>(t));
   std::map<std::string, std::size_t> own;
   for (Row& row : observations.rows) {
     row.scatter = static_cast<std::size_t>(row.test);
     if (row.group < 0 || row.test != TestKind::tensile) continue;
-    const std::string material = observations.groups[static_cast<std::size_t>(row.group)].material();
+    const std::string material = observations.groups[row.group].material();
     const auto [place, unknown] = own.emplace(material, row.scatter);
     if (unknown) {
       ReplicateScatter scatter = pooled_scatter(groups, row.test, material);
@@ -194,13 +193,13 @@ bool Observations::has(TestKind test) const {
 }
 
 double Observations::replicate_sd(Feature feature, TestKind test) const {
-  const Eigen::MatrixXd& c = scatter[static_cast<std::size_t>(test)].covariance;
+  const Eigen::MatrixXd& c = scatter[test].covariance;
   const auto f = static_cast<Eigen::Index>(feature);
   return c.size() ? std::sqrt(c(f, f)) : 0.0;
 }
 
 RowCovariance Observations::row_covariance(int i, int j) const {
-  const Row &a = rows[static_cast<std::size_t>(i)], &b = rows[static_cast<std::size_t>(j)];
+  const Row &a = rows[i], &b = rows[j];
   RowCovariance covariance;
   if (a.test != b.test || a.probe != b.probe) return covariance;
   // Rows of history rest on as many specimens as show the feature: on those of the rarer one where both are shown.
@@ -210,10 +209,10 @@ RowCovariance Observations::row_covariance(int i, int j) const {
         scatter[a.scatter].covariance(static_cast<Eigen::Index>(a.feature), static_cast<Eigen::Index>(b.feature));
   if (a.probe != Probe::mean || !group_of(i).design.layout() || !group_of(j).design.layout()) return covariance;
   const bool same = group_of(i).design == group_of(j).design;
-  if (a.test == TestKind::modulus && same) covariance.fixed = numerics_sd * numerics_sd;
+  if (a.test == TestKind::modulus && same) covariance.fixed = discretisation_sd * discretisation_sd;
   if (a.test == TestKind::toughness)
-    covariance.fixed = fracture_numerics.covariance(a.feature, b.feature, rigid_position(group_of(i)),
-                                                    rigid_position(group_of(j)), same);
+    covariance.fixed = fracture_discretisation.covariance(a.feature, b.feature, rigid_position(group_of(i)),
+                                                          rigid_position(group_of(j)), same);
   return covariance;
 }
 
@@ -227,27 +226,27 @@ CovarianceParts Observations::covariance_parts() const {
       parts.scatter(i, j) = parts.scatter(j, i) = both.scatter;
     }
   }
-  if (has_shared_numerics()) parts.fixed += numerics_shared * numerics_shared.transpose();
+  if (has_shared_discretisation()) parts.fixed += discretisation_shared * discretisation_shared.transpose();
   if (emulator_variance.size() == size()) parts.fixed.diagonal() += emulator_variance;
   return parts;
 }
 
 Eigen::VectorXd Observations::own_variances() const {
   Eigen::VectorXd variances = covariance().diagonal();
-  if (has_shared_numerics()) variances -= numerics_shared.rowwise().squaredNorm();
+  if (has_shared_discretisation()) variances -= discretisation_shared.rowwise().squaredNorm();
   return variances;
 }
 
-Eigen::VectorXd Observations::shared_numerics(const Eigen::VectorXd& residuals_at_rows,
-                                              const std::vector<Eigen::Index>& at) const {
-  if (!has_shared_numerics()) return Eigen::VectorXd::Zero(size());
+Eigen::VectorXd Observations::shared_discretisation(const Eigen::VectorXd& residuals_at_rows,
+                                                    const std::vector<Eigen::Index>& at) const {
+  if (!has_shared_discretisation()) return Eigen::VectorXd::Zero(size());
   const Eigen::MatrixXd all = covariance();
   const Eigen::VectorXd weights = all(at, at).llt().solve(residuals_at_rows);
-  return numerics_shared * (numerics_shared(at, Eigen::all).transpose() * weights);
+  return discretisation_shared * (discretisation_shared(at, Eigen::all).transpose() * weights);
 }
 
-Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_numerics_sd,
-                     const FractureNumerics& fracture) {
+Observations observe(const std::vector<SpecimenRecord>& specimens, double modulus_discretisation_sd,
+                     const FractureDiscretisation& fracture) {
   const bool homogeneous_moduli = has_coupons(specimens) || !has_layouts(specimens);
   // Replicates in the order of their names: the same bits whatever the order of arrival.
   const std::vector<SpecimenRecord> nominal = measurement::at_nominal_conditions(specimens);
@@ -258,14 +257,14 @@ Observations observe(const std::vector<SpecimenRecord>& specimens, double modulu
     if (!belongs(specimen, homogeneous_moduli)) continue;
     const FeatureValues features = features_of(specimen);
     if (std::none_of(features.begin(), features.end(), [](const auto& f) { return f.has_value(); })) continue;
-    const double step = contexts[static_cast<std::size_t>(&specimen - nominal.data())].batch_step;
+    const double step = contexts[&specimen - nominal.data()].batch_step;
     by_group[key_of(specimen)].emplace(specimen.specimen, Measured{&specimen, features, step});
     last_batch_step = std::max(last_batch_step, step);
   }
   Observations observations;
   observations.last_batch_step = last_batch_step;
-  observations.numerics_sd = modulus_numerics_sd;
-  observations.fracture_numerics = fracture;
+  observations.discretisation_sd = modulus_discretisation_sd;
+  observations.fracture_discretisation = fracture;
   std::vector<std::vector<Measured>> groups;
   for (auto& [key, named] : by_group) {
     groups.emplace_back();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diagnosis/features.hpp"
-#include "diagnosis/numerics.hpp"
+#include "diagnosis/fracture_discretisation.hpp"
 #include "measurement/measurement.hpp"
 
 namespace nacre::diagnosis {
@@ -110,22 +110,20 @@ struct Observations {
   /// By TestKind, and behind them coupons of one material each: soft ones are pulled farther than rigid ones, and
   /// scatter otherwise.
   std::vector<ReplicateScatter> scatter = std::vector<ReplicateScatter>(3);
-  double numerics_sd = 0.0;            ///< per layout, of log E, independent between layouts
-  FractureNumerics fracture_numerics;  ///< the same of the features of a fracture test
-  Eigen::MatrixXd
-      numerics_shared;  ///< rows x directions: what numerics leave along each, one standard deviation; may be empty
-  Eigen::VectorXd emulator_variance;  ///< per row; empty: none
-  int disconnected_batches = 0;       ///< sets of batches without a common design under equal conditions; 0: no batches
-  double last_batch_step = 0.0;       ///< of all specimens; 0: there is one batch, or none is known
+  double discretisation_sd = 0.0;                  ///< per layout, of log E, independent between layouts
+  FractureDiscretisation fracture_discretisation;  ///< the same of the features of a fracture test
+  Eigen::MatrixXd discretisation_shared;           ///< rows x directions: what numerics leave along each, one standard
+                                                   ///< deviation; may be empty
+  Eigen::VectorXd emulator_variance;               ///< per row; empty: none
+  int disconnected_batches = 0;  ///< sets of batches without a common design under equal conditions; 0: no batches
+  double last_batch_step = 0.0;  ///< of all specimens; 0: there is one batch, or none is known
   std::vector<BatchOffset> batch_offsets;  ///< where a batch may lie off a steady change: of three and more
   int size() const { return static_cast<int>(rows.size()); }
-  const Observation& group_of(int row) const {
-    return groups[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)].group)];
-  }
+  const Observation& group_of(int row) const { return groups[rows[row].group]; }
   bool has(tester::TestKind test) const;
-  bool has_shared_numerics() const { return numerics_shared.rows() == size(); }
+  bool has_shared_discretisation() const { return discretisation_shared.rows() == size(); }
   /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
-  int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
+  int replicate_dof(tester::TestKind test) const { return scatter[test].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
   /// Covariance of two rows, but for the shared directions and the emulator. What two numerics differ by is the same
   /// for all specimens of one layout under one test: rotated twins share it.
@@ -136,19 +134,19 @@ struct Observations {
     const CovarianceParts parts = covariance_parts();
     return parts.fixed + parts.scatter;
   }
-  /// Variances of the rows but for what numerics share among them, which predictions take in (shared_numerics()).
+  /// Variances of the rows but for what numerics share among them, which predictions take in (shared_discretisation()).
   Eigen::VectorXd own_variances() const;
   /// The part of residuals (measured - predicted) that is expected to be numerics along the shared directions, given
   /// these residuals at `rows`; for all rows.
-  Eigen::VectorXd shared_numerics(const Eigen::VectorXd& residuals_at_rows,
-                                  const std::vector<Eigen::Index>& rows) const;
+  Eigen::VectorXd shared_discretisation(const Eigen::VectorXd& residuals_at_rows,
+                                        const std::vector<Eigen::Index>& rows) const;
 };
 
 /// Groups the valid specimens: moduli and fracture tests of layouts, coupons pulled with a curve. Homogeneous moduli
 /// join only where such coupons are there too, or no layout: voxels do not have bulk constants (thesis 3.2.4). Notched
 /// homogeneous specimens are left out.
-Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_numerics_sd,
-                     const FractureNumerics& fracture);
+Observations observe(const std::vector<measurement::SpecimenRecord>& specimens, double modulus_discretisation_sd,
+                     const FractureDiscretisation& fracture);
 
 /// How most upright specimens of a test are tested; as by default where there are none.
 tester::TestConditions usual_conditions(const Observations& observations, tester::TestKind test);

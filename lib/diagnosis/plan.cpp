@@ -7,9 +7,9 @@
 #include <set>
 
 #include "base/result.hpp"
+#include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/features.hpp"
-#include "diagnosis/looked_for.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
 
@@ -112,7 +112,7 @@ std::map<std::string, std::vector<PossibleTest>> bundles(const Observations& obs
 /// Signatures of all acting effects over all rows, base and covariance: what every subset of rows is judged by.
 struct Sheet {
   const Observations& observations;
-  Fit base;
+  FittedModel base;
   Eigen::MatrixXd covariance;
   std::vector<Signature> signatures = {};
 };
@@ -122,10 +122,10 @@ Sheet sheet_of(Workbench& workbench, const DiagnosisSettings& settings, const As
   Observations& observations = workbench.observations();
   for (ReplicateScatter& each : observations.scatter) each.covariance = covariance_of(scatter);
   const CoordinateMap map = workbench.model().base_map();
-  Fit base = linearised(workbench.model(), {}, map.coordinates(settings.start));
+  FittedModel base = linearised(workbench.model(), {}, map.coordinates(settings.start));
   if (settings.floor.mesh_amplitude > 0.0 && observations.has(TestKind::modulus)) {
-    observations.numerics_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, base.u);
-    observations.numerics_sd = settings.floor.mesh_remainder_sd;
+    observations.discretisation_shared = settings.floor.mesh_amplitude * workbench.model().mesh_change(map, base.u);
+    observations.discretisation_sd = settings.floor.mesh_remainder_sd;
   }
   return {observations, std::move(base), observations.covariance()};
 }
@@ -149,20 +149,20 @@ void read_alike(std::vector<SpecimenRecord>& specimens, std::vector<SpecimenReco
 
 /// Signatures of all effects in some rows, whitened and projected off what the base imitates there; zero where the
 /// effect would not be looked for on these rows alone.
-struct Traces {
+struct PlannedSignatures {
   std::vector<Eigen::MatrixXd> projected;  ///< rows x kPlannedSizes, per signature
   std::vector<double> absorption;          ///< at a typical size
 };
 
-Traces traces_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
-  const Fit base = sheet.base.restricted(rows);
+PlannedSignatures planned_signatures_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
+  const FittedModel base = sheet.base.restricted(rows);
   const Whitener whitener(sheet.covariance(rows, rows));
-  Traces traces;
+  PlannedSignatures traces;
   const auto sizes = static_cast<Eigen::Index>(std::size(kPlannedSizes));
   for (const Signature& signature : sheet.signatures) {
     Eigen::MatrixXd changes = signature.changes(rows, Eigen::seqN(0, sizes));
     const Eigen::VectorXd most = signature.changes.leftCols(sizes).cwiseAbs().rowwise().maxCoeff();
-    if (!leaves_traces(*material::find_effect(signature.effect), most, sheet.observations, rows)) changes.setZero();
+    if (!has_signature(*material::find_effect(signature.effect), most, sheet.observations, rows)) changes.setZero();
     traces.projected.push_back(projected_signatures(base, changes, whitener));
     traces.absorption.push_back(signature_size(base, changes.col(kPlannedTypical), whitener).absorption());
   }
@@ -170,7 +170,7 @@ Traces traces_of(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
 }
 
 /// What a diagnosis would make of effect k at every size: signal, distance to the nearest rival of typical size.
-PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const Traces& traces, std::size_t k) {
+PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const PlannedSignatures& traces, std::size_t k) {
   std::vector<double> signals, distance;
   for (std::size_t i = 0; i < std::size(kPlannedSizes); ++i) {
     const auto own = traces.projected[k].col(static_cast<Eigen::Index>(i));
@@ -205,17 +205,17 @@ PlannedEffect judged(PlannedEffect planned, const Sheet& sheet, const Traces& tr
 /// Groups that some rows are of.
 std::vector<Observation> groups_in(const Observations& observations, const std::vector<Eigen::Index>& rows) {
   std::set<int> indices;
-  for (const Eigen::Index row : rows) indices.insert(observations.rows[static_cast<std::size_t>(row)].group);
+  for (const Eigen::Index row : rows) indices.insert(observations.rows[row].group);
   std::vector<Observation> groups;
   for (const int index : indices)
-    if (index >= 0) groups.push_back(observations.groups[static_cast<std::size_t>(index)]);
+    if (index >= 0) groups.push_back(observations.groups[index]);
   return groups;
 }
 
 /// Every effect, as a diagnosis of these rows alone would judge it: nothing is shown by rows that are too few for one.
 std::vector<PlannedEffect> judge(const Sheet& sheet, const std::vector<Eigen::Index>& rows) {
   const bool enough = !why_too_few(groups_in(sheet.observations, rows));
-  const Traces traces = traces_of(sheet, rows);
+  const PlannedSignatures traces = planned_signatures_of(sheet, rows);
   std::vector<PlannedEffect> effects;
   for (const material::Effect& effect : material::effect_library()) {
     PlannedEffect planned;
@@ -263,7 +263,7 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
                     const AssumedScatter& scatter, bool additions) {
   std::erase_if(specimens, [](const SpecimenRecord& specimen) { return !specimen.valid; });
   fill_in(specimens, settings);
-  const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics);
+  const Observations alone = observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation);
   const auto added = additions ? bundles(alone) : std::map<std::string, std::vector<PossibleTest>>{};
   std::vector<SpecimenRecord> all = specimens, more;
   for (const auto& [words, tests] : added)
@@ -279,7 +279,7 @@ Plan plan_diagnosis(std::vector<SpecimenRecord> specimens, const DiagnosisSettin
   const auto rows_with = [&](const std::vector<PossibleTest>& tests) {
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < observations.size(); ++i) {
-      const Row& row = observations.rows[static_cast<std::size_t>(i)];
+      const Row& row = observations.rows[i];
       const auto is_planned = [&](const Observation& other) {
         const Observation& group = observations.group_of(i);
         return other.design == group.design && other.test == group.test && other.conditions == group.conditions &&
@@ -311,7 +311,7 @@ double signal_of_change(std::vector<SpecimenRecord> specimens, std::vector<Speci
   read_alike(specimens, changed);
   Workbench workbench(specimens, as_given(settings));
   const Sheet sheet = sheet_of(workbench, settings, scatter);
-  const Observations other = observe(changed, settings.floor.log_modulus_sd, settings.fracture_numerics);
+  const Observations other = observe(changed, settings.floor.log_modulus_sd, settings.fracture_discretisation);
   if (other.size() != sheet.observations.size())
     throw InputError::format("the changed specimens show {} features, expected {}", other.size(),
                              sheet.observations.size());

@@ -6,7 +6,7 @@
 #include "base/hash.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
-#include "diagnosis/outsider.hpp"
+#include "diagnosis/discrepancy_model.hpp"
 #include "material/extensions.hpp"
 
 namespace nacre::diagnosis {
@@ -15,14 +15,14 @@ namespace {
 std::string procedure_text(const DiagnosisSettings& settings) {
   std::string text = fmt::format("kernel {} fidelity {}\nlevels {} {} {} {} bootstraps {}\n", tester::kKernelVersion,
                                  tester::to_string(settings.fidelity), settings.name_level, settings.unexplained_level,
-                                 kExclusionLevel, kOutsiderLevel, settings.bootstraps);
+                                 kExclusionLevel, kDiscrepancyLevel, settings.bootstraps);
   text += fmt::format("leads {} {} contrasts {} {}\n", kOwnLead, kCertainLead, kContrastTie, kEvenLead);
   text += fmt::format("signal {} {} (at the named constants) distance {} sizes {}\n", kVisibleSignal, kNameableSignal,
                       kToldApart, fmt::join(kSizes, " "));
   text += fmt::format("floor {:a} {:a} {:a}\n", settings.floor.log_modulus_sd, settings.floor.mesh_amplitude,
                       settings.floor.mesh_remainder_sd);
   if (settings.ranges != material::thesis_ranges()) text += material::to_csv(settings.ranges);
-  const FractureNumerics& fracture = settings.fracture_numerics;
+  const FractureDiscretisation& fracture = settings.fracture_discretisation;
   for (const Eigen::MatrixXd* matrix : {&fracture.shared, &fracture.rigid, &fracture.layout})
     text += fmt::format("fracture {:a}\n", fmt::join(matrix->reshaped(), " "));
   for (const material::Effect& effect : material::effect_library()) {

@@ -15,17 +15,17 @@ using tester::TestKind;
 
 struct Variant {
   const char* words;
-  tester::Numerics numerics;
+  tester::Discretisation discretisation;
   double gamma = 1.0;  ///< factor: the filter of Eq. 2.4 amounts to a viscosity gamma h^2
 };
 
 std::vector<Variant> variants() {
   Variant step{"half the time step", {}}, rate{"half the simulated rate", {}}, recording{"doubled recording", {}},
       element{"half the element size", {}, 4.0};
-  step.numerics.time_step_scale = 0.5;
-  rate.numerics.rate_scale = 0.5;
-  recording.numerics.recording_scale = 2;
-  element.numerics.refinement = 2;
+  step.discretisation.time_step_scale = 0.5;
+  rate.discretisation.rate_scale = 0.5;
+  recording.discretisation.recording_scale = 2;
+  element.discretisation.refinement = 2;
   return {step, rate, recording, element};
 }
 
@@ -38,8 +38,7 @@ std::vector<int> three_groups(const Observations& observations, TestKind test) {
     if (group.test == test && group.design.layout() && group.conditions == usual) groups.push_back(static_cast<int>(g));
   }
   std::stable_sort(groups.begin(), groups.end(), [&](int a, int b) {
-    return observations.groups[static_cast<std::size_t>(a)].design.rigid_fraction() <
-           observations.groups[static_cast<std::size_t>(b)].design.rigid_fraction();
+    return observations.groups[a].design.rigid_fraction() < observations.groups[b].design.rigid_fraction();
   });
   if (groups.size() <= 3) return groups;
   return {groups.front(), groups[groups.size() / 2], groups.back()};
@@ -51,9 +50,9 @@ FeatureValues features_with(const Observation& group, material::ParameterSet set
   set.toughness.gamma_per_s *= variant.gamma;
   const tester::Simulation simulation{group.design, set, group.conditions, fidelity};
   if (group.test == TestKind::modulus) {
-    if (const auto result = tester::test_modulus(simulation, variant.numerics))
+    if (const auto result = tester::test_modulus(simulation, variant.discretisation))
       value_of(values, Feature::log_modulus) = std::log(result->modulus_pa);
-  } else if (const auto result = tester::test_toughness(simulation, variant.numerics)) {
+  } else if (const auto result = tester::test_toughness(simulation, variant.discretisation)) {
     values = fracture_features(result->curve);
   }
   return values;
@@ -61,8 +60,8 @@ FeatureValues features_with(const Observation& group, material::ParameterSet set
 
 }  // namespace
 
-std::vector<SanityCheck> check_numerics(const Observations& observations, const material::ParameterSet& set,
-                                        tester::Fidelity fidelity) {
+std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
+                                              tester::Fidelity fidelity) {
   std::vector<Variant> tried = {{"", {}, 1.0}};
   for (const Variant& variant : variants()) tried.push_back(variant);
   const Eigen::VectorXd deviations = observations.covariance().diagonal().cwiseSqrt();
@@ -74,8 +73,8 @@ std::vector<SanityCheck> check_numerics(const Observations& observations, const 
       const std::size_t g = static_cast<std::size_t>(job) / tried.size(),
                         v = static_cast<std::size_t>(job) % tried.size();
       // A static test has neither time step nor rate.
-      if (test == TestKind::modulus && v != 0 && tried[v].numerics.refinement == 1) return;
-      values[g][v] = features_with(observations.groups[static_cast<std::size_t>(groups[g])], set, fidelity, tried[v]);
+      if (test == TestKind::modulus && v != 0 && tried[v].discretisation.refinement == 1) return;
+      values[g][v] = features_with(observations.groups[groups[g]], set, fidelity, tried[v]);
     });
     for (std::size_t v = 1; v < tried.size(); ++v) {
       for (const Feature feature : {Feature::log_modulus, Feature::log_toughness, Feature::log_peak}) {
@@ -85,7 +84,7 @@ std::vector<SanityCheck> check_numerics(const Observations& observations, const 
           if (!before || !after) continue;
           check.largest = std::max(check.largest, std::abs(*after - *before));
           for (int i = 0; i < observations.size(); ++i) {
-            const Row& row = observations.rows[static_cast<std::size_t>(i)];
+            const Row& row = observations.rows[i];
             if (row.group == groups[g] && row.feature == feature)
               check.allowed = std::max(check.allowed, deviations[i]);
           }

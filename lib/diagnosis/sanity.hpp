@@ -11,8 +11,8 @@ namespace nacre::diagnosis {
 /// Step 1 of the procedure: three specimens (least, middling and most rigid) at the parameters given, simulated again
 /// with other numerics. Moduli: element size; fracture tests: all four, log T and log peak stress. Nothing for coupons,
 /// which have neither mesh nor time step.
-std::vector<SanityCheck> check_numerics(const Observations& observations, const material::ParameterSet& set,
-                                        tester::Fidelity fidelity);
+std::vector<SanityCheck> check_discretisation(const Observations& observations, const material::ParameterSet& set,
+                                              tester::Fidelity fidelity);
 
 /// Groups of replicates of which some are out of line (measurement::review_replicates), by design and test: "modulus of
 /// 577fffe9fffdef". A value mistyped looks like a cause that nobody knows.

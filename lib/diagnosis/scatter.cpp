@@ -119,9 +119,8 @@ Eigen::MatrixXd sums_of_products(const std::vector<Deviation>& deviations, int d
     double own = 0.0;
     for (const Deviation& d : deviations) own += std::pow(d.from_mean[f].value_or(0.0), 2);
     const double filled_dof = dof * lacking[f] / count, own_dof = dof - filled_dof;
-    products.diagonal()[static_cast<Eigen::Index>(f)] +=
-        filled_dof *
-        std::max(std::pow(assumed_sd(static_cast<Feature>(f), kAssumed), 2), own_dof > 0.0 ? own / own_dof : 0.0);
+    products.diagonal()[f] += filled_dof * std::max(std::pow(assumed_sd(static_cast<Feature>(f), kAssumed), 2),
+                                                    own_dof > 0.0 ? own / own_dof : 0.0);
   }
   return products;
 }

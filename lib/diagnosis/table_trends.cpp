@@ -21,7 +21,7 @@ constexpr int kLeastRows = 5;
 
 using Column = std::vector<std::optional<double>>;
 
-struct Table {
+struct TrendTable {
   std::vector<std::pair<std::string, Column>> columns;  ///< by name, in the order of the heading
   std::vector<measurement::RejectedRow> rejected;
 };
@@ -92,12 +92,12 @@ std::optional<measurement::RejectedRow> fault_of(const CsvRow& row, const std::v
 }
 
 /// The numeric cells of the rows that can be used, and what is wrong with the others.
-Table read_table(const std::filesystem::path& file, const std::string& measured, const std::string& predicted) {
+TrendTable read_table(const std::filesystem::path& file, const std::string& measured, const std::string& predicted) {
   const std::string text = read_file(file), source = file.string();
   CsvReader reader(text, source);
   const std::vector<std::string> names = read_heading(reader, source);
   const std::size_t y = position_of(names, measured, source), f = position_of(names, predicted, source);
-  Table table;
+  TrendTable table;
   for (const std::string& name : names) table.columns.emplace_back(name, Column{});
   CsvRow row;
   while (reader.next(row)) {
@@ -114,7 +114,7 @@ Table read_table(const std::filesystem::path& file, const std::string& measured,
   return table;
 }
 
-const Column& column_named(const Table& table, const std::string& name) {
+const Column& column_named(const TrendTable& table, const std::string& name) {
   return std::find_if(table.columns.begin(), table.columns.end(), [&](const auto& each) { return each.first == name; })
       ->second;
 }
@@ -130,7 +130,7 @@ struct Pairing {
 
 TableTrends table_trends(const std::filesystem::path& file, const std::string& measured, const std::string& predicted,
                          std::uint64_t seed, int permutations) {
-  Table table = read_table(file, measured, predicted);
+  TrendTable table = read_table(file, measured, predicted);
   const Column& y = column_named(table, measured);
   const Column& f = column_named(table, predicted);
   std::map<std::size_t, double> residual;  // by row
@@ -164,7 +164,7 @@ TableTrends table_trends(const std::filesystem::path& file, const std::string& m
   for (int draw = 0; draw < permutations; ++draw) {
     std::vector<std::size_t> shuffled = rows;
     for (std::size_t i = shuffled.size(); i > 1; --i)
-      std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+      std::swap(shuffled[i - 1], shuffled[random.index(static_cast<int>(i))]);
     std::map<std::size_t, double> moved;
     for (std::size_t i = 0; i < rows.size(); ++i) moved[rows[i]] = residual.at(shuffled[i]);
     double strongest = 0.0;

@@ -7,7 +7,7 @@
 
 #include "base/result.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/outsider.hpp"
+#include "diagnosis/discrepancy_model.hpp"
 #include "material/effect_words.hpp"
 
 namespace nacre::diagnosis {
@@ -40,7 +40,7 @@ std::vector<Contrast> judged_contrasts(const Evidence& evidence) {
 
 /// Chance of a misfit as large as this model leaves when it is true: the smaller of the omnibus and the contrast test,
 /// doubled because there are two of them.
-double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
+double chance_of_misfit(const Evidence& evidence, const FittedModel& fit) {
   const Anchor anchor{
       fit, {}, contrast_directions(evidence.observations, fit.predicted), parts_of_rows(evidence.observations)};
   const std::vector<DrawStatistics> draws =
@@ -52,10 +52,11 @@ double chance_of_misfit(const Evidence& evidence, const Fit& fit) {
   return std::min(1.0, 2.0 * std::min(omnibus_chance(draws, own), contrast));
 }
 
-bool usable(const Fit& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
+bool usable(const FittedModel& fit, double p_fit, double level) { return p_fit >= level && !fit.extension_on_bound; }
 
 /// Whether data drawn from this rival would let another model win by as much as was seen so seldom that it is excluded.
-bool excluded_by_draws(const Evidence& evidence, const std::vector<Fit>& rivals, std::size_t rival, double lead) {
+bool excluded_by_draws(const Evidence& evidence, const std::vector<FittedModel>& rivals, std::size_t rival,
+                       double lead) {
   if (lead <= 0.0) return false;
   const RivalStatistics draws =
       bootstrap_rival(rivals, rival, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 2);
@@ -64,30 +65,31 @@ bool excluded_by_draws(const Evidence& evidence, const std::vector<Fit>& rivals,
 
 /// -2 log likelihood of a model with its own numerics: directions that all models share let one of them explain itself
 /// by what elements would do in another. From where it was fitted and from where the search for the base began.
-double own_deviance(const Evidence& evidence, const Fit& model) {
+double profile_deviance(const Evidence& evidence, const FittedModel& model) {
   const auto from = [&](const Eigen::VectorXd& u) {
-    return fit_with_own_numerics(evidence, model.effects, u).deviance;
+    return fit_with_own_discretisation(evidence, model.effects, u).deviance;
   };
   return std::min(from(model.u), from(at_first_constants(evidence, model.u)));
 }
 
 /// Models that fit by themselves, with how far each lies behind the best.
 struct Fitting {
-  std::vector<Fit> models;
+  std::vector<FittedModel> models;
   std::vector<bool> excluded_by_draws;
   std::vector<double> behind;  ///< -2 log likelihood; where elements matter with each model's own numerics
 };
 
-Fitting fitting_among(const Evidence& evidence, const std::vector<Fit>& rivals, const std::vector<double>& p_fit) {
+Fitting fitting_among(const Evidence& evidence, const std::vector<FittedModel>& rivals,
+                      const std::vector<double>& p_fit) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Fit& rival : rivals) least = std::min(least, rival.chi2);
+  for (const FittedModel& rival : rivals) least = std::min(least, rival.chi2);
   Fitting fitting;
   for (std::size_t k = 0; k < rivals.size(); ++k) {
     if (!usable(rivals[k], p_fit[k], kExclusionLevel)) continue;
     fitting.models.push_back(rivals[k]);
     fitting.excluded_by_draws.push_back(excluded_by_draws(evidence, rivals, k, rivals[k].chi2 - least));
-    const bool elements_matter = evidence.observations.has_shared_numerics();
-    fitting.behind.push_back(elements_matter ? own_deviance(evidence, rivals[k]) : rivals[k].chi2);
+    const bool elements_matter = evidence.observations.has_shared_discretisation();
+    fitting.behind.push_back(elements_matter ? profile_deviance(evidence, rivals[k]) : rivals[k].chi2);
   }
   if (fitting.behind.empty()) return fitting;
   const double best = *std::ranges::min_element(fitting.behind);
@@ -97,19 +99,19 @@ Fitting fitting_among(const Evidence& evidence, const std::vector<Fit>& rivals, 
 
 /// Models that the data cannot tell from the best one, the best first: each fits by itself and is not excluded by draws
 /// under the numerics of all models; where elements matter, a model's likelihood with its own decides with them.
-std::vector<Fit> confidence_set(const Evidence& evidence, const std::vector<Fit>& rivals,
-                                const std::vector<double>& p_fit) {
+std::vector<FittedModel> confidence_set(const Evidence& evidence, const std::vector<FittedModel>& rivals,
+                                        const std::vector<double>& p_fit) {
   const Fitting fitting = fitting_among(evidence, rivals, p_fit);
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < fitting.models.size(); ++k) {
     const bool drawn_out = fitting.excluded_by_draws[k];
-    const bool out = evidence.observations.has_shared_numerics()
+    const bool out = evidence.observations.has_shared_discretisation()
                          ? fitting.behind[k] > (drawn_out ? kOwnLead : kCertainLead)
                          : drawn_out;
     if (!out) order.push_back(k);
   }
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return fitting.behind[k]; });
-  std::vector<Fit> kept;
+  std::vector<FittedModel> kept;
   for (const std::size_t k : order) kept.push_back(fitting.models[k]);
   return kept;
 }
@@ -129,7 +131,7 @@ std::vector<std::size_t> pair_anchors(const Evidence& evidence) {
 }
 
 /// Pairs that contain a single effect, where the second effect earns its place on top of the first.
-std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) {
+std::vector<FittedModel> significant_pairs(const Evidence& evidence, const FittedModel& single) {
   std::vector<std::string> others;
   for (const std::string& effect : evidence.effects) {
     if (effect != single.effects.front()) others.push_back(effect);
@@ -138,11 +140,11 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
   const std::vector<double> largest = over_draws(
       bootstrap_anchor(anchor, evidence.observations, evidence.settings.bootstraps, evidence.settings.seed + 3),
       [](const DrawStatistics& d) { return d.largest_drop(); });
-  std::vector<Fit> pairs;
+  std::vector<FittedModel> pairs;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    Fit pair = begun_again(evidence,
-                           fit_model(evidence.model, evidence.observations, {single.effects.front(), others[k]},
-                                     best_start(evidence.model, evidence.observations, single, anchor.signatures[k])));
+    FittedModel pair = restarted(
+        evidence, fit_model(evidence.model, evidence.observations, {single.effects.front(), others[k]},
+                            best_initial_guess(evidence.model, evidence.observations, single, anchor.signatures[k])));
     if (exceedance(largest, single.chi2 - pair.chi2) <= evidence.settings.name_level) pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -151,36 +153,36 @@ std::vector<Fit> significant_pairs(const Evidence& evidence, const Fit& single) 
 /// Fits the effect that these pairs share once more by itself, from where each pair ended: a pair may have found the
 /// way that its first effect missed alone, and what it gains must not be better optimisation. True when the effect fits
 /// better now.
-bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vector<Fit>& pairs) {
+bool fitted_better_alone(Evidence& evidence, std::size_t effect, const std::vector<FittedModel>& pairs) {
   constexpr double kBetter = 1.0;
-  Fit& single = evidence.singles[effect];
+  FittedModel& single = evidence.singles[effect];
   const double before = single.chi2;
-  for (const Fit& pair : pairs) {
-    Fit alone = fit_model(evidence.model, evidence.observations, single.effects, pair.u.head(single.u.size()));
+  for (const FittedModel& pair : pairs) {
+    FittedModel alone = fit_model(evidence.model, evidence.observations, single.effects, pair.u.head(single.u.size()));
     if (alone.chi2 < single.chi2) single = std::move(alone);
   }
   return single.chi2 < before - kBetter;
 }
 
 /// Pairs on all anchors, each once; nothing when an anchor was fitted better on the way.
-std::optional<std::vector<Fit>> pairs_of_best(Evidence& evidence) {
-  std::vector<Fit> pairs;
+std::optional<std::vector<FittedModel>> pairs_of_best(Evidence& evidence) {
+  std::vector<FittedModel> pairs;
   std::set<std::set<std::string>> known;
   for (const std::size_t anchor : pair_anchors(evidence)) {
-    std::vector<Fit> built = significant_pairs(evidence, evidence.singles[anchor]);
+    std::vector<FittedModel> built = significant_pairs(evidence, evidence.singles[anchor]);
     if (fitted_better_alone(evidence, anchor, built)) return std::nullopt;
-    for (Fit& pair : built)
+    for (FittedModel& pair : built)
       if (known.insert({pair.effects.begin(), pair.effects.end()}).second) pairs.push_back(std::move(pair));
   }
   return pairs;
 }
 
-Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::string reason) {
+Decision unexplained(Decision decision, const std::vector<FittedModel>& tried, std::string reason) {
   decision.verdict = Verdict::unexplained;
   decision.reason = std::move(reason);
   if (!tried.empty()) {
-    decision.partial =
-        *std::min_element(tried.begin(), tried.end(), [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+    decision.partial = *std::min_element(tried.begin(), tried.end(),
+                                         [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
   }
   return decision;
 }
@@ -189,30 +191,30 @@ Decision unexplained(Decision decision, const std::vector<Fit>& tried, std::stri
 /// the constants imitates, or would were they not bounded: what an effect only repairs of a range is no trace of its
 /// own. Not at the base's constants: to imitate an effect they went as far as they could, and what moving them does
 /// there, and how elements move the model there, says little of the true ones.
-double signal_of(const Evidence& evidence, const Fit& model) {
-  const Fit fit = fit_with_own_numerics(evidence, model.effects, model.u).fit;
-  const Fit base = linearised(evidence.model, {}, fit.u.head(fit.base_count));
-  const Observations observations = with_numerics_at(evidence, evidence.model.map(fit.effects), fit.u);
+double signal_of(const Evidence& evidence, const FittedModel& model) {
+  const FittedModel fit = fit_with_own_discretisation(evidence, model.effects, model.u).fit;
+  const FittedModel base = linearised(evidence.model, {}, fit.u.head(fit.base_count));
+  const Observations observations = with_discretisation_at(evidence, evidence.model.map(fit.effects), fit.u);
   return signature_size(base, fit.predicted - base.predicted, Whitener(observations.covariance())).projected;
 }
 
 /// How far the base with nothing but its strongest contrast lies ahead of a model, in chi squared. Effects that are
 /// such a contrast themselves, like a drift from batch to batch, are level with it; others must beat it.
-double lead_of_contrast(const Evidence& evidence, const Decision& decision, const Fit& model) {
+double lead_of_contrast(const Evidence& evidence, const Decision& decision, const FittedModel& model) {
   if (decision.contrasts.empty()) return 0.0;
   return std::pow(decision.contrasts.front().statistic, 2) - (evidence.base.fit.chi2 - model.chi2);
 }
 
 /// What is left of a model of one or two effects without one of them.
-const Fit& without(const Evidence& evidence, const Fit& model, std::size_t effect) {
+const FittedModel& without(const Evidence& evidence, const FittedModel& model, std::size_t effect) {
   if (model.effects.size() == 1) return evidence.base.fit;
-  return *std::ranges::find_if(evidence.singles,
-                               [&](const Fit& single) { return single.effects.front() == model.effects[1 - effect]; });
+  return *std::ranges::find_if(
+      evidence.singles, [&](const FittedModel& single) { return single.effects.front() == model.effects[1 - effect]; });
 }
 
 /// A condition of the specimens, one factor on which does as well as one of a model's effects does beside the others;
 /// empty when none does.
-std::string condition_instead(const Evidence& evidence, const Fit& model) {
+std::string condition_instead(const Evidence& evidence, const FittedModel& model) {
   const NoisyData data{evidence.observations.values, Whitener(evidence.observations.covariance())};
   Anchor anchor;
   anchor.directions = even_directions(evidence.observations);
@@ -228,10 +230,10 @@ std::string condition_instead(const Evidence& evidence, const Fit& model) {
 }
 
 /// Names one, or keeps several (`possible` is not empty); none where a cause outside the library could look the same.
-Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> possible, std::string reason) {
-  const Fit& best = possible.front();
+Decision settled(const Evidence& evidence, Decision decision, std::vector<FittedModel> possible, std::string reason) {
+  const FittedModel& best = possible.front();
   const double signal = signal_of(evidence, best);
-  decision.p_outside = outsider_against(evidence, best.chi2, static_cast<int>(best.effects.size())).p;
+  decision.p_outside = tested_against_discrepancy(evidence, best.chi2, static_cast<int>(best.effects.size())).p;
   const std::string nearest = in_words(best.effects) + " comes nearest";
   if (signal < kNameableSignal) {
     return unexplained(std::move(decision), possible,
@@ -252,11 +254,11 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
                     "library does not hold may act there (homogeneous coupons of both kinds would tell)",
                     nearest, condition));
   }
-  if (decision.p_outside > kOutsiderLevel) {
+  if (decision.p_outside > kDiscrepancyLevel) {
     return unexplained(std::move(decision), possible,
                        fmt::format("{}, but a cause that the library does not hold could follow the same differences "
                                    "between these specimens (chance {:.2f}, a name needs {:.2f})",
-                                   nearest, decision.p_outside, kOutsiderLevel));
+                                   nearest, decision.p_outside, kDiscrepancyLevel));
   }
   decision.verdict = possible.size() == 1 ? Verdict::named : Verdict::ambiguous;
   decision.possible = std::move(possible);
@@ -265,7 +267,7 @@ Decision settled(const Evidence& evidence, Decision decision, std::vector<Fit> p
 }
 
 /// Why an effect that leaves nothing is no name: it stands on a bound of its range.
-std::string at_the_end(const Fit& single) {
+std::string at_the_end(const FittedModel& single) {
   const material::Effect& effect = *material::find_effect(single.effects.front());
   return fmt::format("{} comes nearest, with {:.3g}{} at the end of what is searched: one beyond it may be the cause",
                      material::effect_in_words(effect.name),
@@ -275,14 +277,14 @@ std::string at_the_end(const Fit& single) {
 
 std::size_t best_single(const Evidence& evidence) {
   const auto best = std::min_element(evidence.singles.begin(), evidence.singles.end(),
-                                     [](const Fit& a, const Fit& b) { return a.chi2 < b.chi2; });
+                                     [](const FittedModel& a, const FittedModel& b) { return a.chi2 < b.chi2; });
   return static_cast<std::size_t>(best - evidence.singles.begin());
 }
 
 /// Of every single effect. What lies far behind the best cannot be in the set: its misfit is not bootstrapped.
 std::vector<double> chances_of_misfit(const Evidence& evidence, std::size_t best) {
   std::vector<double> chances;
-  for (const Fit& single : evidence.singles) {
+  for (const FittedModel& single : evidence.singles) {
     const bool in_reach = single.chi2 <= evidence.singles[best].chi2 + kOutOfReach;
     chances.push_back(in_reach ? chance_of_misfit(evidence, single) : 0.0);
   }
@@ -303,7 +305,7 @@ Decision decide(Evidence& evidence) {
   const double contrast = decision.contrasts.empty() ? 1.0 : decision.contrasts.front().p_family_wise;
   decision.p_misfit = std::min(1.0, 2.0 * std::min(omnibus, contrast));
   decision.loudest_part = loudest_part(evidence.base_draws, evidence.base_statistics);
-  for (const Fit& single : evidence.singles) {
+  for (const FittedModel& single : evidence.singles) {
     decision.p_family_wise.push_back(exceedance(largest_drops, evidence.base.fit.chi2 - single.chi2));
     decision.p_fit.push_back(1.0);
   }
@@ -326,20 +328,21 @@ Decision decide(Evidence& evidence) {
     return unexplained(std::move(decision), {evidence.singles[best]}, at_the_end(evidence.singles[best]));
   if (usable(evidence.singles[best], decision.p_fit[best], evidence.settings.unexplained_level)) {
     report(0.85, "comparing rival effects");
-    std::vector<Fit> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
+    std::vector<FittedModel> possible = confidence_set(evidence, evidence.singles, decision.p_fit);
     return settled(evidence, std::move(decision), std::move(possible),
                    "one effect fitted jointly with the base explains the data");
   }
   report(0.9, "fitting pairs of effects");
-  const std::optional<std::vector<Fit>> pairs = pairs_of_best(evidence);
+  const std::optional<std::vector<FittedModel>> pairs = pairs_of_best(evidence);
   if (!pairs) return decide(evidence);
   std::vector<double> pair_p;
-  for (const Fit& pair : *pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
+  for (const FittedModel& pair : *pairs) pair_p.push_back(chance_of_misfit(evidence, pair));
   const bool some_pair_fits =
       std::any_of(pair_p.begin(), pair_p.end(), [&](double p) { return p >= evidence.settings.unexplained_level; });
-  std::vector<Fit> possible = some_pair_fits ? confidence_set(evidence, *pairs, pair_p) : std::vector<Fit>{};
+  std::vector<FittedModel> possible =
+      some_pair_fits ? confidence_set(evidence, *pairs, pair_p) : std::vector<FittedModel>{};
   if (possible.empty()) {
-    std::vector<Fit> tried = evidence.singles;
+    std::vector<FittedModel> tried = evidence.singles;
     tried.insert(tried.end(), pairs->begin(), pairs->end());
     return unexplained(std::move(decision), tried,
                        "even the best effects of the library leave a misfit larger than noise");

@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
-#include "diagnosis/looked_for.hpp"
+#include "diagnosis/candidate_effects.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 
@@ -67,7 +67,7 @@ std::vector<material::ParameterSet> planned_runs(const material::ParameterSet& c
 std::vector<std::string> acting_effects(const FeatureModel& model, const Observations& observations) {
   const CoordinateMap base = model.base_map();
   const Eigen::VectorXd start = base.coordinates(model.basis().centre), plain = model.predict(base, start);
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(observations.size()));
+  std::vector<Eigen::Index> rows(observations.size());
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   const bool moduli_alone =
       std::ranges::all_of(rows, [&](Eigen::Index row) { return is_modulus_of_layout(observations, row); });
@@ -85,7 +85,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
       u[own] = std::clamp(size, map.lower(own), map.upper(own));
       change = change.cwiseMax((model.predict(map, u) - plain).cwiseAbs());
     }
-    if (leaves_traces(effect, change, observations, rows)) acting.push_back(names.front());
+    if (has_signature(effect, change, observations, rows)) acting.push_back(names.front());
   }
   return acting;
 }
@@ -93,7 +93,7 @@ std::vector<std::string> acting_effects(const FeatureModel& model, const Observa
 }  // namespace
 
 Workbench::Workbench(const std::vector<measurement::SpecimenRecord>& specimens, const DiagnosisSettings& settings)
-    : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_numerics)),
+    : observations_(observe(specimens, settings.floor.log_modulus_sd, settings.fracture_discretisation)),
       fidelity_(settings.fidelity) {
   if (const auto why = why_too_few(observations_.groups)) throw TooFewSpecimens(*why);
   material::ParameterSet centre = settings.start;
@@ -131,8 +131,7 @@ void Workbench::learn() {
   surface_->learn();
   observations_.emulator_variance = Eigen::VectorXd::Zero(observations_.size());
   for (std::size_t k = 0; k < surface_->rows().size(); ++k)
-    observations_.emulator_variance[surface_->rows()[k].row] =
-        surface_->cross_validated_variance()[static_cast<Eigen::Index>(k)];
+    observations_.emulator_variance[surface_->rows()[k].row] = surface_->cross_validated_variance()[k];
 }
 
 double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
@@ -152,13 +151,10 @@ double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
     int count = 0;
     for (std::size_t r = 0; r < surface_->rows().size(); ++r) {
       const SurfaceRow& row = surface_->rows()[r];
-      const auto value =
-          value_of(shown_features(run.predictions[static_cast<std::size_t>(row.group)], {}), row.feature);
-      const double variance = surface_->cross_validated_variance()[static_cast<Eigen::Index>(r)];
+      const auto value = value_of(shown_features(run.predictions[row.group], {}), row.feature);
+      const double variance = surface_->cross_validated_variance()[r];
       if (!value || variance <= 0.0) continue;
-      squares +=
-          std::pow(*value - expected[static_cast<std::size_t>(own - sets.begin())][static_cast<Eigen::Index>(r)], 2) /
-          variance;
+      squares += std::pow(*value - expected[own - sets.begin()][r], 2) / variance;
       ++count;
     }
     if (count > 0) largest = std::max(largest, std::sqrt(squares / count));
@@ -167,8 +163,8 @@ double Workbench::refine(const std::vector<material::ParameterSet>& sets) {
   return largest;
 }
 
-tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
-  const Observation& g = observations_.groups[static_cast<std::size_t>(group)];
+tester::Curve Workbench::curve_at(int group, const FittedModel& fit) const {
+  const Observation& g = observations_.groups[group];
   if (g.test == tester::TestKind::tensile)
     return model_->coupon_curve(g, model_->map(fit.effects).coupon_parameters(fit.u));
   if (g.test != tester::TestKind::toughness) return {};
@@ -189,10 +185,8 @@ tester::Curve Workbench::curve_at(int group, const Fit& fit) const {
     if (nearest == nullptr || distance < least) least = distance, nearest = &run;
   }
   const auto place = std::find(runs_->groups().begin(), runs_->groups().end(), group) - runs_->groups().begin();
-  const double batch_step = observations_.groups[static_cast<std::size_t>(group)].batch_step;
-  return sysid::observed(nearest->predictions[static_cast<std::size_t>(place)], fit.parameters.extensions,
-                         {.batch_step = batch_step})
-      .curve;
+  const double batch_step = observations_.groups[group].batch_step;
+  return sysid::observed(nearest->predictions[place], fit.parameters.extensions, {.batch_step = batch_step}).curve;
 }
 
 }  // namespace nacre::diagnosis

@@ -26,7 +26,7 @@ class Workbench {
   double refine(const std::vector<material::ParameterSet>& sets);
   /// The curve of a group as a fit would show it: of the nearest run, machine included, or of the coupon; empty for a
   /// modulus.
-  tester::Curve curve_at(int group, const Fit& fit) const;
+  tester::Curve curve_at(int group, const FittedModel& fit) const;
 
  private:
   void simulate_around(const DiagnosisSettings& settings);

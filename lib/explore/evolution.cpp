@@ -97,8 +97,8 @@ class Evolution final : public Search {
   /// Binary tournament.
   const pattern::Pattern& parent() {
     const int size = static_cast<int>(population_.size());
-    const Member& first = population_[static_cast<std::size_t>(tournament_.index(size))];
-    const Member& second = population_[static_cast<std::size_t>(tournament_.index(size))];
+    const Member& first = population_[tournament_.index(size)];
+    const Member& second = population_[tournament_.index(size)];
     return (second.better_than(first) ? second : first).sample.pattern;
   }
 

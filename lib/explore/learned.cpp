@@ -38,45 +38,45 @@ std::vector<Belief> beliefs_about(const Predictors& predictors, std::span<const 
 }
 
 /// Random patterns with rigid bars, not simulated yet; without values.
-std::vector<Evaluated> barred_patterns(const Question& question, int count) {
-  RandomStream random(batch_seed(question), "explore/barred");
+std::vector<Evaluated> barred_patterns(const BatchRequest& batch_request, int count) {
+  RandomStream random(batch_seed(batch_request), "explore/barred");
   std::vector<Evaluated> patterns;
   while (static_cast<int>(patterns.size()) < count) patterns.push_back({pattern::random_barred_pattern(random), {}});
-  return unseen(std::move(patterns), question);
+  return unseen(std::move(patterns), batch_request);
 }
 
 /// The next patterns with bars that a search begins with, at most a batch; none once it has asked for enough.
-std::vector<pattern::Pattern> barred_start(const Question& question) {
-  const SearchSettings& settings = question.settings;
-  const int asked = static_cast<int>(question.evaluated.size() + question.lost.size());
-  const int count = std::min(question.count, settings.population + settings.learned.barred_start - asked);
+std::vector<pattern::Pattern> barred_start(const BatchRequest& batch_request) {
+  const SearchSettings& settings = batch_request.settings;
+  const int asked = static_cast<int>(batch_request.evaluated.size() + batch_request.lost.size());
+  const int count = std::min(batch_request.count, settings.population + settings.learned.barred_start - asked);
   if (count <= 0 || !settings.former.empty()) return {};
   constexpr int kSpare = 10;  // some are alike or known
-  std::vector<pattern::Pattern> start = patterns_of(barred_patterns(question, kSpare * question.count));
+  std::vector<pattern::Pattern> start = patterns_of(barred_patterns(batch_request, kSpare * batch_request.count));
   start.resize(std::min(start.size(), static_cast<std::size_t>(count)));
   return start;
 }
 
 /// All that a search on the predictors visits, and patterns with bars, which that search starts from too.
-std::vector<Evaluated> candidates_for(const Question& question, const Predictors& predictors) {
-  const LearnedSettings& learned = question.settings.learned;
+std::vector<Evaluated> candidates_for(const BatchRequest& batch_request, const Predictors& predictors) {
+  const LearnedSettings& learned = batch_request.settings.learned;
   const auto believed_of = [&](std::span<const pattern::Pattern> patterns) {
     return believed(predictors, patterns, learned.optimism);
   };
   const auto count = static_cast<std::size_t>(learned.population);
   // The population of that search begins with the best that was simulated, at its true values: a candidate has to be
   // believed better than these, not better than what is believed of them.
-  std::vector<Evaluated> start = best_by_rank(question.evaluated, count);
-  std::vector<Evaluated> candidates = barred_patterns(question, learned.barred_candidates);
+  std::vector<Evaluated> start = best_by_rank(batch_request.evaluated, count);
+  std::vector<Evaluated> candidates = barred_patterns(batch_request, learned.barred_candidates);
   const std::vector<optimize::Performance> performances = believed_of(patterns_of(candidates));
   for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].performance = performances[i];
   const std::vector<Evaluated> barred = best_by_rank(candidates, count);
   start.insert(start.end(), barred.begin(), barred.end());
   const std::vector<Evaluated> visited = search_believed(
       believed_of, start,
-      {.generations = learned.generations, .population = learned.population, .seed = batch_seed(question)});
+      {.generations = learned.generations, .population = learned.population, .seed = batch_seed(batch_request)});
   candidates.insert(candidates.begin(), visited.begin(), visited.end());
-  return unseen(std::move(candidates), question);
+  return unseen(std::move(candidates), batch_request);
 }
 
 /// Patterns and what is believed of them.
@@ -109,18 +109,18 @@ void know_moduli(Finalists& finalists, const ModulusOf& modulus_of) {
 }
 
 std::vector<pattern::Pattern> choose_by_improvement(const Predictors& predictors, std::span<const Evaluated> candidates,
-                                                    const Question& question) {
-  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(question.evaluated));
-  const auto count = static_cast<std::size_t>(question.count);
+                                                    const BatchRequest& batch_request) {
+  const std::vector<optimize::Performance> front = optimize::pareto_front(performances_of(batch_request.evaluated));
+  const auto count = static_cast<std::size_t>(batch_request.count);
   Finalists finalists = finalists_of(predictors, patterns_of(best_by_rank(candidates, std::max(kShortList, count))),
                                      front, std::max(kFinalists, count));
   SharedErrors shared{{}, predictors.toughness->covariance(finalists.patterns)};
-  if (question.settings.mechanics.modulus_of)
-    know_moduli(finalists, question.settings.mechanics.modulus_of);
+  if (batch_request.settings.mechanics.modulus_of)
+    know_moduli(finalists, batch_request.settings.mechanics.modulus_of);
   else
     shared.log_modulus = predictors.modulus->covariance(finalists.patterns);
   std::vector<pattern::Pattern> batch;
-  for (const std::size_t i : best_improvements(finalists.beliefs, front, question.count, std::move(shared)))
+  for (const std::size_t i : best_improvements(finalists.beliefs, front, batch_request.count, std::move(shared)))
     batch.push_back(finalists.patterns[i]);
   return batch;
 }
@@ -172,15 +172,15 @@ LearnedSettings thesis_learning() {
   return settings;
 }
 
-std::vector<pattern::Pattern> learned_batch(const Question& question) {
-  const SearchSettings& settings = question.settings;
-  if (std::vector<pattern::Pattern> start = barred_start(question); !start.empty()) return start;
+std::vector<pattern::Pattern> learned_batch(const BatchRequest& batch_request) {
+  const SearchSettings& settings = batch_request.settings;
+  if (std::vector<pattern::Pattern> start = barred_start(batch_request); !start.empty()) return start;
   Predictors base;
   if (!settings.former.empty()) base = fit_predictors(settings.former, settings);
-  const Predictors predictors = fit_predictors(question.evaluated, settings, base);
-  const std::vector<Evaluated> candidates = candidates_for(question, predictors);
-  if (settings.learned.choice == "improvement") return choose_by_improvement(predictors, candidates, question);
-  return patterns_of(best_by_rank(candidates, static_cast<std::size_t>(question.count)));
+  const Predictors predictors = fit_predictors(batch_request.evaluated, settings, base);
+  const std::vector<Evaluated> candidates = candidates_for(batch_request, predictors);
+  if (settings.learned.choice == "improvement") return choose_by_improvement(predictors, candidates, batch_request);
+  return patterns_of(best_by_rank(candidates, static_cast<std::size_t>(batch_request.count)));
 }
 
 }  // namespace nacre::explore

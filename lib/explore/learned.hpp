@@ -18,6 +18,6 @@ LearnedSettings thesis_learning();
 /// to what was evaluated (and to `former` samples as a first guess), NSGA-II searches on them from the best samples and
 /// the best of many random patterns with bars, and among all that are not yet simulated the batch is chosen. Fewer than
 /// asked for only when there are fewer.
-std::vector<pattern::Pattern> learned_batch(const Question& question);
+std::vector<pattern::Pattern> learned_batch(const BatchRequest& batch_request);
 
 }  // namespace nacre::explore

@@ -25,13 +25,13 @@ class ModelSearch final : public Search {
   }
 
   std::vector<pattern::Pattern> ask() override {
-    const std::optional<Question> next = question();
-    return next ? ask_with(answer_to(*next)) : ask_at_random();
+    const std::optional<BatchRequest> next = batch_request();
+    return next ? ask_with(batch_for(*next)) : ask_at_random();
   }
 
-  std::optional<Question> question() const override {
+  std::optional<BatchRequest> batch_request() const override {
     if (starting() || ledger_.evaluated().empty() || ledger_.room() <= 0) return std::nullopt;
-    return Question{settings_, ledger_.evaluated(), lost_, ledger_.room()};
+    return BatchRequest{settings_, ledger_.evaluated(), lost_, ledger_.room()};
   }
 
   std::vector<pattern::Pattern> ask_with(std::span<const pattern::Pattern> answer) override {
@@ -76,15 +76,15 @@ class ModelSearch final : public Search {
 
 }  // namespace
 
-std::uint64_t batch_seed(const Question& question) {
-  return content_hash64(fmt::format("{} {} {}", question.settings.algorithm, question.settings.seed,
-                                    question.evaluated.size() + question.lost.size()));
+std::uint64_t batch_seed(const BatchRequest& batch_request) {
+  return content_hash64(fmt::format("{} {} {}", batch_request.settings.algorithm, batch_request.settings.seed,
+                                    batch_request.evaluated.size() + batch_request.lost.size()));
 }
 
-std::vector<Evaluated> unseen(std::vector<Evaluated> candidates, const Question& question) {
+std::vector<Evaluated> unseen(std::vector<Evaluated> candidates, const BatchRequest& batch_request) {
   std::unordered_set<std::uint64_t> seen;
-  for (const Evaluated& sample : question.evaluated) seen.insert(sample.pattern.bits());
-  for (const pattern::Pattern& pattern : question.lost) seen.insert(pattern.bits());
+  for (const Evaluated& sample : batch_request.evaluated) seen.insert(sample.pattern.bits());
+  for (const pattern::Pattern& pattern : batch_request.lost) seen.insert(pattern.bits());
   std::erase_if(candidates, [&](const Evaluated& candidate) { return !seen.insert(candidate.pattern.bits()).second; });
   return candidates;
 }

@@ -6,15 +6,15 @@
 
 namespace nacre::explore {
 
-/// A search that thinks about all it has seen before every batch (answer_to()): random patterns first, like every
+/// A search that thinks about all it has seen before every batch (batch_for()): random patterns first, like every
 /// search, then batch after batch until the budget is spent or no new pattern is found.
 std::unique_ptr<Search> make_model_search(const SearchSettings& settings);
 
 /// Seed of everything random in the answer to a question: another one for every batch.
-std::uint64_t batch_seed(const Question& question);
+std::uint64_t batch_seed(const BatchRequest& batch_request);
 
 /// Candidates that may still be asked for.
-std::vector<Evaluated> unseen(std::vector<Evaluated> candidates, const Question& question);
+std::vector<Evaluated> unseen(std::vector<Evaluated> candidates, const BatchRequest& batch_request);
 
 /// Up to `count` candidates, one by one for the largest growth of the hypervolume of `evaluated` and those chosen,
 /// taken at their word.

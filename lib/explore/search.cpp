@@ -6,12 +6,12 @@
 #include <fmt/ranges.h>
 
 #include "base/result.hpp"
-#include "explore/dgemo.hpp"
 #include "explore/evolution.hpp"
 #include "explore/learned.hpp"
 #include "explore/model_search.hpp"
 #include "explore/random_search.hpp"
-#include "explore/tsemo.hpp"
+#include "explore/rivals/dgemo.hpp"
+#include "explore/rivals/tsemo.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -61,11 +61,11 @@ const std::vector<std::string>& algorithms() {
   return kNames;
 }
 
-std::vector<pattern::Pattern> answer_to(const Question& question) {
-  const std::string& algorithm = question.settings.algorithm;
-  if (algorithm == "learned") return learned_batch(question);
-  if (algorithm == "tsemo") return tsemo_batch(question);
-  if (algorithm == "dgemo") return dgemo_batch(question);
+std::vector<pattern::Pattern> batch_for(const BatchRequest& batch_request) {
+  const std::string& algorithm = batch_request.settings.algorithm;
+  if (algorithm == "learned") return learned_batch(batch_request);
+  if (algorithm == "tsemo") return tsemo_batch(batch_request);
+  if (algorithm == "dgemo") return dgemo_batch(batch_request);
   throw InputError::format("search: algorithm \"{}\" asks no questions", algorithm);
 }
 

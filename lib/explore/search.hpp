@@ -77,7 +77,7 @@ struct SearchSettings {
 };
 
 /// Everything that the next batch of a model-based search depends on.
-struct Question {
+struct BatchRequest {
   SearchSettings settings;             ///< with `known` left empty: it stands in `evaluated`
   std::vector<Evaluated> evaluated;    ///< in order of evaluation
   std::vector<pattern::Pattern> lost;  ///< asked for, but the simulation failed
@@ -97,8 +97,8 @@ class Search {
   virtual const std::vector<Evaluated>& evaluated() const = 0;
 
   /// What the next ask() would have to think about for longer than a moment; nothing when it would not. Who must not
-  /// wait has answer_to() worked out elsewhere and asks with the answer.
-  virtual std::optional<Question> question() const { return std::nullopt; }
+  /// wait has batch_for() worked out elsewhere and asks with the answer.
+  virtual std::optional<BatchRequest> batch_request() const { return std::nullopt; }
   /// ask() with the answer to question(). Also for going on: batches that were asked for before an interruption need
   /// not be thought about again. A search that asks no questions throws InputError when it would ask otherwise, and
   /// asks for as many as it would.
@@ -106,7 +106,7 @@ class Search {
 };
 
 /// The answer to a question of a search: the patterns to simulate next. A pure function; takes seconds.
-std::vector<pattern::Pattern> answer_to(const Question& question);
+std::vector<pattern::Pattern> batch_for(const BatchRequest& batch_request);
 
 /// Names of the algorithms: nsga2 (NSGA-II with the three-way mutation and no crossover); nsga2-single-pixel,
 /// nsga2-rollback (the baselines of 3.2.5); random; tsemo and dgemo (Bayesian optimisation); learned (2.3.3).

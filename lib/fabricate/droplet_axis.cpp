@@ -32,7 +32,7 @@ void check_printer(const Printer& printer) {
 DropletAxis::DropletAxis(int dpi, std::int64_t length_um, std::int64_t pixel_um)
     : pitch_mm_(pitch_mm(dpi)), dpi_(dpi), length_um_(length_um), pixel_um_(pixel_um) {
   assert(length_um > 0 && length_um % 2 == 0 && pixel_um > 0);
-  places_.resize(static_cast<std::size_t>(droplets_before(length_um, dpi)));
+  places_.resize(droplets_before(length_um, dpi));
   // The first pixel may be cut by the specimen's edge: whole pixels from the middle outwards, and one more.
   const std::int64_t reach = (length_um / 2 + pixel_um - 1) / pixel_um;
   for (std::int64_t pixel = -reach; pixel < reach; ++pixel) {
@@ -42,7 +42,7 @@ DropletAxis::DropletAxis(int dpi, std::int64_t length_um, std::int64_t pixel_um)
       const bool at_low_edge = droplet - begin < width && begin > 0;
       const bool at_high_edge = end - droplet <= width && end < droplets();
       const auto here = static_cast<std::int32_t>(pixel);
-      places_[static_cast<std::size_t>(droplet)] = {here, at_low_edge ? here - 1 : at_high_edge ? here + 1 : here};
+      places_[droplet] = {here, at_low_edge ? here - 1 : at_high_edge ? here + 1 : here};
     }
   }
 }

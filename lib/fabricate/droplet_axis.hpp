@@ -31,7 +31,7 @@ class DropletAxis {
   DropletAxis(int dpi, std::int64_t length_um, std::int64_t pixel_um);
 
   int droplets() const { return static_cast<int>(places_.size()); }
-  const AxisPlace& place(int droplet) const { return places_[static_cast<std::size_t>(droplet)]; }
+  const AxisPlace& place(int droplet) const { return places_[droplet]; }
   /// Centre of a droplet from the specimen's edge.
   double centre_mm(int droplet) const { return pitch_mm_ * (droplet + 0.5); }
   double pitch() const { return pitch_mm_; }

@@ -76,7 +76,7 @@ class Programme {
     if (!simplex.isProvenOptimal()) return {};
     const double* flows = simplex.primalColumnSolution();
     std::vector<double> earth(kFreePixels, 0.0);
-    for (int flow = 0; flow < first_flows_; ++flow) earth[static_cast<std::size_t>(flow % kFreePixels)] += flows[flow];
+    for (int flow = 0; flow < first_flows_; ++flow) earth[flow % kFreePixels] += flows[flow];
     return earth;
   }
 
@@ -103,8 +103,7 @@ class Programme {
 std::uint64_t cut_at(double height, const std::vector<double>& earth) {
   std::uint64_t soft = 0;
   for (int i = 0; i < kFreePixels; ++i)
-    if (earth[static_cast<std::size_t>(i)] / quarter_cells(i) >= height * (1.0 - kRounding))
-      soft |= std::uint64_t{1} << i;
+    if (earth[i] / quarter_cells(i) >= height * (1.0 - kRounding)) soft |= std::uint64_t{1} << i;
   return soft;
 }
 
@@ -112,9 +111,8 @@ std::uint64_t cut_at(double height, const std::vector<double>& earth) {
 std::uint64_t highest(double cells, const std::vector<double>& earth) {
   std::vector<int> order;
   for (int i = 0; i < kFreePixels; ++i)
-    if (earth[static_cast<std::size_t>(i)] > kRounding) order.push_back(i);
-  std::ranges::stable_sort(order, std::greater{},
-                           [&](int i) { return earth[static_cast<std::size_t>(i)] / quarter_cells(i); });
+    if (earth[i] > kRounding) order.push_back(i);
+  std::ranges::stable_sort(order, std::greater{}, [&](int i) { return earth[i] / quarter_cells(i); });
   std::uint64_t soft = 0;
   double taken = 0.0;
   for (const int i : order) {

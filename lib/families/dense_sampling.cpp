@@ -30,7 +30,7 @@ DenseSampler::DenseSampler(std::vector<Pattern> seeds, const DenseSamplingSettin
 std::vector<Pattern> DenseSampler::next() {
   std::vector<Pattern> found;
   for (int attempt = 0; attempt < settings_.attempts && !exhausted_; ++attempt) {
-    const Pattern& parent = members_[static_cast<std::size_t>(random_.index(static_cast<int>(members_.size())))];
+    const Pattern& parent = members_[random_.index(static_cast<int>(members_.size()))];
     const std::optional<Pattern> child =
         pattern::mutate_or_roll_back(parent, pattern::MutationKind::three_way, random_);
     if (!child || known_.contains(child->bits())) continue;

@@ -26,7 +26,7 @@ struct Cell {
 std::array<Cell, kFreePixels> cells() {
   std::array<Cell, kFreePixels> result{};
   for (int row = 0, index = 0; row < kQuarter; ++row)
-    for (int column = row; column < kQuarter; ++column) result[static_cast<std::size_t>(index++)] = {row, column};
+    for (int column = row; column < kQuarter; ++column) result[index++] = {row, column};
   return result;
 }
 
@@ -36,9 +36,7 @@ const CostTable& cost_table() {
   static const CostTable table = [] {
     CostTable result{};
     for (int a = 0; a < kFreePixels; ++a)
-      for (int b = 0; b < kFreePixels; ++b)
-        result[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] =
-            std::llround(free_pixel_distance(a, b) / kCostUnit);
+      for (int b = 0; b < kFreePixels; ++b) result[a][b] = std::llround(free_pixel_distance(a, b) / kCostUnit);
     return result;
   }();
   return table;
@@ -72,8 +70,7 @@ std::int64_t cheapest_transport(const std::vector<Surplus>& sources, const std::
     for (std::size_t j = 0; j < sinks.size(); ++j) {
       const Graph::Node to = Graph::nodeFromId(static_cast<int>(sources.size() + j));
       supply[to] = sinks[j].amount;
-      cost[graph.addArc(from, to)] =
-          cost_table()[static_cast<std::size_t>(sources[i].pixel)][static_cast<std::size_t>(sinks[j].pixel)];
+      cost[graph.addArc(from, to)] = cost_table()[sources[i].pixel][sinks[j].pixel];
     }
   }
   lemon::NetworkSimplex<Graph, std::int64_t, std::int64_t> simplex(graph);
@@ -88,7 +85,7 @@ int quarter_cells(int index) { return Pattern::orbit_size(index) / 4; }
 
 double free_pixel_distance(int a, int b) {
   static const std::array<Cell, kFreePixels> kCells = cells();
-  const Cell from = kCells[static_cast<std::size_t>(a)], to = kCells[static_cast<std::size_t>(b)];
+  const Cell from = kCells[a], to = kCells[b];
   return std::min(std::hypot(from.row - to.row, from.column - to.column),
                   std::hypot(from.row - to.column, from.column - to.row));
 }

@@ -37,7 +37,7 @@ std::vector<Pattern> between(std::span<const Pattern> members, const Triangle& t
       std::vector<double> weights;
       for (std::size_t corner = 0; corner < 3; ++corner) {
         if (parts[corner] == 0) continue;
-        sources.push_back(members[static_cast<std::size_t>(triangle[corner])]);
+        sources.push_back(members[triangle[corner]]);
         weights.push_back(parts[corner]);
       }
       if (sources.size() < 2) continue;
@@ -63,9 +63,8 @@ std::vector<Pattern> interpolated(const Pattern& seed, std::span<const Pattern> 
                                   const InterpolationSettings& settings) {
   const std::vector<Triangle> triangles = candidate_triangles(points, settings);
   std::vector<std::vector<Pattern>> found(triangles.size());
-  parallel_for(static_cast<int>(triangles.size()), [&](int i) {
-    found[static_cast<std::size_t>(i)] = between(members, triangles[static_cast<std::size_t>(i)], settings.divisions);
-  });
+  parallel_for(static_cast<int>(triangles.size()),
+               [&](int i) { found[i] = between(members, triangles[i], settings.divisions); });
   std::unordered_set<std::uint64_t> known;
   for (const Pattern& member : members) known.insert(member.bits());
   std::vector<Pattern> result;

@@ -94,14 +94,14 @@ void shortest_paths(const Graph& graph, std::size_t source, Eigen::Ref<Eigen::Ve
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   lengths.setConstant(std::numeric_limits<double>::infinity());
-  lengths[static_cast<Eigen::Index>(source)] = 0.0;
+  lengths[source] = 0.0;
   queue.emplace(0.0, source);
   while (!queue.empty()) {
     const auto [length, node] = queue.top();
     queue.pop();
-    if (length > lengths[static_cast<Eigen::Index>(node)]) continue;
+    if (length > lengths[node]) continue;
     for (const Edge& edge : graph[node]) {
-      double& known = lengths[static_cast<Eigen::Index>(edge.to)];
+      double& known = lengths[edge.to];
       if (length + edge.length >= known) continue;
       known = length + edge.length;
       queue.emplace(known, edge.to);

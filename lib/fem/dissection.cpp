@@ -79,14 +79,14 @@ class Dissector {
       for (int row = r.bottom; row <= r.top; ++row)
         for (int direction = 0; direction < 2; ++direction) {
           const int unknown = 2 * (row * (grid_.columns + 1) + column) + direction;
-          if (!held_[static_cast<std::size_t>(unknown)]) add_unknown(r, unknown, block);
+          if (!held_[unknown]) add_unknown(r, unknown, block);
         }
   }
 
   void join_borders(const Rectangle& r, DissectionBlock& block) const {
     std::vector<int> unknowns;
     for (const int half : block.halves) {
-      const std::vector<int>& border = plan.blocks[static_cast<std::size_t>(half)].border;
+      const std::vector<int>& border = plan.blocks[half].border;
       unknowns.insert(unknowns.end(), border.begin(), border.end());
     }
     std::sort(unknowns.begin(), unknowns.end());
@@ -96,16 +96,16 @@ class Dissector {
 
   void number_rows(const DissectionBlock& block) {
     std::int16_t next = 0;
-    for (const int unknown : block.pivots) row_[static_cast<std::size_t>(unknown)] = next++;
+    for (const int unknown : block.pivots) row_[unknown] = next++;
     const int pivot_rows = padded_front_rows(block.pivot_count());
     assert(pivot_rows + block.border_count() < INT16_MAX);
     next = static_cast<std::int16_t>(pivot_rows);
-    for (const int unknown : block.border) row_[static_cast<std::size_t>(unknown)] = next++;
+    for (const int unknown : block.border) row_[unknown] = next++;
   }
 
   void place_border(std::size_t half, DissectionBlock& block) {
-    const auto row = [this](int unknown) { return row_[static_cast<std::size_t>(unknown)]; };
-    std::vector<int>& border = plan.blocks[static_cast<std::size_t>(block.halves[half])].border;
+    const auto row = [this](int unknown) { return row_[unknown]; };
+    std::vector<int>& border = plan.blocks[block.halves[half]].border;
     std::sort(border.begin(), border.end(), [&](int a, int b) { return row(a) < row(b); });
     std::vector<BorderRun>& runs = block.half_runs[half];
     for (std::size_t i = 0; i < border.size(); ++i) {
@@ -118,7 +118,7 @@ class Dissector {
   void place_elements(const Rectangle& r, DissectionBlock& block) const {
     for (int row = r.bottom; row < r.top; ++row)
       for (int column = r.left; column < r.right; ++column) {
-        if (grid_.phase[static_cast<std::size_t>(grid_.index(row, column))] == Phase::empty) continue;
+        if (grid_.phase[grid_.index(row, column)] == Phase::empty) continue;
         const auto nodes = element_nodes(grid_, row, column);
         std::array<std::int16_t, 8> rows;
         for (std::size_t a = 0; a < 8; ++a) {

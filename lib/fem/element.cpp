@@ -11,7 +11,7 @@ std::array<ShapeGradients, kGaussPoints> make_gradients() {
   for (int point = 0; point < kGaussPoints; ++point) {
     const double x = point % 2 == 0 ? near : far, y = point < 2 ? near : far;
     // N = (1-x)(1-y), x(1-y), (1-x)y, xy.
-    result[static_cast<std::size_t>(point)] << -(1 - y), 1 - y, -y, y, -(1 - x), -x, 1 - x, x;
+    result[point] << -(1 - y), 1 - y, -y, y, -(1 - x), -x, 1 - x, x;
   }
   return result;
 }

@@ -20,8 +20,7 @@ std::vector<std::size_t> update_places(const std::vector<DissectionBlock>& block
   std::vector<std::size_t> place(blocks.size(), 0);
   for (std::size_t k = blocks.size(); k-- > 0;)
     if (blocks[k].halves[0] >= 0)
-      for (std::size_t half = 0; half < 2; ++half)
-        place[static_cast<std::size_t>(blocks[k].halves[half])] = 2 * (place[k] / 2 + 1) + half;
+      for (std::size_t half = 0; half < 2; ++half) place[blocks[k].halves[half]] = 2 * (place[k] / 2 + 1) + half;
   return place;
 }
 
@@ -80,7 +79,7 @@ void FrontalCholesky::assemble(std::size_t k, const std::vector<material::Lame>&
                         unit.bulk.data());
   }
   for (std::size_t half = 0; half < 2 && block.halves[half] >= 0; ++half)
-    kernel_.add_half(front, fronts_[static_cast<std::size_t>(block.halves[half])], block.half_runs[half].data(),
+    kernel_.add_half(front, fronts_[block.halves[half]], block.half_runs[half].data(),
                      static_cast<int>(block.half_runs[half].size()));
 }
 
@@ -99,10 +98,10 @@ bool FrontalCholesky::factorise(const std::vector<material::Lame>& lame,
 void FrontalCholesky::solve(std::vector<double>& x) {
   double* const local = numbers(local_);
   const auto gather = [&](const std::vector<int>& unknowns, double* to) {
-    for (std::size_t i = 0; i < unknowns.size(); ++i) to[i] = x[static_cast<std::size_t>(unknowns[i])];
+    for (std::size_t i = 0; i < unknowns.size(); ++i) to[i] = x[unknowns[i]];
   };
   const auto scatter = [&](const std::vector<int>& unknowns, const double* from) {
-    for (std::size_t i = 0; i < unknowns.size(); ++i) x[static_cast<std::size_t>(unknowns[i])] = from[i];
+    for (std::size_t i = 0; i < unknowns.size(); ++i) x[unknowns[i]] = from[i];
   };
   for (std::size_t k = 0; k < fronts_.size(); ++k) {
     const DissectionBlock& block = plan_->blocks[k];

@@ -88,13 +88,12 @@ std::vector<double> work_of(const CellPlan& plan, const std::vector<material::La
       const auto nodes = element_nodes(grid, row, column);
       ElementVector own;
       for (int a = 0; a < kElementNodes; ++a)
-        own.segment<2>(2 * a) =
-            Eigen::Map<const Eigen::Vector2d>(field.data() + 2 * nodes[static_cast<std::size_t>(a)]);
+        own.segment<2>(2 * a) = Eigen::Map<const Eigen::Vector2d>(field.data() + 2 * nodes[a]);
       const UnitStiffness& shape = *plan.shapes()[e];
       const ElementVector force = lame[e].mu_pa * (shape.shear * own) + lame[e].lambda_pa * (shape.bulk * own);
       work.push_back(own.dot(force));
       for (int a = 0; forces != nullptr && a < kElementNodes; ++a)
-        Eigen::Map<Eigen::Vector2d>(forces->data() + 2 * nodes[static_cast<std::size_t>(a)]) += force.segment<2>(2 * a);
+        Eigen::Map<Eigen::Vector2d>(forces->data() + 2 * nodes[a]) += force.segment<2>(2 * a);
     }
   return work;
 }

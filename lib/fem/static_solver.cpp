@@ -27,14 +27,13 @@ std::vector<char> held_unknowns(const Grid& grid) {
   std::vector<char> held(static_cast<std::size_t>(2 * nodes), 1);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
-      if (grid.phase[static_cast<std::size_t>(grid.index(row, column))] != Phase::empty)
-        for (const int node : element_nodes(grid, row, column))
-          held[static_cast<std::size_t>(2 * node)] = held[static_cast<std::size_t>(2 * node + 1)] = 0;
+      if (grid.phase[grid.index(row, column)] != Phase::empty)
+        for (const int node : element_nodes(grid, row, column)) held[2 * node] = held[2 * node + 1] = 0;
   for (int node = 0; node < nodes; ++node)
-    if (node < nodes_per_row || node >= nodes - nodes_per_row) held[static_cast<std::size_t>(2 * node + 1)] = 1;
+    if (node < nodes_per_row || node >= nodes - nodes_per_row) held[2 * node + 1] = 1;
   for (int node = 0; node < nodes; ++node)
-    if (!held[static_cast<std::size_t>(2 * node)]) {
-      held[static_cast<std::size_t>(2 * node)] = 1;  // the first that is free to move sideways
+    if (!held[2 * node]) {
+      held[2 * node] = 1;  // the first that is free to move sideways
       break;
     }
   return held;
@@ -79,7 +78,7 @@ ExtendedState<double> stretched(const Grid& grid, const std::vector<material::La
               std::numeric_limits<double>::infinity());
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      const material::Lame& constants = lame[static_cast<std::size_t>(grid.index(row, column))];
+      const material::Lame& constants = lame[grid.index(row, column)];
       state.mu[row * state.element_stride + column] = kGaussWeight * constants.mu_pa;
       state.lambda[row * state.element_stride + column] = kGaussWeight * constants.lambda_pa;
     }

@@ -48,7 +48,7 @@ std::vector<bool> held_nodes(const tester::FractureFrame& frame) {
   std::vector<bool> held(static_cast<std::size_t>((frame.columns + 1) * (frame.rows + 1)), false);
   for (int row = 0; row < frame.rows; ++row)
     for (int column = 0; column < frame.columns; ++column) {
-      if (frame.material[static_cast<std::size_t>(row * frame.columns + column)] == kVoid) continue;
+      if (frame.material[row * frame.columns + column] == kVoid) continue;
       const auto node = static_cast<std::size_t>(row * (frame.columns + 1) + column);
       const std::size_t above = node + static_cast<std::size_t>(frame.columns) + 1;
       held[node] = held[node + 1] = held[above] = held[above + 1] = true;
@@ -85,13 +85,12 @@ double Film::energy_j_per_m3(int level) const {
 }
 
 double Film::displacement_x_m(const Frame& frame, int node) const {
-  return displacement_step_m * frame.displacement_step[static_cast<std::size_t>(node)];
+  return displacement_step_m * frame.displacement_step[node];
 }
 
 double Film::displacement_y_m(const Frame& frame, int node) const {
   const double height_m = (node / (columns + 1)) * element_size_m;
-  return frame.strain * height_m +
-         displacement_step_m * frame.displacement_step[static_cast<std::size_t>(node_count() + node)];
+  return frame.strain * height_m + displacement_step_m * frame.displacement_step[node_count() + node];
 }
 
 Film film_of(const tester::Simulation& simulation, const tester::ToughnessResult& filmed) {

@@ -111,7 +111,7 @@ void read_header(const json& header, Film& film) {
   film.crack.separate_cracks = count_in(crack, "separate_cracks", elements);
   film.crack.columns = film.columns;
   film.crack.rows = film.rows;
-  film.crack.order.resize(static_cast<std::size_t>(count_in(crack, "broken", elements)));
+  film.crack.order.resize(count_in(crack, "broken", elements));
   if (const json& path = crack.at("path"); !path.is_null()) film.crack.path = path_from(path, elements);
   for (const json& frame : header.at("frames"))
     film.frames.push_back({.strain = frame.at("strain"),

@@ -15,7 +15,7 @@ bool could_answer(const PrintedSpecimen& specimen, const Order& order) {
          std::abs(specimen.orientation_deg - order.conditions.orientation_deg) < 0.5;
 }
 
-bool is_proposed(const LaboratoryFacts& facts, const StatedDecision& decision) {
+bool is_proposed(const LaboratoryFacts& facts, const StatedApproval& decision) {
   return std::ranges::any_of(facts.proposed, [&](const ProposedForRound& each) {
     return each.round == decision.proposal_round && each.design == decision.design;
   });
@@ -25,7 +25,7 @@ bool is_proposed(const LaboratoryFacts& facts, const StatedDecision& decision) {
 bool waits_for_an_answer(const LaboratoryFacts& facts, const pattern::Design& design) {
   return !are_both_ordered(facts.orders, design) &&
          std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
-           return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedDecision& each) {
+           return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedApproval& each) {
                     return each.proposal_round == proposed.round && each.design == design;
                   });
          });
@@ -66,7 +66,7 @@ std::vector<int> printed_for(std::span<const Order> orders, std::span<const Prin
     if (order == orders.end()) {
       free.push_back(&specimen);
     } else {
-      ++counts[static_cast<std::size_t>(order - orders.begin())];
+      ++counts[order - orders.begin()];
     }
   }
   for (const PrintedSpecimen* specimen : free) {
@@ -79,15 +79,15 @@ std::vector<int> printed_for(std::span<const Order> orders, std::span<const Prin
   return counts;
 }
 
-std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, const StatedDecision& decision) {
-  const auto first = std::find_if(facts.decisions.begin(), facts.decisions.end(), [&](const StatedDecision& each) {
+std::optional<StatedApproval> decision_against(const LaboratoryFacts& facts, const StatedApproval& decision) {
+  const auto first = std::find_if(facts.decisions.begin(), facts.decisions.end(), [&](const StatedApproval& each) {
     return each.proposal_round == decision.proposal_round && each.design == decision.design;
   });
   if (first == facts.decisions.end() || first->approved == decision.approved) return std::nullopt;
   return *first;
 }
 
-std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDecision& decision,
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& decision,
                                     bool asks_for_approvals) {
   const std::string name = decision.design.name();
   if (decision.proposal_round < 0) {
@@ -152,7 +152,7 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
     state.stage = stage_of(state, all_complete[name]);
   }
   std::map<std::string, bool> decided;
-  for (const StatedDecision& decision : facts.decisions) {
+  for (const StatedApproval& decision : facts.decisions) {
     // What the validation agent passes over decides nothing: a proposal that is not there, a design of one's own that
     // is proposed and waits.
     const auto known = states.find(decision.design.name());

@@ -25,7 +25,7 @@ enum class DesignStage {
 std::string_view to_string(DesignStage stage);
 
 /// A person's word on a design.
-struct StatedDecision {
+struct StatedApproval {
   int proposal_round = 0;
   pattern::Design design;
   bool approved = false;
@@ -51,7 +51,7 @@ struct ProposedForRound {
 /// What is known of the laboratory's work.
 struct LaboratoryFacts {
   std::vector<ProposedForRound> proposed;
-  std::vector<StatedDecision> decisions;  ///< in the order in which they arrived: the first that counts stands
+  std::vector<StatedApproval> decisions;  ///< in the order in which they arrived: the first that counts stands
   std::vector<Order> orders;
   std::vector<PrintedSpecimen> printed;
   MeasurementBook book;
@@ -80,10 +80,10 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts);
 
 /// The decision that counts in place of this one: the first on the same design of the same proposal, when it says the
 /// opposite. Nothing where this one may count.
-std::optional<StatedDecision> decision_against(const LaboratoryFacts& facts, const StatedDecision& decision);
+std::optional<StatedApproval> decision_against(const LaboratoryFacts& facts, const StatedApproval& decision);
 
 /// Why a decision would change nothing, as a sentence; nothing where it counts. `asks_for_approvals`: the game does.
-std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedDecision& decision,
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& decision,
                                     bool asks_for_approvals);
 
 /// Printed specimens of each order: those that carry its id, then those that fit and carry none.

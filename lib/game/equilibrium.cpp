@@ -11,12 +11,12 @@ namespace {
 constexpr double kGapErrors = 2.0;          // (b): the gap is noise when within this many standard errors
 constexpr double kGapRelativeChange = 0.1;  // (b): or when it has stopped moving
 
-struct Judgement {
+struct RoundCriteria {
   bool quiet = false;
   std::string number;  // which comparison decided
 };
 
-Judgement judge_round(const RoundFigures& before, const RoundFigures& now) {
+RoundCriteria judge_round(const RoundFigures& before, const RoundFigures& now) {
   if (before.measured_hypervolume <= 0.0) {
     return {false, fmt::format("round {} is the first with a measured hypervolume", now.round)};
   }
@@ -47,14 +47,14 @@ Judgement judge_round(const RoundFigures& before, const RoundFigures& now) {
 
 }  // namespace
 
-Verdict judge_equilibrium(std::span<const RoundFigures> history) {
+EquilibriumCheck judge_equilibrium(std::span<const RoundFigures> history) {
   if (history.size() < 2) return {false, "nothing has been measured yet"};
   const auto newest = history.last(2);
-  const Judgement now = judge_round(newest[0], newest[1]);
+  const RoundCriteria now = judge_round(newest[0], newest[1]);
   if (!now.quiet) return {false, now.number};
   if (history.size() < 3) return {false, now.number + "; a second such round is needed"};
   const auto previous = history.last(3);
-  const Judgement earlier = judge_round(previous[0], previous[1]);
+  const RoundCriteria earlier = judge_round(previous[0], previous[1]);
   if (!earlier.quiet) return {false, now.number + "; a second such round is needed, but " + earlier.number};
   return {true, now.number + ", as before: " + earlier.number};
 }

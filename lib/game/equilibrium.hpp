@@ -15,7 +15,7 @@ struct RoundFigures {
 };
 
 /// The decision and the number it rests on, in words.
-struct Verdict {
+struct EquilibriumCheck {
   bool equilibrium = false;
   std::string decided_by;
 };
@@ -24,6 +24,6 @@ struct Verdict {
 /// and (b) the signed gap lies within twice that error or changed by less than 10 %. `history` holds one entry per
 /// round, ascending, the newest last; a round counts only when its predecessor had measurements, so the earliest end is
 /// round 3.
-Verdict judge_equilibrium(std::span<const RoundFigures> history);
+EquilibriumCheck judge_equilibrium(std::span<const RoundFigures> history);
 
 }  // namespace nacre::game

@@ -10,14 +10,14 @@
 namespace nacre::game {
 namespace {
 
-const double kOdds = std::log10(20.0);
-/// What the others may say against it: five to one. Designs that both foretell within the scatter, one from either side,
-/// come to that.
+const double kDecisiveBayesFactor = std::log10(20.0);
+/// What the others may say against it: five to one. Designs that both foretell within the scatter, one from either
+/// side, come to that.
 constexpr double kStraddling = -0.7;
 constexpr int kFewestDesigns = 3;
 constexpr double kFreedom = 4.0;
 
-void add_error(std::vector<ForetoldError>& errors, int round, const std::string& design, double measured,
+void add_error(std::vector<OutOfSampleError>& errors, int round, const std::string& design, double measured,
                const std::optional<double>& adopted, const std::optional<double>& extended) {
   if (!(measured > 0.0) || !adopted || !extended || !(*adopted > 0.0) || !(*extended > 0.0)) return;
   errors.push_back({.design = design,
@@ -55,16 +55,16 @@ double log_likelihood(std::span<const double> errors, double scatter) {
 }
 
 /// 1.48 times the median absolute error: of normal errors the standard deviation.
-double scatter_of(std::span<const ForetoldError> errors, double ForetoldError::*model, double least) {
+double scatter_of(std::span<const OutOfSampleError> errors, double OutOfSampleError::*model, double least) {
   std::vector<double> sizes;
-  for (const ForetoldError& each : errors) sizes.push_back(std::abs(each.*model));
+  for (const OutOfSampleError& each : errors) sizes.push_back(std::abs(each.*model));
   return std::max(least, 1.4826 * quantile(std::move(sizes), 0.5));
 }
 
-double evidence(std::span<const ForetoldError> errors, double ForetoldError::*model, double least) {
+double evidence(std::span<const OutOfSampleError> errors, double OutOfSampleError::*model, double least) {
   const double scatter = scatter_of(errors, model, least);
   ByRound of_model, of_mean;
-  for (const ForetoldError& each : errors) {
+  for (const OutOfSampleError& each : errors) {
     of_model[each.round].push_back(each.*model / scatter);
     of_mean[each.round].push_back(0.5 * (each.adopted + each.extended) / scatter);
   }
@@ -75,12 +75,12 @@ double evidence(std::span<const ForetoldError> errors, double ForetoldError::*mo
 }
 
 /// Evidence for the extension where any one design is left out: the least of all.
-double least_without_one(std::span<const ForetoldError> errors, double least) {
+double least_without_one(std::span<const OutOfSampleError> errors, double least) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    std::vector<ForetoldError> others(errors.begin(), errors.end());
+    std::vector<OutOfSampleError> others(errors.begin(), errors.end());
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    smallest = std::min(smallest, evidence(others, &ForetoldError::extended, least));
+    smallest = std::min(smallest, evidence(others, &OutOfSampleError::extended, least));
   }
   return smallest;
 }
@@ -100,23 +100,24 @@ void TrialErrors::add(int round, const std::vector<measurement::Replicates>& mea
   }
 }
 
-TrialStanding standing_of(std::span<const ForetoldError> errors, double least) {
+TrialStanding standing_of(std::span<const OutOfSampleError> errors, double least) {
   TrialStanding standing;
   standing.designs = static_cast<int>(errors.size());
   if (errors.empty()) return standing;
-  for (const ForetoldError& each : errors) {
+  for (const OutOfSampleError& each : errors) {
     standing.adopted += std::abs(each.adopted) / standing.designs;
     standing.extended += std::abs(each.extended) / standing.designs;
   }
-  standing.for_extended = evidence(errors, &ForetoldError::extended, least);
-  standing.for_adopted = evidence(errors, &ForetoldError::adopted, least);
+  standing.for_extended = evidence(errors, &OutOfSampleError::extended, least);
+  standing.for_adopted = evidence(errors, &OutOfSampleError::adopted, least);
   return standing;
 }
 
 bool gain_is_established(const TrialErrors& errors) {
   const TrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
                       toughness = standing_of(errors.toughness, kLeastToughnessError);
-  return modulus.designs >= kFewestDesigns && modulus.for_extended >= kOdds && toughness.for_adopted < kOdds &&
+  return modulus.designs >= kFewestDesigns && modulus.for_extended >= kDecisiveBayesFactor &&
+         toughness.for_adopted < kDecisiveBayesFactor &&
          least_without_one(errors.modulus, kLeastModulusError) >= kStraddling;
 }
 

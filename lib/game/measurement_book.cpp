@@ -32,10 +32,11 @@ std::optional<std::string> beside_orders(const measurement::SpecimenRecord& spec
       near->conditions.thickness_mm, 100.0 * measurement::kRateTolerance, 100.0 * measurement::kThicknessTolerance);
 }
 
-MeasurementBook::Entry MeasurementBook::enter(const measurement::SpecimenRecord& record, const std::string& order_id) {
+MeasurementBook::Receipt MeasurementBook::enter(const measurement::SpecimenRecord& record,
+                                                const std::string& order_id) {
   const auto [position, is_new] = entries_.try_emplace(record.specimen, Reported{record, order_id});
-  if (is_new) return Entry::accepted;
-  return position->second.record == record ? Entry::repeated : Entry::conflicting;
+  if (is_new) return Receipt::accepted;
+  return position->second.record == record ? Receipt::repeated : Receipt::conflicting;
 }
 
 bool MeasurementBook::review(const std::string& specimen, const Review& review) {

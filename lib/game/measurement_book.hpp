@@ -38,14 +38,14 @@ std::optional<std::string> beside_orders(const measurement::SpecimenRecord& spec
 
 class MeasurementBook {
  public:
-  enum class Entry {
+  enum class Receipt {
     accepted,
     repeated,     ///< the same specimen with the same content: nothing changes
     conflicting,  ///< the same specimen with other content: refused
   };
 
   /// `order_id` is empty when nacre did not order the specimen, or when the laboratory does not know.
-  Entry enter(const measurement::SpecimenRecord& record, const std::string& order_id);
+  Receipt enter(const measurement::SpecimenRecord& record, const std::string& order_id);
 
   /// Reviews may come before the measurement they judge. Returns whether the specimen's validity may have changed.
   bool review(const std::string& specimen, const Review& review);

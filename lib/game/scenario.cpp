@@ -158,7 +158,7 @@ Scenario read_scenario(const std::filesystem::path& path) {
   resolve_file(entries, "base_materials_file", path, scenario.base_materials_file);
   resolve_file(entries, "model_file", path, scenario.model_file);
   resolve_file(entries, "ranges_file", path, scenario.ranges_file);
-  resolve_file(entries, "numerics_floor_file", path, scenario.numerics_floor_file);
+  resolve_file(entries, "numerics_floor_file", path, scenario.discretisation_floor_file);
   resolve_file(entries, "laboratory.file", path, scenario.laboratory.file);
   return std::move(scenario);
 }

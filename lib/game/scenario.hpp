@@ -19,7 +19,7 @@ struct ProposalSettings {
   int seeds = 2;                    ///< independent searches merged into one gamut
   int population = 20;              ///< of each search
   int designs = 4;                  ///< selected for the laboratory each round
-  int redraws = 3;  ///< further simulations of T of whatever may be selected, under parameters moved by a fifth
+  int realisations = 3;  ///< further simulations of T of whatever may be selected, under parameters moved by a fifth
   bool operator==(const ProposalSettings&) const = default;
 };
 
@@ -87,8 +87,8 @@ struct Scenario {
       "data/thesis/base_materials.csv";  ///< real measurements that round 0 is fitted to; empty: not fitted
   std::string model_file;   ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
   std::string ranges_file;  ///< of the parameters, for other inks; empty: the thesis'
-  std::string numerics_floor_file =
-      "data/numerics_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
+  std::string discretisation_floor_file =
+      "data/discretisation_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
   FarmSettings farm;
   ProposalSettings proposal;
   ValidationSettings validation;

@@ -222,7 +222,7 @@ std::vector<ScenarioKey> make_top_level_keys() {
       file_name("", "ranges_file", "ranges of the fitted parameters, for other inks; \"\": those of the thesis",
                 at(&Scenario::ranges_file)),
       file_name("", "numerics_floor_file", "how far two numerics of one truth differ: the floor of every diagnosis",
-                at(&Scenario::numerics_floor_file)),
+                at(&Scenario::discretisation_floor_file)),
   };
 }
 
@@ -254,7 +254,7 @@ std::vector<ScenarioKey> make_proposal_keys() {
                         at(table, &ProposalSettings::designs)),
       whole_number<int>("proposal", "redraws",
                         "further fracture tests of every candidate, parameters moved by a fifth; its T is their mean",
-                        0, 100, at(table, &ProposalSettings::redraws)),
+                        0, 100, at(table, &ProposalSettings::realisations)),
   };
 }
 

@@ -22,11 +22,11 @@ std::vector<measurement::Replicates> summarise_nominally(const std::vector<measu
 
 bool upright(const tester::TestConditions& conditions) { return std::abs(conditions.orientation_deg) < 0.5; }
 
-double redrawn_mean(const std::vector<double>& values, RandomStream& random) {
+double mean_of_realisations(const std::vector<double>& values, RandomStream& random) {
   const int count = static_cast<int>(values.size());
   if (count < 2) return values.front();
   double sum = 0.0;
-  for (int draw = 0; draw < count; ++draw) sum += values[static_cast<std::size_t>(random.index(count))];
+  for (int draw = 0; draw < count; ++draw) sum += values[random.index(count)];
   const double centre = mean(values);
   const double widening = std::sqrt(count / (count - 1.0));
   return std::max(0.0, centre + widening * (sum / count - centre));
@@ -74,8 +74,8 @@ double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& value
     std::vector<optimize::Performance> drawn;
     for (const auto& [pattern, measured] : values) {
       if (measured.modulus_pa.empty() || measured.toughness_pa.empty()) continue;
-      const double modulus_pa = redrawn_mean(measured.modulus_pa, random);
-      drawn.push_back({modulus_pa, redrawn_mean(measured.toughness_pa, random)});
+      const double modulus_pa = mean_of_realisations(measured.modulus_pa, random);
+      drawn.push_back({modulus_pa, mean_of_realisations(measured.toughness_pa, random)});
     }
     hypervolumes.push_back(optimize::hypervolume_staircase_gpa_mpa(drawn));
   }
@@ -146,16 +146,16 @@ std::vector<measurement::Replicates> patterns_with_both(const std::vector<measur
   return set;
 }
 
-Foretold foretold_among(const std::vector<measurement::Replicates>& measured,
-                        const std::map<std::string, sysid::Prediction>& predictions) {
-  Foretold foretold;
+Predicted predicted_among(const std::vector<measurement::Replicates>& measured,
+                          const std::map<std::string, sysid::Prediction>& predictions) {
+  Predicted predicted;
   for (const measurement::Replicates& each : under_standard_conditions(measured)) {
     const auto prediction = predictions.find(each.design.name());
     if (prediction == predictions.end()) continue;
-    foretold.measured.push_back(each);
-    foretold.predicted.push_back(prediction->second);
+    predicted.measured.push_back(each);
+    predicted.predicted.push_back(prediction->second);
   }
-  return foretold;
+  return predicted;
 }
 
 }  // namespace nacre::game

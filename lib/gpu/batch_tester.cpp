@@ -34,10 +34,10 @@ bool PreparedTest::follow(const Reactions& reactions) {
 
 Result<tester::ToughnessResult> PreparedTest::result(const std::vector<std::int32_t>& failed_at,
                                                      std::int32_t inverted) {
-  if (inverted >= 0 && failed_at[static_cast<std::size_t>(inverted)] <= steps_) {
+  if (inverted >= 0 && failed_at[inverted] <= steps_) {
     const int columns = image_.specimen.state.columns;
     return fail("toughness tester: the solution blew up: J <= 0 in element row {} column {} at step {}",
-                inverted / columns, inverted % columns, failed_at[static_cast<std::size_t>(inverted)]);
+                inverted / columns, inverted % columns, failed_at[inverted]);
   }
   Result<tester::ToughnessResult> taken = watch_.take();
   if (!taken) return taken;

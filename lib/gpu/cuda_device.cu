@@ -113,7 +113,7 @@ class CudaDevice : public Device {
   }
 
   void load(int place, const SpecimenImage& image) override {
-    Place& p = places_[static_cast<std::size_t>(place)];
+    Place& p = places_[place];
     const std::size_t numbers = image.device_numbers() + image.elements;
     if (p.memory.size() < numbers) {
       check(cudaStreamSynchronize(stream_), "steps");
@@ -136,7 +136,7 @@ class CudaDevice : public Device {
     demand_blocks((s.columns * s.rows + kElementThreads - 1) / kElementThreads, tiles_of(p.specimen));
   }
   void unload(int place) override {
-    places_[static_cast<std::size_t>(place)].specimen.occupied = false;
+    places_[place].specimen.occupied = false;
     write_place(place);
   }
 
@@ -162,7 +162,7 @@ class CudaDevice : public Device {
     return reports;
   }
   std::vector<std::int32_t> failed_at(int place) override {
-    const Place& p = places_[static_cast<std::size_t>(place)];
+    const Place& p = places_[place];
     std::vector<std::int32_t> padded(p.elements);
     check(cudaMemcpyAsync(padded.data(), p.specimen.failed_at, padded.size() * sizeof(std::int32_t),
                           cudaMemcpyDeviceToHost, stream_),
@@ -179,7 +179,7 @@ class CudaDevice : public Device {
   };
 
   void write_place(int place) {
-    check(cudaMemcpyAsync(specimens_.get() + place, &places_[static_cast<std::size_t>(place)].specimen,
+    check(cudaMemcpyAsync(specimens_.get() + place, &places_[place].specimen,
                           sizeof(Specimen), cudaMemcpyHostToDevice, stream_),
           "specimen");
   }

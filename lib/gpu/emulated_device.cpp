@@ -35,7 +35,7 @@ class EmulatedDevice : public Device {
   std::size_t free_bytes() const override { return std::size_t{1} << 30; }
 
   void load(int place, const SpecimenImage& image) override {
-    Place& p = places_[static_cast<std::size_t>(place)];
+    Place& p = places_[place];
     p.memory.assign(image.device_numbers(), 0.0f);
     std::copy(image.block.begin(), image.block.end(), p.memory.begin());
     p.failed_at.assign(image.elements, -1);
@@ -45,7 +45,7 @@ class EmulatedDevice : public Device {
     p.specimen.occupied = true;
     p.report = {};
   }
-  void unload(int place) override { places_[static_cast<std::size_t>(place)] = {}; }
+  void unload(int place) override { places_[place] = {}; }
 
   void advance() override {
     for (int k = 0; k < kChunkSteps; ++k, ++steps_) {
@@ -66,7 +66,7 @@ class EmulatedDevice : public Device {
     return reports;
   }
   std::vector<std::int32_t> failed_at(int place) override {
-    const Place& p = places_[static_cast<std::size_t>(place)];
+    const Place& p = places_[place];
     return by_element(p.specimen.state, p.failed_at);
   }
 

@@ -60,7 +60,7 @@ bool acts_in_measurement(std::string_view name) {
 double extension_value(const Extensions& extensions, std::string_view name, int index) {
   const auto found = extensions.find(name);
   if (found == extensions.end() || index >= static_cast<int>(found->second.size())) return 0.0;
-  return found->second[static_cast<std::size_t>(index)];
+  return found->second[index];
 }
 
 }  // namespace nacre::material

@@ -47,8 +47,7 @@ void read_values(const Place& place, const toml::node& node, std::string_view ta
     const std::string path = fmt::format("{}.{}", table_name, key.str());
     if (found == names.end())
       throw place.error(value, path, fmt::format("unknown key, expected one of {}", joined(names)));
-    vector[static_cast<std::size_t>(found - names.begin())] =
-        positive_number(place, value, path, key.str().starts_with("nu_"));
+    vector[found - names.begin()] = positive_number(place, value, path, key.str().starts_with("nu_"));
   }
 }
 

@@ -204,7 +204,7 @@ ReplicateGroup review_group(const Members& members, const ConsistencySettings& s
   group.proposed = outliers_among(valid, settings);
   const int may_go = std::max(0, static_cast<int>(valid.size()) - settings.fewest_consistent);
   const bool too_many = static_cast<int>(group.proposed.size()) > may_go;
-  if (too_many) group.proposed.resize(static_cast<std::size_t>(may_go));
+  if (too_many) group.proposed.resize(may_go);
   Members kept;
   std::copy_if(valid.begin(), valid.end(), std::back_inserter(kept), [&](const SpecimenRecord* member) {
     return std::none_of(group.proposed.begin(), group.proposed.end(),

@@ -27,7 +27,7 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
     if (known == kColumns.end() || name == kColumns[kCurve]) return tl::unexpected(rejected(name, "no such column"));
     if (text.size() > kLongestField)
       return tl::unexpected(rejected(name, fmt::format("is longer than {} bytes", kLongestField)));
-    heading.position[static_cast<std::size_t>(known - kColumns.begin())] = row.cells.size();
+    heading.position[known - kColumns.begin()] = row.cells.size();
     row.cells.push_back({text, 1, 0});  // no place in a file
   }
   // The row parser would look for a file of that name.

@@ -56,7 +56,7 @@ class Exports {
                                         fmt::format("`{}` is already specimen {} (line {}), expected a test of its own",
                                                     row.file, owner->second->record.specimen, owner->second->line)});
     }
-    return (*records)[static_cast<std::size_t>(part - 1)];
+    return (*records)[part - 1];
   }
 
   /// Files that no row asked for.

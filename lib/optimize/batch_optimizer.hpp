@@ -47,20 +47,7 @@ class BatchOptimizer {
   virtual void resume(const std::vector<Evaluation>& told);
 };
 
-/// Local searches of NLopt (BOBYQA and Nelder-Mead in turn): first the starts, then a search from the best of them; one
-/// that ends or finds nothing new gives way to the next, from the best point so far with half the step. NLopt calls
-/// back instead of being asked, so each ask() runs the search anew on the values recorded so far until it wants an
-/// unknown point; the rest of the batch is what it would want next if that point were as good as its nearest neighbour.
-/// The whole budget is used and no point is asked for twice. Failed evaluations count, and are worse to the search than
-/// all others known at that time. Throws InputError for settings out of range.
-std::unique_ptr<BatchOptimizer> make_nlopt_optimizer(const BatchOptimizerSettings& settings);
-
-/// Batch Bayesian optimisation: a Gaussian process (Matern-5/2, one length scale per dimension, learnt noise beside the
-/// known), expected improvement below the smallest posterior mean, batches by local penalisation, Sobol points after
-/// the starts. Failed evaluations count as the worst value seen. Throws InputError for settings out of range.
-std::unique_ptr<BatchOptimizer> make_bayesian_optimizer(const BatchOptimizerSettings& settings);
-
-/// The rivals, all behind the same seam.
+/// What make_optimizer() offers.
 enum class Algorithm {
   bayesian,      ///< make_bayesian_optimizer
   trust_region,  ///< make_nlopt_optimizer: BOBYQA's quadratic models, with Nelder-Mead in turn

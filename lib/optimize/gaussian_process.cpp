@@ -173,36 +173,36 @@ MaternKernel kernel_at(const std::vector<double>& logarithms) {
   return kernel;
 }
 
-struct HyperQuestion {
+struct HyperPosterior {
   const Observations& observations;
   const HyperPrior& prior;
 };
 
 /// Negative log posterior density of a kernel, and its gradient.
 double hyper_objective(const std::vector<double>& at, std::vector<double>& gradient, void* data) {
-  const HyperQuestion& question = *static_cast<HyperQuestion*>(data);
-  const GaussianProcess process(question.observations, kernel_at(at));
+  const HyperPosterior& posterior = *static_cast<HyperPosterior*>(data);
+  const GaussianProcess process(posterior.observations, kernel_at(at));
   double value = -process.log_marginal_likelihood();
   const VectorXd slope = gradient.empty() ? VectorXd() : process.log_marginal_gradient();
   for (std::size_t k = 0; k < at.size(); ++k) {
-    const double apart = (at[k] - question.prior.centre[k]) / question.prior.spread[k];
+    const double apart = (at[k] - posterior.prior.centre[k]) / posterior.prior.spread[k];
     value += 0.5 * apart * apart;
-    if (!gradient.empty()) gradient[k] = apart / question.prior.spread[k] - slope[static_cast<Index>(k)];
+    if (!gradient.empty()) gradient[k] = apart / posterior.prior.spread[k] - slope[k];
   }
   return value;
 }
 
 /// Smallest value that L-BFGS reaches from `at`, which it moves there.
-double descend(std::vector<double>& at, HyperQuestion& question) {
+double descend(std::vector<double>& at, HyperPosterior& posterior) {
   nlopt::opt search(nlopt::LD_LBFGS, static_cast<unsigned>(at.size()));
   std::vector<double> lower, upper;
   for (std::size_t k = 0; k < at.size(); ++k) {
-    lower.push_back(question.prior.centre[k] - kReach * question.prior.spread[k]);
-    upper.push_back(question.prior.centre[k] + kReach * question.prior.spread[k]);
+    lower.push_back(posterior.prior.centre[k] - kReach * posterior.prior.spread[k]);
+    upper.push_back(posterior.prior.centre[k] + kReach * posterior.prior.spread[k]);
   }
   search.set_lower_bounds(lower);
   search.set_upper_bounds(upper);
-  search.set_min_objective(hyper_objective, &question);
+  search.set_min_objective(hyper_objective, &posterior);
   search.set_maxeval(60);
   search.set_ftol_abs(1e-3);
   double value = HUGE_VAL;
@@ -210,7 +210,7 @@ double descend(std::vector<double>& at, HyperQuestion& question) {
     search.optimize(at, value);
   } catch (const std::runtime_error&) {  // no progress possible any more: `at` is the best so far
     std::vector<double> none;
-    value = hyper_objective(at, none, &question);
+    value = hyper_objective(at, none, &posterior);
   }
   return value;
 }
@@ -229,13 +229,13 @@ MaternKernel fit_kernel(const Observations& observations, int restarts, std::uin
     Observations standard = observations;
     standard.values = (observations.values.array() - mean) / scale;
     standard.noise_variances = observations.noise_variances / variance;
-    HyperQuestion question{standard, prior};
-    double smallest = descend(best, question);
+    HyperPosterior posterior{standard, prior};
+    double smallest = descend(best, posterior);
     RandomStream random(seed, "optimize/kernel");
     for (int k = 0; k < restarts; ++k) {
       std::vector<double> start = prior.centre;
       for (std::size_t i = 0; i < start.size(); ++i) start[i] += prior.spread[i] * random.uniform(-1.5, 1.5);
-      const double value = descend(start, question);
+      const double value = descend(start, posterior);
       if (value < smallest) smallest = value, best = start;
     }
   }

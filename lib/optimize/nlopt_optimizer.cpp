@@ -1,3 +1,5 @@
+#include "optimize/nlopt_optimizer.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "optimize/batch_optimizer.hpp"
 #include "optimize/recorded_optimizer.hpp"
 #include "optimize/replay.hpp"
 #include "optimize/space_filling.hpp"
@@ -44,7 +45,7 @@ class NloptOptimizer final : public BatchOptimizer {
   bool pending(const Point& point) const { return std::find(batch_.begin(), batch_.end(), point) != batch_.end(); }
   void add_starts();
   void add_from_searches();
-  void begin_at_best_start();
+  void begin_at_best_initial_guess();
   Point next_start();
   void begin_search();
   bool search_is_stale() const;
@@ -78,7 +79,7 @@ NloptOptimizer::NloptOptimizer(const BatchOptimizerSettings& settings)
 
 std::vector<Point> NloptOptimizer::ask() {
   assert(batch_.empty() && "ask() before the last batch was told");
-  if (!starts_known_ && next_start_ == settings_.starts.size()) begin_at_best_start();
+  if (!starts_known_ && next_start_ == settings_.starts.size()) begin_at_best_initial_guess();
   add_starts();
   add_from_searches();
   return batch_;
@@ -112,7 +113,7 @@ void NloptOptimizer::add_from_searches() {
 }
 
 /// The first search looked ahead from the first start. It goes on when that is the best one, and else begins anew.
-void NloptOptimizer::begin_at_best_start() {
+void NloptOptimizer::begin_at_best_initial_guess() {
   starts_known_ = true;
   const auto better = [this](const Point& a, const Point& b) { return values_.at(a) < values_.at(b); };
   const Point& best = *std::min_element(settings_.starts.begin(), settings_.starts.end(), better);

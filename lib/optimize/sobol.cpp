@@ -43,10 +43,10 @@ std::array<std::uint32_t, kBitCount> directions_of(const Dimension& dimension) {
       v[at] = dimension.first[at] << (kBitCount - 1 - i);
       continue;
     }
-    const std::uint32_t back = v[static_cast<std::size_t>(i - degree)];
+    const std::uint32_t back = v[i - degree];
     v[at] = back ^ (back >> degree);
     for (int k = 1; k < degree; ++k) {
-      if ((dimension.coefficients >> (degree - 1 - k)) & 1u) v[at] ^= v[static_cast<std::size_t>(i - k)];
+      if ((dimension.coefficients >> (degree - 1 - k)) & 1u) v[at] ^= v[i - k];
     }
   }
   return v;
@@ -62,9 +62,9 @@ SobolPoints::SobolPoints(int dimension, std::uint64_t seed) {
   for (int k = 0; k < dimension; ++k) {
     if (k == 0) {
       auto& v = directions_.emplace_back();
-      for (int i = 0; i < kBits; ++i) v[static_cast<std::size_t>(i)] = 1u << (kBits - 1 - i);
+      for (int i = 0; i < kBits; ++i) v[i] = 1u << (kBits - 1 - i);
     } else {
-      directions_.push_back(directions_of(kDimensions[static_cast<std::size_t>(k - 1)]));
+      directions_.push_back(directions_of(kDimensions[k - 1]));
     }
     state_.push_back(0);
     shift_.push_back(static_cast<std::uint32_t>(random.bits() >> 32));
@@ -76,7 +76,7 @@ Point SobolPoints::next() {
   Point point;
   for (std::size_t k = 0; k < state_.size(); ++k) point.push_back(((state_[k] ^ shift_[k]) + 0.5) * kScale);
   const int flipped = std::countr_one(count_++);  // Gray code: one direction number a step
-  for (std::size_t k = 0; k < state_.size(); ++k) state_[k] ^= directions_[k][static_cast<std::size_t>(flipped)];
+  for (std::size_t k = 0; k < state_.size(); ++k) state_[k] ^= directions_[k][flipped];
   return point;
 }
 

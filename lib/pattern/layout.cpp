@@ -21,8 +21,8 @@ constexpr std::array<std::array<int, kQuarter>, kQuarter> make_free_indices() {
   int next = 0;
   for (int r = 0; r < kQuarter; ++r) {
     for (int c = r; c < kQuarter; ++c) {
-      indices[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = next;
-      indices[static_cast<std::size_t>(c)][static_cast<std::size_t>(r)] = next;
+      indices[r][c] = next;
+      indices[c][r] = next;
       ++next;
     }
   }
@@ -98,7 +98,7 @@ bool Layout::has_eightfold_symmetry() const { return *this == rotated() && *this
 int Pattern::free_index(int row, int column) {
   assert(row >= 0 && row < kSide && column >= 0 && column < kSide);
   const int r = std::min(row, kSide - 1 - row), c = std::min(column, kSide - 1 - column);
-  return kFreeIndices[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+  return kFreeIndices[r][c];
 }
 
 int Pattern::orbit_size(int index) {

@@ -27,8 +27,8 @@ inline constexpr std::uint64_t kAllFreePixels = (std::uint64_t{1} << kFreePixels
 class Layout {
  public:
   Layout() = default;
-  bool rigid(int row, int column) const { return bits_[static_cast<std::size_t>(row * kSide + column)]; }
-  void set(int row, int column, bool is_rigid) { bits_[static_cast<std::size_t>(row * kSide + column)] = is_rigid; }
+  bool rigid(int row, int column) const { return bits_[row * kSide + column]; }
+  void set(int row, int column, bool is_rigid) { bits_[row * kSide + column] = is_rigid; }
   int rigid_count() const { return static_cast<int>(bits_.count()); }
   double rigid_fraction() const { return rigid_count() / static_cast<double>(kPixels); }
   /// The layout turned by 90 degrees counter-clockwise.

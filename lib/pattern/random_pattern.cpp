@@ -18,7 +18,7 @@ std::array<int, kFreePixels> shuffled_free_pixels(RandomStream& random) {
   std::array<int, kFreePixels> order{};
   std::iota(order.begin(), order.end(), 0);
   for (int i = kFreePixels - 1; i > 0; --i) {
-    std::swap(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(random.index(i + 1))]);
+    std::swap(order[i], order[random.index(i + 1)]);
   }
   return order;
 }
@@ -33,13 +33,13 @@ std::vector<Gap> gaps_between_bars(RandomStream& random) {
   constexpr int kFewest = 2, kMost = 6;  // beside the outer row; what six leave soft is never enough
   std::array<bool, kQuarter> is_bar{true};
   for (int left = kFewest + random.index(kMost - kFewest + 1); left > 0;) {
-    bool& row = is_bar[static_cast<std::size_t>(1 + random.index(kQuarter - 1))];
+    bool& row = is_bar[1 + random.index(kQuarter - 1)];
     left -= row ? 0 : 1;
     row = true;
   }
   std::vector<Gap> gaps;
   for (int row = 1; row < kQuarter; ++row) {
-    if (is_bar[static_cast<std::size_t>(row)]) continue;
+    if (is_bar[row]) continue;
     if (gaps.empty() || gaps.back().last != row) gaps.push_back({row, row});
     gaps.back().last = row + 1;
   }

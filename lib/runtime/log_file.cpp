@@ -22,8 +22,7 @@ constexpr std::int64_t kLongestChannel = 1000;
 
 std::int64_t read_integer(std::string_view bytes, std::int64_t offset, int size) {
   std::uint64_t value = 0;
-  for (int i = 0; i < size; ++i)
-    value = value << 8 | static_cast<std::uint8_t>(bytes[static_cast<std::size_t>(offset + i)]);
+  for (int i = 0; i < size; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[offset + i]);
   return static_cast<std::int64_t>(value);
 }
 

@@ -17,7 +17,7 @@
 #include "runtime/bus.hpp"
 #include "runtime/fold.hpp"
 #include "runtime/journal.hpp"
-#include "runtime/questions.hpp"
+#include "runtime/pending_requests.hpp"
 #include "runtime/recent_problem.hpp"
 #include "runtime/reliable.hpp"
 #include "runtime/text_log.hpp"
@@ -204,8 +204,8 @@ class NodeShell {
   }
 
   void handle_unasked(const std::string& request_id, const std::string& hash) {
-    const AnswerFate fate = questions_.fate_of(request_id, core_.status().finished);
-    if (fate == AnswerFate::dismiss) inbox_.owe(hash, steady_us());
+    const ResponseFate fate = questions_.fate_of(request_id, core_.status().finished);
+    if (fate == ResponseFate::dismiss) inbox_.owe(hash, steady_us());
   }
 
   void handle_status(const Received& received) {
@@ -350,7 +350,7 @@ class NodeShell {
   Outbox outbox_;
   Inbox inbox_;
   std::unique_ptr<Executor> executor_;
-  Questions questions_;
+  PendingRequests questions_;
   Eta eta_;
   RecentProblem problem_;
   bool heard_itself_ = false;

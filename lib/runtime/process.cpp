@@ -135,9 +135,9 @@ void ChildProcess::signal_group(int signal) const {
   if (!end_) ::kill(-pid_, signal);
 }
 
-ProgramAnswer ask_program(const std::vector<std::string>& command) try {
+ProgramOutput ask_program(const std::vector<std::string>& command) try {
   ChildProcess program(command);
-  ProgramAnswer answer;
+  ProgramOutput answer;
   while (program.output() >= 0) {
     pollfd wanted{program.output(), POLLIN, 0};
     ::poll(&wanted, 1, 1000);

@@ -52,11 +52,11 @@ class ChildProcess {
 constexpr int kProgramNotFound = 127;
 
 /// What a short-lived program printed, and how it ended; for questions to other programs (git).
-struct ProgramAnswer {
+struct ProgramOutput {
   std::string output;
   ProcessEnd end;
 };
-ProgramAnswer ask_program(const std::vector<std::string>& command);
+ProgramOutput ask_program(const std::vector<std::string>& command);
 
 /// Full path of this program's executable file.
 std::filesystem::path this_program();

@@ -9,7 +9,7 @@ namespace nacre::runtime {
 void Outbox::offer(const std::string& hash, Message message, const std::vector<std::string>& receivers) {
   const auto [position, is_new] = entries_.try_emplace(hash);
   if (!is_new) return;
-  Entry& entry = position->second;
+  OfferedMessage& entry = position->second;
   if (wire::is_answer(message.channel)) entry.request_id = wire::request_id_of(message.channel, message.payload);
   entry.message = std::move(message);
   entry.order = next_order_++;
@@ -20,7 +20,7 @@ void Outbox::offer(const std::string& hash, Message message, const std::vector<s
 }
 
 /// Makes an entry due at once, at the first interval again.
-void Outbox::restart(Entry& entry) {
+void Outbox::restart(OfferedMessage& entry) {
   entry.next_us = 0;
   entry.interval_us = 0;
   active_[entry.order] = &entry;
@@ -29,7 +29,7 @@ void Outbox::restart(Entry& entry) {
 bool Outbox::acknowledge(const std::string& hash, const std::string& node, std::int64_t epoch, std::int64_t journal) {
   const auto found = entries_.find(hash);
   if (found == entries_.end()) return false;
-  Entry& entry = found->second;
+  OfferedMessage& entry = found->second;
   if (entry.waiting.erase(node) == 0) return false;
   entry.acknowledged[node] = {epoch, journal};
   Peer& peer = peers_[node];
@@ -67,8 +67,8 @@ void Outbox::answer_again(const std::string& request_id, const std::string& node
 
 /// The entries that may be under way now: each receiver has a window of its own, so that one that is down does not hold
 /// up the others. Those that do not fit wait in order.
-std::vector<Outbox::Entry*> Outbox::admitted() const {
-  std::vector<Entry*> entries;
+std::vector<Outbox::OfferedMessage*> Outbox::admitted() const {
+  std::vector<OfferedMessage*> entries;
   std::map<std::string_view, std::size_t> in_flight;
   for (const auto& [order, entry] : active_) {
     const std::size_t size = entry->message.payload.size();
@@ -85,7 +85,7 @@ std::vector<Outbox::Entry*> Outbox::admitted() const {
 
 std::vector<const Message*> Outbox::due(std::int64_t now_us) {
   std::vector<const Message*> messages;
-  for (Entry* entry : admitted()) {
+  for (OfferedMessage* entry : admitted()) {
     if (entry->next_us > now_us) continue;
     if (entry->sent) ++retries_;
     entry->sent = true;
@@ -100,7 +100,7 @@ std::vector<const Message*> Outbox::due(std::int64_t now_us) {
 
 std::optional<std::int64_t> Outbox::next_due() const {
   std::optional<std::int64_t> earliest;
-  for (const Entry* entry : admitted()) {
+  for (const OfferedMessage* entry : admitted()) {
     if (!earliest || entry->next_us < *earliest) earliest = entry->next_us;
   }
   return earliest;

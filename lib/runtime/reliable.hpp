@@ -57,7 +57,7 @@ class Outbox {
     std::int64_t epoch = 0;
     std::int64_t journal = 0;
   };
-  struct Entry {
+  struct OfferedMessage {
     Message message;
     std::string request_id;  ///< of an answer
     std::vector<std::string> receivers;
@@ -74,12 +74,12 @@ class Outbox {
     std::int64_t journal = 0;
     bool unchecked = false;  ///< acknowledged something for another journal than the one last seen
   };
-  void restart(Entry& entry);
-  std::vector<Entry*> admitted() const;
+  void restart(OfferedMessage& entry);
+  std::vector<OfferedMessage*> admitted() const;
 
   ReliableSettings settings_;
-  std::unordered_map<std::string, Entry> entries_;
-  std::map<std::uint64_t, Entry*> active_;  ///< not yet acknowledged by all, in the order offered
+  std::unordered_map<std::string, OfferedMessage> entries_;
+  std::map<std::uint64_t, OfferedMessage*> active_;  ///< not yet acknowledged by all, in the order offered
   std::map<std::string, Peer> peers_;
   std::uint64_t next_order_ = 0;
   std::int64_t retries_ = 0;

@@ -48,9 +48,9 @@ std::string without_line_end(std::string text) {
 /// The commit of the sources around the program; "unknown" where there is no git or no repository.
 std::string source_commit() {
   const std::string folder = this_program().parent_path().string();
-  const ProgramAnswer commit = ask_program({"git", "-C", folder, "rev-parse", "--verify", "--quiet", "HEAD"});
+  const ProgramOutput commit = ask_program({"git", "-C", folder, "rev-parse", "--verify", "--quiet", "HEAD"});
   if (!commit.end.orderly()) return "unknown";
-  const ProgramAnswer changes = ask_program({"git", "-C", folder, "status", "--porcelain", "--untracked-files=no"});
+  const ProgramOutput changes = ask_program({"git", "-C", folder, "status", "--porcelain", "--untracked-files=no"});
   return without_line_end(commit.output) + (changes.output.empty() ? "" : "+changes");
 }
 
@@ -191,7 +191,7 @@ void RunFolder::fill(const std::string& run_id, const game::Scenario& scenario) 
   take_along(resolved.base_materials_file, path_, "base_materials.csv");
   take_along(resolved.model_file, path_, "model.toml");
   take_along(resolved.ranges_file, path_, "ranges.csv");
-  take_along(resolved.numerics_floor_file, path_, "numerics_floor.toml");
+  take_along(resolved.discretisation_floor_file, path_, "discretisation_floor.toml");
   take_along(resolved.laboratory.file, path_, "laboratory.toml");
   const std::string text = game::to_toml(resolved);
   write_file_atomically(scenario_file(), text);

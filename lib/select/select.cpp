@@ -34,12 +34,12 @@ struct Choice {
 std::vector<Choice> choose_from_bins(const std::vector<explore::Evaluated>& candidates,
                                      std::span<const pattern::Pattern> measured, const SelectionSettings& settings) {
   const std::vector<int> bin_of = radial_bins(candidates, settings.count);
-  std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(settings.count));
-  for (std::size_t i = 0; i < candidates.size(); ++i) members[static_cast<std::size_t>(bin_of[i])].push_back(i);
+  std::vector<std::vector<std::size_t>> members(settings.count);
+  for (std::size_t i = 0; i < candidates.size(); ++i) members[bin_of[i]].push_back(i);
   std::vector<std::vector<pattern::Pattern>> occupied;
   std::vector<int> occupied_bins;
   for (int bin = 0; bin < settings.count; ++bin) {
-    const auto& indices = members[static_cast<std::size_t>(bin)];
+    const auto& indices = members[bin];
     if (indices.empty()) continue;
     occupied_bins.push_back(bin);
     occupied.emplace_back();
@@ -48,7 +48,7 @@ std::vector<Choice> choose_from_bins(const std::vector<explore::Evaluated>& cand
   const std::vector<std::size_t> chosen = beam_search(occupied, measured, settings.beam_width);
   std::vector<Choice> choices;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    choices.push_back({members[static_cast<std::size_t>(occupied_bins[k])][chosen[k]], occupied_bins[k]});
+    choices.push_back({members[occupied_bins[k]][chosen[k]], occupied_bins[k]});
   }
   return choices;
 }

@@ -13,10 +13,10 @@ CachedSimulation failed(const Error& error) {
 template <class Test>
 CachedSimulation looked_up(SimulationCache* cache, const tester::Simulation& simulation, tester::TestKind kind,
                            const Test& test) {
-  if (cache == nullptr) return kept(test(simulation, tester::Numerics{}));
+  if (cache == nullptr) return kept(test(simulation, tester::Discretisation{}));
   const std::string key = tester::simulation_key(simulation, kind);
   if (auto known = cache->find(key)) return *std::move(known);
-  const CachedSimulation answer = kept(test(simulation, tester::Numerics{}));
+  const CachedSimulation answer = kept(test(simulation, tester::Discretisation{}));
   cache->insert(key, answer);
   return answer;
 }

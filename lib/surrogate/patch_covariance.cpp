@@ -28,7 +28,7 @@ QuarterRows quarter_rows(const pattern::Pattern& pattern) {
   QuarterRows rows{};
   for (int r = 0; r < kQuarter; ++r) {
     for (int c = 0; c < kQuarter; ++c) {
-      rows[static_cast<std::size_t>(r)] |= static_cast<std::uint16_t>(pattern.rigid(r, c) << c);
+      rows[r] |= static_cast<std::uint16_t>(pattern.rigid(r, c) << c);
     }
   }
   return rows;
@@ -42,7 +42,7 @@ std::vector<PatchCovariance::Row> PatchCovariance::window_factors(int half_width
       for (int offset = -half_width; offset <= half_width; ++offset) {
         if ((row >> mirrored(c + offset)) & 1) factor *= decay;
       }
-      factors[static_cast<std::size_t>(row)].lanes[c] = static_cast<float>(factor);
+      factors[row].lanes[c] = static_cast<float>(factor);
     }
   }
   return factors;
@@ -54,7 +54,7 @@ PatchCovariance::PatchCovariance(const PatchKernel& kernel)
          kernel.region_decay < 1.0 && kernel.whole_decay > 0.0 && kernel.whole_decay < 1.0);
   for (int different = 0; different <= kQuarterPixels; ++different) {
     const double equal_share = 1.0 - different / static_cast<double>(kQuarterPixels);
-    whole_[static_cast<std::size_t>(different)] =
+    whole_[different] =
         kernel.pixel_variance * equal_share + kernel.whole_variance * std::pow(kernel.whole_decay, different);
   }
 }
@@ -77,7 +77,7 @@ NACRE_VECTOR_CLONES double PatchCovariance::operator()(const QuarterRows& a, con
   }
   double patch_sum = 0.0, region_sum = 0.0;
   for (int lane = 0; lane < kQuarter; ++lane) patch_sum += patches[lane], region_sum += regions[lane];
-  return whole_[static_cast<std::size_t>(different)] + kernel_.patch_variance * patch_sum / kQuarterPixels +
+  return whole_[different] + kernel_.patch_variance * patch_sum / kQuarterPixels +
          kernel_.region_variance * region_sum / kQuarterPixels;
 }
 

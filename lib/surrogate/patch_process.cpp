@@ -142,7 +142,7 @@ class PatchProcess final : public Predictor {
     std::vector<Prediction> result(at.size());
     for (Index i = 0; i < cross.cols(); ++i) {
       const double variance = signal_variance_ - cross.col(i).squaredNorm();
-      result[static_cast<std::size_t>(i)] = {means[i], std::sqrt(std::max(0.0, variance))};
+      result[i] = {means[i], std::sqrt(std::max(0.0, variance))};
     }
     return result;
   }
@@ -189,7 +189,7 @@ PatchKernel kernel_at(const std::vector<double>& at) {
           .noise_variance = std::exp(at[7])};
 }
 
-struct KernelQuestion {
+struct KernelPosterior {
   Points points;
   VectorXd values;  ///< standardised while a kernel is looked for
   /// Where a search for its kernel begins.
@@ -200,10 +200,10 @@ struct KernelQuestion {
 
 /// Negative log posterior density of a kernel.
 double misfit(const std::vector<double>& at, std::vector<double>&, void* data) {
-  const KernelQuestion& question = *static_cast<KernelQuestion*>(data);
-  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(question.points, kernel_at(at)));
+  const KernelPosterior& posterior = *static_cast<KernelPosterior*>(data);
+  const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(posterior.points, kernel_at(at)));
   if (factor.info() != Eigen::Success) return 1e10;
-  const VectorXd reduced = factor.matrixL().solve(question.values);
+  const VectorXd reduced = factor.matrixL().solve(posterior.values);
   const MatrixXd& lower = factor.matrixLLT();
   double value = 0.5 * reduced.squaredNorm() + lower.diagonal().array().log().sum();
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -214,15 +214,15 @@ double misfit(const std::vector<double>& at, std::vector<double>&, void* data) {
 }
 
 /// The most probable unknowns; BOBYQA, which needs no derivatives.
-std::vector<double> most_probable(KernelQuestion& question) {
-  std::vector<double> at = question.centre(), lower = at, upper = at;
+std::vector<double> most_probable(KernelPosterior& posterior) {
+  std::vector<double> at = posterior.centre(), lower = at, upper = at;
   for (double& bound : lower) bound -= kReach * kSpread;
   for (double& bound : upper) bound += kReach * kSpread;
   nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(at.size()));
   search.set_lower_bounds(lower);
   search.set_upper_bounds(upper);
   search.set_initial_step(0.7);
-  search.set_min_objective(misfit, &question);
+  search.set_min_objective(misfit, &posterior);
   constexpr int kMostPerUnknown = 11;
   search.set_maxeval(kMostPerUnknown * static_cast<int>(at.size()));
   search.set_ftol_abs(0.05);
@@ -248,7 +248,7 @@ std::vector<std::size_t> chosen_indices(std::size_t size, std::size_t count, Ran
 }
 
 /// What the prior's mean leaves of at most kKernelSamples samples.
-KernelQuestion deciding_samples(const Samples& samples, std::uint64_t seed, const Predictor* base) {
+KernelPosterior deciding_samples(const Samples& samples, std::uint64_t seed, const Predictor* base) {
   assert(samples.patterns.size() == samples.values.size() && !samples.values.empty());
   const Trend trend(samples, base);
   const VectorXd residuals =
@@ -259,24 +259,24 @@ KernelQuestion deciding_samples(const Samples& samples, std::uint64_t seed, cons
   std::vector<double> values;
   for (const std::size_t i : chosen_indices(samples.values.size(), kKernelSamples, random)) {
     patterns.push_back(samples.patterns[i]);
-    values.push_back(residuals[static_cast<Index>(i)]);
+    values.push_back(residuals[i]);
   }
-  KernelQuestion question{.points = points_of(patterns, samples.likeness), .values = {}};
-  question.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-  return question;
+  KernelPosterior posterior{.points = points_of(patterns, samples.likeness), .values = {}};
+  posterior.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return posterior;
 }
 
 /// Kernels found lately, by content of the question: a search asks the same question many times. What is answered does
 /// not depend on it.
 class KernelMemory {
  public:
-  std::vector<double> most_probable_of(KernelQuestion& question) {
-    const std::string key = key_of(question);
+  std::vector<double> most_probable_of(KernelPosterior& posterior) {
+    const std::string key = key_of(posterior);
     {
       const std::lock_guard lock(mutex_);
       if (const auto found = known_.find(key); found != known_.end()) return found->second;
     }
-    std::vector<double> found = most_probable(question);
+    std::vector<double> found = most_probable(posterior);
     const std::lock_guard lock(mutex_);
     constexpr std::size_t kMost = 256;
     if (known_.size() >= kMost) known_.clear();
@@ -284,14 +284,14 @@ class KernelMemory {
   }
 
  private:
-  static std::string key_of(const KernelQuestion& question) {
-    const Points& points = question.points;
+  static std::string key_of(const KernelPosterior& posterior) {
+    const Points& points = posterior.points;
     std::string bytes(reinterpret_cast<const char*>(points.rows.data()), points.rows.size() * sizeof(QuarterRows));
     const auto append = [&](const auto& numbers) {
       bytes.append(reinterpret_cast<const char*>(numbers.data()),
                    static_cast<std::size_t>(numbers.size()) * sizeof(double));
     };
-    append(question.values);
+    append(posterior.values);
     append(points.features);
     return content_hash(bytes);
   }
@@ -302,13 +302,13 @@ class KernelMemory {
 }  // namespace
 
 PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const Predictor* base) {
-  KernelQuestion question = deciding_samples(samples, seed, base);
-  const auto size = static_cast<std::size_t>(question.values.size());
-  const double variance = question.values.squaredNorm() / static_cast<double>(size);
+  KernelPosterior posterior = deciding_samples(samples, seed, base);
+  const auto size = static_cast<std::size_t>(posterior.values.size());
+  const double variance = posterior.values.squaredNorm() / static_cast<double>(size);
   const double scale = variance > 0.0 ? std::sqrt(variance) : 1.0;
-  question.values /= scale;
+  posterior.values /= scale;
   static KernelMemory memory;
-  PatchKernel kernel = kernel_at(size < 10 ? question.centre() : memory.most_probable_of(question));
+  PatchKernel kernel = kernel_at(size < 10 ? posterior.centre() : memory.most_probable_of(posterior));
   for (double* part : {&kernel.pixel_variance, &kernel.patch_variance, &kernel.region_variance, &kernel.whole_variance,
                        &kernel.feature_variance, &kernel.noise_variance}) {
     *part *= scale * scale;
@@ -317,7 +317,7 @@ PatchKernel fit_patch_kernel(const Samples& samples, std::uint64_t seed, const P
 }
 
 double log_likelihood(const Samples& samples, const PatchKernel& kernel, std::uint64_t seed, const Predictor* base) {
-  const KernelQuestion deciding = deciding_samples(samples, seed, base);
+  const KernelPosterior deciding = deciding_samples(samples, seed, base);
   const Eigen::LLT<MatrixXd, Eigen::Lower> factor(sample_covariance(deciding.points, kernel));
   assert(factor.info() == Eigen::Success);
   const VectorXd reduced = factor.matrixL().solve(deciding.values);

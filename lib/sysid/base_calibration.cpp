@@ -30,7 +30,7 @@ double middle_of(const ParameterRange& range) { return 0.5 * (range.minimum + ra
 double clamped(double value, const ParameterRange& range) { return std::clamp(value, range.minimum, range.maximum); }
 
 /// One candidate of one material; `modulus_pa` of theta or `trial` of eta.
-struct Candidate {
+struct CandidateConstant {
   int material = 0;
   double modulus_pa = 0.0;
   MaterialTrial trial;
@@ -39,7 +39,7 @@ struct Candidate {
 }  // namespace
 
 struct BaseCalibration::State {
-  struct Material {
+  struct MaterialState {
     /// Indices into the measured designs: those of one material are two where its tests ran under different conditions.
     std::optional<std::size_t> modulus_item, toughness_item;
     std::optional<RatioSearch> modulus;
@@ -52,12 +52,12 @@ struct BaseCalibration::State {
 
   std::vector<measurement::Replicates> measured;
   CalibrationSettings settings;
-  std::array<Material, kMaterials> materials;
+  std::array<MaterialState, kMaterials> materials;
   Phase phase = Phase::start;
   std::vector<double> dampings_per_s;  ///< to be tried, in order
   std::size_t damping = 0;             ///< the one in use
   std::vector<WantedEvaluation> wanted;
-  std::vector<std::vector<Candidate>> candidates;  ///< of each wanted evaluation, one per item
+  std::vector<std::vector<CandidateConstant>> candidates;  ///< of each wanted evaluation, one per item
   std::vector<std::optional<std::vector<Prediction>>> told;
   std::vector<Prediction> before, after;
   int batch_number = 0;
@@ -84,7 +84,7 @@ struct BaseCalibration::State {
 
   /// Of a test under several conditions the first ones count.
   void begin_material(int m, std::size_t item) {
-    Material& material = materials[at(0, m)];
+    MaterialState& material = materials[at(0, m)];
     const measurement::Replicates& base = measured[item];
     if (base.toughness_count > 0 && !material.toughness_item) material.toughness_item = item;
     if (base.modulus_count == 0 || material.modulus_item) return;
@@ -109,7 +109,7 @@ struct BaseCalibration::State {
   void begin_toughness() {
     const material::ToughnessVector eta = to_vector(centred_start().toughness);
     for (int m = 0; m < kMaterials; ++m) {
-      Material& material = materials[at(0, m)];
+      MaterialState& material = materials[at(0, m)];
       if (!material.toughness_item || settings.toughness_budget == 0) continue;
       const measurement::Replicates& base = measured[*material.toughness_item];
       const MaterialRanges ranges = {eta_ranges()[at(kE0, m)], eta_ranges()[at(kW0, m)], eta_ranges()[at(kGamma, 0)]};
@@ -156,14 +156,14 @@ struct BaseCalibration::State {
   /// The worst toughness error of the materials at one of the dampings tried.
   double worst_error(std::size_t index) const {
     double worst = 0.0;
-    for (const Material& material : materials) {
+    for (const MaterialState& material : materials) {
       if (!material.toughness.empty()) worst = std::max(worst, material.toughness[index].error());
     }
     return worst;
   }
 
   /// Toughness simulations of one material so far: its budget counts over all dampings.
-  static int used_by(const Material& material) {
+  static int used_by(const MaterialState& material) {
     int used = 0;
     for (const MaterialFit& fit : material.toughness) used += fit.evaluations();
     return used;
@@ -172,7 +172,7 @@ struct BaseCalibration::State {
   /// Some material may not be simulated any more.
   bool spent() const {
     return std::ranges::any_of(
-        materials, [&](const Material& material) { return used_by(material) >= settings.toughness_budget; });
+        materials, [&](const MaterialState& material) { return used_by(material) >= settings.toughness_budget; });
   }
 
   /// Called when the fits at one damping have ended; false when there is nothing left to try.
@@ -200,7 +200,7 @@ struct BaseCalibration::State {
   /// Base materials that this test was done on, whether or not there is a budget to fit them.
   std::vector<std::size_t> items_with(bool modulus) const {
     std::vector<std::size_t> items;
-    for (const Material& material : materials) {
+    for (const MaterialState& material : materials) {
       if (const auto item = modulus ? material.modulus_item : material.toughness_item) items.push_back(*item);
     }
     return items;
@@ -218,7 +218,7 @@ struct BaseCalibration::State {
   void want_candidates() {
     const ParameterSet base = centred_start();
     for (int m = 0; m < kMaterials; ++m) {
-      Material& material = materials[at(0, m)];
+      MaterialState& material = materials[at(0, m)];
       if (material.modulus && material.modulus_evaluations < settings.modulus_budget) {
         for (const double modulus_pa : material.modulus->ask(settings.batch)) want(base, true, {m, modulus_pa, {}});
       }
@@ -230,20 +230,21 @@ struct BaseCalibration::State {
 
   /// Candidates of different materials share an evaluation, since none depends on the others' parameters; all but the
   /// damping.
-  void want(const ParameterSet& base, bool modulus, const Candidate& candidate) {
+  void want(const ParameterSet& base, bool modulus, const CandidateConstant& candidate) {
     std::size_t k = 0;
     for (; k < wanted.size(); ++k) {
       if (wanted[k].modulus != modulus) continue;
       const auto& others = candidates[k];
-      const bool same_material = std::any_of(
-          others.begin(), others.end(), [&](const Candidate& other) { return other.material == candidate.material; });
+      const bool same_material = std::any_of(others.begin(), others.end(), [&](const CandidateConstant& other) {
+        return other.material == candidate.material;
+      });
       if (!same_material) break;
     }
     if (k == wanted.size()) {
       wanted.push_back({"", base, modulus, !modulus, {}});
       candidates.emplace_back();
     }
-    const Material& material = materials[at(0, candidate.material)];
+    const MaterialState& material = materials[at(0, candidate.material)];
     wanted[k].items.push_back(modulus ? *material.modulus_item : *material.toughness_item);
     candidates[k].push_back(candidate);
     if (modulus) {
@@ -276,7 +277,7 @@ struct BaseCalibration::State {
     ask();
   }
 
-  void hand_over(const WantedEvaluation& evaluation, const std::vector<Candidate>& tried,
+  void hand_over(const WantedEvaluation& evaluation, const std::vector<CandidateConstant>& tried,
                  const std::vector<Prediction>& predictions) {
     for (std::size_t j = 0; j < evaluation.items.size(); ++j) {
       const std::size_t item = evaluation.items[j];
@@ -289,7 +290,7 @@ struct BaseCalibration::State {
         }
         continue;
       }
-      Material& material = materials[at(0, tried[j].material)];
+      MaterialState& material = materials[at(0, tried[j].material)];
       if (evaluation.modulus) {
         const std::optional<double>& modulus = predictions[j].modulus_pa;
         material.modulus->tell(tried[j].modulus_pa,
@@ -311,7 +312,7 @@ struct BaseCalibration::State {
     material::ModulusVector theta = to_vector(result.parameters.modulus);
     material::ToughnessVector eta = to_vector(result.parameters.toughness);
     for (int m = 0; m < kMaterials; ++m) {
-      const Material& material = materials[at(0, m)];
+      const MaterialState& material = materials[at(0, m)];
       if (material.modulus && material.modulus->best()) {
         theta[at(kE0, m)] = *material.modulus->best();
         after[*material.modulus_item].modulus_pa = material.modulus_prediction_pa;
@@ -354,7 +355,7 @@ struct BaseCalibration::State {
     if (phase == Phase::done) return 1.0;
     double sum = 0.0;
     int count = 0;
-    for (const Material& material : materials) {
+    for (const MaterialState& material : materials) {
       if (material.toughness.empty()) continue;
       sum += material.toughness[damping].progress();
       ++count;

@@ -20,8 +20,8 @@ using material::ParameterSet;
 
 /// The fit of one tester's parameters and which measured designs it is about.
 struct Half {
-  std::unique_ptr<Fit> fit;        ///< none when nothing was measured
-  std::vector<std::size_t> items;  ///< indices into the measured designs
+  std::unique_ptr<ParameterFit> fit;  ///< none when nothing was measured
+  std::vector<std::size_t> items;     ///< indices into the measured designs
 };
 
 template <class Vector>
@@ -137,7 +137,7 @@ struct Calibration::State {
   }
 
   void begin_toughness() {
-    std::vector<std::unique_ptr<Fit>> fits;
+    std::vector<std::unique_ptr<ParameterFit>> fits;
     for (int k = 0; k < std::max(1, settings.searches); ++k) {
       const FitSettings fit_settings = {
           .start = to_point(to_vector(settings.start.toughness), toughness_ranges(), kToughnessDimensions),
@@ -150,7 +150,7 @@ struct Calibration::State {
     toughness.fit = make_parallel_fit(std::move(fits));
   }
 
-  std::unique_ptr<Fit> make_toughness_fit(const FitSettings& fit_settings) const {
+  std::unique_ptr<ParameterFit> make_toughness_fit(const FitSettings& fit_settings) const {
     FitData data = data_of(measured, weights, settings.weights, toughness.items);
     std::vector<Point> others = settings.other_starts.empty() ? other_starts(fit_settings.start) : given_starts();
     switch (settings.toughness_search) {
@@ -236,7 +236,7 @@ struct Calibration::State {
   /// Adds a row per parameter to the result.
   template <class Vector>
   void add_estimates(std::string_view table, std::span<const std::string_view> names,
-                     std::span<const ParameterRange> ranges, const Vector& vector, const Fit* fit,
+                     std::span<const ParameterRange> ranges, const Vector& vector, const ParameterFit* fit,
                      const Vector& log_sd) {
     std::vector<CoordinateInterval> intervals;
     if (fit != nullptr) intervals = fit->intervals();
@@ -257,7 +257,7 @@ struct Calibration::State {
     std::vector<Prediction> before(measured.size());
     std::vector<Prediction>& after = result.predictions;
     if (modulus.fit != nullptr) {
-      for (const Trial& trial : modulus.fit->trials()) result.modulus_objectives.push_back(trial.objective);
+      for (const FitTrial& trial : modulus.fit->trials()) result.modulus_objectives.push_back(trial.objective);
       result.parameters.modulus = modulus_at(modulus.fit->best().point);
       result.modulus_objective_before = modulus.fit->first().objective;
       result.modulus_objective_after = modulus.fit->best().objective;
@@ -267,7 +267,7 @@ struct Calibration::State {
       }
     }
     if (toughness.fit != nullptr) {
-      for (const Trial& trial : toughness.fit->trials()) result.toughness_objectives.push_back(trial.objective);
+      for (const FitTrial& trial : toughness.fit->trials()) result.toughness_objectives.push_back(trial.objective);
       result.parameters.toughness = toughness_at(toughness.fit->best().point);
       result.toughness_objective_before = toughness.fit->first().objective;
       result.toughness_objective_after = toughness.fit->best().objective;

@@ -71,7 +71,7 @@ Result<ToughnessSearch> toughness_search_from_string(std::string_view name);
 /// What remains between two numerics of one truth, so between any laboratory and the testers, beside scatter and
 /// physics: standard deviations of natural logarithms, per design (after parameters have taken over what they can) and
 /// common to all designs. `trend`: growing along the rigid fraction.
-struct NumericsFloor {
+struct DiscretisationFloor {
   double log_modulus_sd = 0.006, log_toughness_sd = 0.22, log_peak_sd = 0.10;
   double log_modulus_common_sd = 0.06, log_toughness_common_sd = 0.27, log_peak_common_sd = 0.10;
   double log_modulus_trend_sd = 0.024;  ///< over the designs: thin soft joints are computed softer than thick ones
@@ -79,11 +79,11 @@ struct NumericsFloor {
   /// Of eta's parameters: another mesh needs others to break alike, beyond what the above say.
   material::ToughnessVector log_eta_sd = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1.7};
   /// No floor at all: residuals are scatter or physics.
-  static NumericsFloor none();
+  static DiscretisationFloor none();
 };
-/// From data/numerics_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
+/// From data/discretisation_floor.toml, the table of this fidelity; what the table lacks keeps its default. Throws
 /// InputError.
-NumericsFloor read_numerics_floor(const std::filesystem::path& file, tester::Fidelity fidelity);
+DiscretisationFloor read_discretisation_floor(const std::filesystem::path& file, tester::Fidelity fidelity);
 
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
@@ -97,7 +97,7 @@ struct CalibrationSettings {
   ToughnessSearch toughness_search = ToughnessSearch::posterior;
   int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported
   int ensemble_size = 0;  ///< further parameter sets drawn from what the data leave possible
-  NumericsFloor floor;
+  DiscretisationFloor floor;
   std::vector<double> weights;  ///< of the measured designs in place of (2.9)-(2.11), above 0, at most 1: a weight of
                                 ///< 0.1 counts as a tenth of a design
   std::uint64_t seed = 1;

@@ -47,12 +47,12 @@ double curved_distance(Eigen::VectorXd difference) {
 
 double prior_mean(const std::array<double, kEtaCount>& slope, const Eigen::VectorXd& at) {
   double sum = 0.0;
-  for (int j = 0; j < kEtaCount; ++j) sum += slope[static_cast<std::size_t>(j)] * at[j];
+  for (int j = 0; j < kEtaCount; ++j) sum += slope[j] * at[j];
   return sum;
 }
 
 /// Indices of the trials nearest to trials[centre], itself first.
-std::vector<std::size_t> nearest_trials(const std::vector<Trial>& trials, std::size_t centre) {
+std::vector<std::size_t> nearest_trials(const std::vector<FitTrial>& trials, std::size_t centre) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < trials.size(); ++k) {
     order.emplace_back(pull_to_start(trials[k].point, trials[centre].point, 1.0), k);
@@ -81,7 +81,7 @@ FeatureEmulator::FeatureEmulator(std::vector<double> spans, std::size_t design_c
 Eigen::VectorXd FeatureEmulator::coordinates(const Point& point) const {
   Eigen::VectorXd result(kEtaCount);
   for (int j = 0; j < kEtaCount; ++j) {
-    result[j] = point[static_cast<std::size_t>(j)] * spans_[static_cast<std::size_t>(j)];
+    result[j] = point[j] * spans_[j];
   }
   return result;
 }
@@ -99,7 +99,7 @@ double FeatureEmulator::covariance(const Eigen::VectorXd& a, const Eigen::Vector
 
 Eigen::VectorXd FeatureEmulator::covariances(const Eigen::VectorXd& at) const {
   Eigen::VectorXd result(static_cast<Eigen::Index>(inputs_.size()));
-  for (std::size_t k = 0; k < inputs_.size(); ++k) result[static_cast<Eigen::Index>(k)] = covariance(at, inputs_[k]);
+  for (std::size_t k = 0; k < inputs_.size(); ++k) result[k] = covariance(at, inputs_[k]);
   return result;
 }
 
@@ -108,21 +108,20 @@ void FeatureEmulator::factorise() {
   Eigen::MatrixXd matrix(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
-      matrix(i, j) = matrix(j, i) =
-          covariance(inputs_[static_cast<std::size_t>(i)], inputs_[static_cast<std::size_t>(j)]);
+      matrix(i, j) = matrix(j, i) = covariance(inputs_[i], inputs_[j]);
     }
     matrix(i, i) += square(prior_.noise_deviation);
   }
   factor_.compute(matrix);
 }
 
-void FeatureEmulator::learn(const std::vector<Trial>& trials, std::size_t centre) {
+void FeatureEmulator::learn(const std::vector<FitTrial>& trials, std::size_t centre) {
   prior_ = {};
   take_targets(trials, centre);
   solve();
 }
 
-void FeatureEmulator::take_targets(const std::vector<Trial>& trials, std::size_t centre) {
+void FeatureEmulator::take_targets(const std::vector<FitTrial>& trials, std::size_t centre) {
   used_ = nearest_trials(trials, centre);
   centre_ = coordinates(trials[centre].point);
   inputs_.clear();
@@ -133,9 +132,9 @@ void FeatureEmulator::take_targets(const std::vector<Trial>& trials, std::size_t
     const Eigen::Index column = static_cast<Eigen::Index>(2 * i);
     const std::optional<CurveFeatures> base = features_of(trials[centre].predictions[i]);
     for (Eigen::Index row = 0; base && row < rows; ++row) {
-      const auto here = features_of(trials[used_[static_cast<std::size_t>(row)]].predictions[i]);
+      const auto here = features_of(trials[used_[row]].predictions[i]);
       if (!here) continue;  // zero: what the prior expects
-      const Eigen::VectorXd moved = inputs_[static_cast<std::size_t>(row)] - centre_;
+      const Eigen::VectorXd moved = inputs_[row] - centre_;
       targets_(row, column) = here->log_toughness - base->log_toughness - prior_mean(kToughnessSlope, moved);
       targets_(row, column + 1) = here->log_peak - base->log_peak - prior_mean(kPeakSlope, moved);
     }
@@ -155,7 +154,7 @@ double FeatureEmulator::log_evidence() const {
          static_cast<double>(targets_.cols()) * lower.diagonal().array().log().sum();
 }
 
-void FeatureEmulator::learn_with_prior(const std::vector<Trial>& trials, std::size_t centre) {
+void FeatureEmulator::learn_with_prior(const std::vector<FitTrial>& trials, std::size_t centre) {
   constexpr double kReach = 2.0;
   constexpr double kSpread = 0.7;   // of the logarithms of the prior's figures around their defaults
   constexpr int kEvaluations = 60;  // it goes on from the last fit
@@ -171,12 +170,12 @@ void FeatureEmulator::learn_with_prior(const std::vector<Trial>& trials, std::si
     prior.noise_deviation *= std::exp(log_factors[4]);
     return prior;
   };
-  struct Question {
+  struct Posterior {
     FeatureEmulator& emulator;
     decltype(prior_at)& prior;
-  } question{*this, prior_at};
+  } posterior{*this, prior_at};
   const auto cost = [](const std::vector<double>& at, std::vector<double>&, void* data) {
-    const Question& asked = *static_cast<Question*>(data);
+    const Posterior& asked = *static_cast<Posterior*>(data);
     asked.emulator.prior_ = asked.prior(at);
     asked.emulator.solve();
     double sum = 0.0;
@@ -194,7 +193,7 @@ void FeatureEmulator::learn_with_prior(const std::vector<Trial>& trials, std::si
   search.set_upper_bounds(kReach);
   search.set_initial_step(0.3);
   search.set_maxeval(kEvaluations);
-  search.set_min_objective(cost, &question);
+  search.set_min_objective(cost, &posterior);
   try {
     double smallest = 0.0;
     search.optimize(at, smallest);
@@ -248,9 +247,9 @@ Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at,
     const bool is_poisson = j >= kNu0 && j < kW0;
     if (is_poisson && !poisson_searched) continue;
     Point moved = at;
-    moved[static_cast<std::size_t>(j)] += kStep;
+    moved[j] += kStep;
     emulator.predict(moved, up);
-    moved[static_cast<std::size_t>(j)] -= 2 * kStep;
+    moved[j] -= 2 * kStep;
     emulator.predict(moved, down);
     for (Eigen::Index i = 0; i < designs; ++i) {
       const std::size_t index = static_cast<std::size_t>(i);
@@ -261,7 +260,7 @@ Eigen::MatrixXd feature_slopes(const FeatureEmulator& emulator, const Point& at,
   return slopes;
 }
 
-ToughnessModel toughness_model(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+ToughnessModel toughness_model(const FitData& data, const std::vector<FitTrial>& trials, std::size_t best,
                                const std::vector<double>& spans, bool poisson_searched) {
   ToughnessModel model{
       .searched = {kSearchedEta.begin(), kSearchedEta.end()}, .slopes = {}, .residuals = {}, .weights = {}};
@@ -276,11 +275,11 @@ ToughnessModel toughness_model(const FitData& data, const std::vector<Trial>& tr
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
   model.residuals = model.weights = Eigen::VectorXd::Zero(2 * designs);
   for (Eigen::Index i = 0; i < designs; ++i) {
-    const measurement::Replicates& measured = data.measured[static_cast<std::size_t>(i)];
-    const auto simulated = features_of(trials[best].predictions[static_cast<std::size_t>(i)]);
+    const measurement::Replicates& measured = data.measured[i];
+    const auto simulated = features_of(trials[best].predictions[i]);
     if (!simulated) continue;  // weight 0
     model.residuals[i] = simulated->log_toughness - std::log(measured.toughness_pa);
-    model.weights[i] = data.weights[static_cast<std::size_t>(i)];
+    model.weights[i] = data.weights[i];
     const std::optional<double> peak = peak_of(measured);
     if (!peak) continue;
     model.residuals[designs + i] = simulated->log_peak - std::log(*peak);
@@ -290,9 +289,9 @@ ToughnessModel toughness_model(const FitData& data, const std::vector<Trial>& tr
   return model;
 }
 
-std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+std::vector<double> toughness_deviations(const FitData& data, const std::vector<FitTrial>& trials, std::size_t best,
                                          const std::vector<double>& spans, bool poisson_searched,
-                                         const NumericsFloor& floor) {
+                                         const DiscretisationFloor& floor) {
   std::vector<double> deviations(kEtaCount, kUnknownDeviation);
   if (trials.size() < 2) return deviations;
   const ToughnessModel model = toughness_model(data, trials, best, spans, poisson_searched);

@@ -39,10 +39,10 @@ class FeatureEmulator {
   /// Learns from the trials, each with a prediction per design, seen from trials[centre]: only the nearest 60 are used.
   /// A failed prediction counts as one that met the prior's expectation exactly: all designs share one factorisation,
   /// so that none can be without an observation.
-  void learn(const std::vector<Trial>& trials, std::size_t centre);
+  void learn(const std::vector<FitTrial>& trials, std::size_t centre);
   /// The same with the prior that the trials themselves make most probable: how jumpy and how curved this set of
   /// designs is.
-  void learn_with_prior(const std::vector<Trial>& trials, std::size_t centre);
+  void learn_with_prior(const std::vector<FitTrial>& trials, std::size_t centre);
   const EmulatorPrior& prior() const { return prior_; }
   /// Change of the features of all designs between the centre and `point` (in unit coordinates).
   void predict(const Point& point, std::vector<FeatureChange>& changes) const;
@@ -61,7 +61,7 @@ class FeatureEmulator {
   double covariance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   Eigen::VectorXd covariances(const Eigen::VectorXd& at) const;
   void factorise();
-  void take_targets(const std::vector<Trial>& trials, std::size_t centre);
+  void take_targets(const std::vector<FitTrial>& trials, std::size_t centre);
   void solve();
   void change(const Eigen::VectorXd& at, const Eigen::VectorXd& to_inputs, const Eigen::RowVectorXd& offset,
               std::vector<FeatureChange>& changes) const;
@@ -92,12 +92,12 @@ struct ToughnessModel {
   Eigen::VectorXd residuals, weights;  ///< weight 0: no residual
   double noise = 0.0;                  ///< variance of a residual (spread.hpp)
 };
-ToughnessModel toughness_model(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+ToughnessModel toughness_model(const FitData& data, const std::vector<FitTrial>& trials, std::size_t best,
                                const std::vector<double>& spans, bool poisson_searched);
 
 /// Deviations of eta at trials[best] by that model, and the floor that all designs share.
-std::vector<double> toughness_deviations(const FitData& data, const std::vector<Trial>& trials, std::size_t best,
+std::vector<double> toughness_deviations(const FitData& data, const std::vector<FitTrial>& trials, std::size_t best,
                                          const std::vector<double>& spans, bool poisson_searched,
-                                         const NumericsFloor& floor);
+                                         const DiscretisationFloor& floor);
 
 }  // namespace nacre::sysid

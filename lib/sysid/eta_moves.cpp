@@ -23,9 +23,9 @@ double asked_by_nlopt(const std::vector<double>& at, std::vector<double>&, void*
 Point moved(const Point& from, const Move& move, std::span<const double> spans) {
   std::array<double, kEtaCount> shift{};
   const auto group = [&](int first, double scale, double soft, double interface) {
-    shift[static_cast<std::size_t>(first)] = scale + soft;
-    shift[static_cast<std::size_t>(first + 1)] = scale;
-    shift[static_cast<std::size_t>(first + 2)] = scale + interface;
+    shift[first] = scale + soft;
+    shift[first + 1] = scale;
+    shift[first + 2] = scale + interface;
   };
   group(kE0, move[0], move[2], move[3]);
   group(kW0, move[1], move[4], move[5]);

@@ -16,7 +16,7 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor)
+FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const DiscretisationFloor& floor)
     : start_(std::move(start)), shared_errors_(shared_fracture_errors(data.measured, floor)) {
   const RelativeScatter scatter = pooled_relative_scatter(data.measured);
   for (const measurement::Replicates& design : data.measured) {
@@ -32,7 +32,7 @@ FeaturePosterior::FeaturePosterior(const FitData& data, Point start, const Numer
   peak_.base = toughness_.base;
 }
 
-void FeaturePosterior::set_base(const Trial& trial) {
+void FeaturePosterior::set_base(const FitTrial& trial) {
   for (std::size_t i = 0; i < toughness_.base.size(); ++i) {
     const auto features = features_of(trial.predictions[i]);
     toughness_.base[i] = features ? features->log_toughness : kNone;

@@ -13,9 +13,9 @@ namespace nacre::sysid {
 /// centre of a normal prior as wide as the cube.
 class FeaturePosterior {
  public:
-  FeaturePosterior(const FitData& data, Point start, const NumericsFloor& floor);
+  FeaturePosterior(const FitData& data, Point start, const DiscretisationFloor& floor);
   /// The trial whose features the changes refer to; designs that failed there say nothing.
-  void set_base(const Trial& trial);
+  void set_base(const FitTrial& trial);
   /// -log posterior density, constants left out, where the features of design i change by changes[i].
   double operator()(const Point& point, std::span<const FeatureChange> changes) const;
   /// The same where the changes may be wrong by `deviation`, in each design and feature by itself, and the errors that

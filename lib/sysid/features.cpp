@@ -58,16 +58,16 @@ RelativeScatter pooled_relative_scatter(const std::vector<measurement::Replicate
 }
 
 double modulus_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
-                        const NumericsFloor& floor) {
+                        const DiscretisationFloor& floor) {
   return variance(scatter.log_modulus, measured.modulus_count, floor.log_modulus_sd);
 }
 
 double toughness_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
-                          const NumericsFloor& floor) {
+                          const DiscretisationFloor& floor) {
   return variance(scatter.log_toughness, measured.toughness_count, floor.log_toughness_sd);
 }
 
-double peak_variance(const RelativeScatter& scatter, const NumericsFloor& floor) {
+double peak_variance(const RelativeScatter& scatter, const DiscretisationFloor& floor) {
   return variance(scatter.log_toughness, 1, floor.log_peak_sd);
 }
 

@@ -33,10 +33,10 @@ RelativeScatter pooled_relative_scatter(const std::vector<measurement::Replicate
 
 /// Variance of the mean log E and log T of one design: scatter over its replicates, and what numerics leave.
 double modulus_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
-                        const NumericsFloor& floor);
+                        const DiscretisationFloor& floor);
 double toughness_variance(const measurement::Replicates& measured, const RelativeScatter& scatter,
-                          const NumericsFloor& floor);
+                          const DiscretisationFloor& floor);
 /// The peak is that of one specimen.
-double peak_variance(const RelativeScatter& scatter, const NumericsFloor& floor);
+double peak_variance(const RelativeScatter& scatter, const DiscretisationFloor& floor);
 
 }  // namespace nacre::sysid

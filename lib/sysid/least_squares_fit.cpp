@@ -52,7 +52,7 @@ class LeastSquaresFit final : public RecordedFit {
   std::vector<double> deviations() const override {
     std::vector<double> result(settings_.start.size(), kUnknownDeviation);
     if (jacobian_.size() == 0) return result;
-    const Trial& at = trials_[best_];
+    const FitTrial& at = trials_[best_];
     const std::vector<double> searched =
         parameter_deviations(jacobian_, residuals(at), weights(at), problem_.smallest_noise, problem_.shared);
     for (std::size_t j = 0; j < searched.size(); ++j) result[problem_.searched[j]] = searched[j];
@@ -61,14 +61,14 @@ class LeastSquaresFit final : public RecordedFit {
 
   double freedom_taken() const override {
     if (jacobian_.size() == 0) return 0.0;
-    const Trial& at = trials_[best_];
+    const FitTrial& at = trials_[best_];
     return freedom_taken_by(problem_.searched, jacobian_, reweighted(weights(at), residuals(at)),
                             pull() * sum_of_weights());
   }
 
  private:
   int dimension() const { return static_cast<int>(problem_.searched.size()); }
-  std::size_t coordinate(int j) const { return problem_.searched[static_cast<std::size_t>(j)]; }
+  std::size_t coordinate(int j) const { return problem_.searched[j]; }
   int budget_left() const { return settings_.budget - static_cast<int>(trials_.size()); }
   void add_trial(const Point& point, std::vector<Prediction> predictions) {
     const double objective = problem_.objective(predictions);
@@ -95,14 +95,14 @@ class LeastSquaresFit final : public RecordedFit {
   }
 
   /// 0 where there is none: it pulls nowhere.
-  Eigen::VectorXd residuals(const Trial& trial) const {
+  Eigen::VectorXd residuals(const FitTrial& trial) const {
     return problem_.residuals(trial.predictions).unaryExpr([](double value) {
       return std::isnan(value) ? 0.0 : value;
     });
   }
 
   /// 0 where there is no residual: what is missing agrees with nothing.
-  Eigen::VectorXd weights(const Trial& trial) const {
+  Eigen::VectorXd weights(const FitTrial& trial) const {
     const Eigen::VectorXd residuals = problem_.residuals(trial.predictions);
     return residuals.array().isNaN().select(0.0, problem_.weights);
   }
@@ -118,12 +118,12 @@ class LeastSquaresFit final : public RecordedFit {
   double pull() const { return 2.0 * problem_.pull / dimension(); }
 
   void take_jacobian(std::size_t first_new) {
-    const Trial& centre = trials_[centre_];
+    const FitTrial& centre = trials_[centre_];
     residual_ = residuals(centre);
     jacobian_.resize(residual_.size(), dimension());
     for (int j = 0; j < dimension(); ++j) {
       const std::size_t index = coordinate(j);
-      const Trial& moved = trials_[first_new + static_cast<std::size_t>(j)];
+      const FitTrial& moved = trials_[first_new + static_cast<std::size_t>(j)];
       const Eigen::VectorXd change = problem_.residuals(moved.predictions) - problem_.residuals(centre.predictions);
       jacobian_.col(j) = change.unaryExpr([](double value) { return std::isnan(value) ? 0.0 : value; }) /
                          (moved.point[index] - centre.point[index]);
@@ -142,7 +142,7 @@ class LeastSquaresFit final : public RecordedFit {
   }
 
   Point damped_step(double damping) const {
-    const Trial& centre = trials_[centre_];
+    const FitTrial& centre = trials_[centre_];
     const Eigen::VectorXd weight = reweighted(problem_.weights, residual_);
     const double weight_sum = sum_of_weights();
     Eigen::MatrixXd normal = jacobian_.transpose() * weight.asDiagonal() * jacobian_ / weight_sum;
@@ -160,16 +160,16 @@ class LeastSquaresFit final : public RecordedFit {
   Point bounded_step(const Eigen::MatrixXd& normal, const Eigen::VectorXd& gradient, const Point& from) const {
     const int n = dimension();
     Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
-    std::vector<bool> fixed(static_cast<std::size_t>(n), false);
+    std::vector<bool> fixed(n, false);
     for (int round = 0; round <= n; ++round) {
       Eigen::MatrixXd system = normal;
       Eigen::VectorXd right = -gradient;
       for (int j = 0; j < n; ++j) {
-        if (!fixed[static_cast<std::size_t>(j)]) continue;
+        if (!fixed[j]) continue;
         right -= normal.col(j) * step[j];
       }
       for (int j = 0; j < n; ++j) {
-        if (!fixed[static_cast<std::size_t>(j)]) continue;
+        if (!fixed[j]) continue;
         system.row(j).setZero();
         system.col(j).setZero();
         system(j, j) = 1.0;
@@ -179,8 +179,8 @@ class LeastSquaresFit final : public RecordedFit {
       bool all_inside = true;
       for (int j = 0; j < n; ++j) {
         const double target = from[coordinate(j)] + step[j];
-        if (fixed[static_cast<std::size_t>(j)] || (target >= 0.0 && target <= 1.0)) continue;
-        fixed[static_cast<std::size_t>(j)] = true;
+        if (fixed[j] || (target >= 0.0 && target <= 1.0)) continue;
+        fixed[j] = true;
         step[j] = std::clamp(target, 0.0, 1.0) - from[coordinate(j)];
         all_inside = false;
       }
@@ -221,7 +221,7 @@ double pull_to_start(std::span<const double> point, std::span<const double> star
   return point.empty() ? 0.0 : strength * sum / static_cast<double>(point.size());
 }
 
-std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings) {
+std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& settings) {
   Problem problem;
   problem.weights =
       Eigen::Map<const Eigen::VectorXd>(data.weights.data(), static_cast<Eigen::Index>(data.weights.size()));
@@ -233,7 +233,7 @@ std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings)
     for (std::size_t i = 0; i < data.measured.size(); ++i) {
       const std::optional<double>& modulus = predictions[i].modulus_pa;
       const bool usable = modulus && *modulus > 0.0;
-      result[static_cast<Eigen::Index>(i)] = usable ? std::log(*modulus / data.measured[i].modulus_pa) : kMissing;
+      result[i] = usable ? std::log(*modulus / data.measured[i].modulus_pa) : kMissing;
     }
     return result;
   };
@@ -244,20 +244,19 @@ std::unique_ptr<Fit> make_modulus_fit(FitData data, const FitSettings& settings)
   return std::make_unique<LeastSquaresFit>(std::move(data), settings, std::move(problem));
 }
 
-std::unique_ptr<Fit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
+std::unique_ptr<ParameterFit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
   Problem problem;
   problem.weights.resize(2 * designs);
-  for (Eigen::Index i = 0; i < designs; ++i)
-    problem.weights[i] = problem.weights[designs + i] = data.weights[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < designs; ++i) problem.weights[i] = problem.weights[designs + i] = data.weights[i];
   problem.objective = [data](const std::vector<Prediction>& predictions) {
     return toughness_objective(data.measured, data.weights, predictions);
   };
   problem.residuals = [data, designs](const std::vector<Prediction>& predictions) {
     Eigen::VectorXd result = Eigen::VectorXd::Constant(2 * designs, kMissing);
     for (Eigen::Index i = 0; i < designs; ++i) {
-      const measurement::Replicates& measured = data.measured[static_cast<std::size_t>(i)];
-      const auto simulated = features_of(predictions[static_cast<std::size_t>(i)]);
+      const measurement::Replicates& measured = data.measured[i];
+      const auto simulated = features_of(predictions[i]);
       if (!simulated) continue;
       result[i] = simulated->log_toughness - std::log(measured.toughness_pa);
       if (const auto peak = peak_of(measured)) result[designs + i] = simulated->log_peak - std::log(*peak);

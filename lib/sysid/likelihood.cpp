@@ -71,10 +71,10 @@ double f_tail(double value, double freedom_above, double freedom_below) {
 }
 
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
-                                 const std::vector<Prediction>& predictions, const NumericsFloor& floor,
+                                 const std::vector<Prediction>& predictions, const DiscretisationFloor& floor,
                                  double freedom_taken) {
   const RelativeScatter scatter = pooled_relative_scatter(measured);
-  const NumericsFloor none = NumericsFloor::none();
+  const DiscretisationFloor none = DiscretisationFloor::none();
   Residuals residuals(shared_modulus_errors(measured, floor));
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const std::optional<double>& simulated = predictions[i].modulus_pa;
@@ -86,10 +86,10 @@ Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& mea
 }
 
 Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& measured,
-                                   const std::vector<Prediction>& predictions, const NumericsFloor& floor,
+                                   const std::vector<Prediction>& predictions, const DiscretisationFloor& floor,
                                    double freedom_taken) {
   const RelativeScatter scatter = pooled_relative_scatter(measured);
-  const NumericsFloor none = NumericsFloor::none();
+  const DiscretisationFloor none = DiscretisationFloor::none();
   Residuals residuals(shared_fracture_errors(measured, floor).topRows(static_cast<Eigen::Index>(measured.size())));
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const std::optional<double>& simulated = predictions[i].toughness_pa;

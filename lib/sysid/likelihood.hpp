@@ -16,10 +16,10 @@ struct Likelihood {
 /// with what the latter shifts in all designs at once (shared_errors.hpp), and the deviance contains its determinant's
 /// logarithm. Few replicates say little of the scatter: the chance of so large a chi squared is that of an F.
 Likelihood modulus_likelihood_of(const std::vector<measurement::Replicates>& measured,
-                                 const std::vector<Prediction>& predictions, const NumericsFloor& floor,
+                                 const std::vector<Prediction>& predictions, const DiscretisationFloor& floor,
                                  double freedom_taken);
 Likelihood toughness_likelihood_of(const std::vector<measurement::Replicates>& measured,
-                                   const std::vector<Prediction>& predictions, const NumericsFloor& floor,
+                                   const std::vector<Prediction>& predictions, const DiscretisationFloor& floor,
                                    double freedom_taken);
 
 /// Chance that F with these degrees of freedom is at least `value` (Paulson's cube roots; within 0.002 from ten

@@ -99,7 +99,7 @@ Calibrated run_calibration(const std::vector<Replicates>& measured, const Calibr
 }
 
 Calibrated calibrate_cheaply_first(const std::vector<Replicates>& measured, const CalibrationSettings& settings,
-                                   LocalSimulator& cheaper, const NumericsFloor& cheaper_floor,
+                                   LocalSimulator& cheaper, const DiscretisationFloor& cheaper_floor,
                                    LocalSimulator& simulator, const ProgressCallback& progress) {
   CalibrationSettings first = settings, second = settings;
   first.floor = cheaper_floor;

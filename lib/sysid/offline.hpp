@@ -18,7 +18,7 @@ struct OfflineSettings {
   tester::Fidelity fidelity = tester::Fidelity::full;
   std::optional<tester::Fidelity> begin_at;  ///< a cheaper one that is calibrated first: see calibrate_cheaply_first
   int hold_out = 0;                          ///< whole patterns kept out of the fit
-  NumericsFloor begin_at_floor;              ///< of `begin_at`
+  DiscretisationFloor begin_at_floor;        ///< of `begin_at`
   int threads = 0;                           ///< 0 all allowed cores
   std::filesystem::path
       store;  ///< file that keeps simulations, so that the same calibration goes on from them; empty: none
@@ -70,7 +70,7 @@ Calibrated run_calibration(const std::vector<measurement::Replicates>& measured,
 /// region at a tenth of the cost; the larger ones then only correct what depends on size.
 Calibrated calibrate_cheaply_first(const std::vector<measurement::Replicates>& measured,
                                    const CalibrationSettings& settings, LocalSimulator& cheaper,
-                                   const NumericsFloor& cheaper_floor, LocalSimulator& simulator,
+                                   const DiscretisationFloor& cheaper_floor, LocalSimulator& simulator,
                                    const ProgressCallback& progress = {});
 
 /// What the testers say of every measured design (the tests that were measured), one vector per parameter set,

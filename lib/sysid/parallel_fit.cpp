@@ -6,9 +6,11 @@
 namespace nacre::sysid {
 namespace {
 
-class ParallelFit final : public Fit {
+class ParallelFit final : public ParameterFit {
  public:
-  explicit ParallelFit(std::vector<std::unique_ptr<Fit>> fits) : fits_(std::move(fits)) { assert(!fits_.empty()); }
+  explicit ParallelFit(std::vector<std::unique_ptr<ParameterFit>> fits) : fits_(std::move(fits)) {
+    assert(!fits_.empty());
+  }
 
   std::vector<Point> ask() override {
     std::vector<Point> points;
@@ -37,9 +39,9 @@ class ParallelFit final : public Fit {
     for (const auto& fit : fits_) least = std::min(least, fit->progress());
     return least;
   }
-  const Trial& first() const override { return fits_.front()->first(); }
-  const Trial& best() const override { return leader().best(); }
-  const std::vector<Trial>& trials() const override { return trials_; }
+  const FitTrial& first() const override { return fits_.front()->first(); }
+  const FitTrial& best() const override { return leader().best(); }
+  const std::vector<FitTrial>& trials() const override { return trials_; }
   std::vector<CoordinateInterval> intervals() const override { return leader().intervals(); }
   double freedom_taken() const override { return leader().freedom_taken(); }
   std::vector<Point> plausible(int count) const override { return leader().plausible(count); }
@@ -51,19 +53,19 @@ class ParallelFit final : public Fit {
   }
 
  private:
-  const Fit& leader() const {
+  const ParameterFit& leader() const {
     const auto better = [](const auto& a, const auto& b) { return a->cost() < b->cost(); };
     return **std::min_element(fits_.begin(), fits_.end(), better);
   }
 
-  std::vector<std::unique_ptr<Fit>> fits_;
+  std::vector<std::unique_ptr<ParameterFit>> fits_;
   std::vector<std::size_t> asked_;  ///< points asked for, by fit
-  std::vector<Trial> trials_;
+  std::vector<FitTrial> trials_;
 };
 
 }  // namespace
 
-std::unique_ptr<Fit> make_parallel_fit(std::vector<std::unique_ptr<Fit>> fits) {
+std::unique_ptr<ParameterFit> make_parallel_fit(std::vector<std::unique_ptr<ParameterFit>> fits) {
   if (fits.size() == 1) return std::move(fits.front());
   return std::make_unique<ParallelFit>(std::move(fits));
 }

@@ -57,8 +57,7 @@ class PosteriorFit final : public RecordedFit {
     const std::vector<Eigen::VectorXd> draws = possible(posterior_.shared_error_count());
     std::vector<double> values(draws.size());
     for (std::size_t k = 0; k < kSearchedEta.size(); ++k) {
-      std::transform(draws.begin(), draws.end(), values.begin(),
-                     [&](const Eigen::VectorXd& draw) { return draw[static_cast<Eigen::Index>(k)]; });
+      std::transform(draws.begin(), draws.end(), values.begin(), [&](const Eigen::VectorXd& draw) { return draw[k]; });
       // The estimate is the best evaluation and not the middle of what is possible: it may stand at the edge.
       const double at = trials_[best_].point[kSearchedEta[k]];
       result[kSearchedEta[k]] = {std::min(at, quantile(values, 0.05)), std::max(at, quantile(values, 0.95)),
@@ -78,8 +77,7 @@ class PosteriorFit final : public RecordedFit {
     const std::vector<Eigen::VectorXd> draws = possible(/*shared_errors=*/0);
     RandomStream random(settings_.seed, "sysid/plausible");
     std::vector<Point> points;
-    for (int k = 0; k < count; ++k)
-      points.push_back(point_at(draws[static_cast<std::size_t>(random.index(static_cast<int>(draws.size())))]));
+    for (int k = 0; k < count; ++k) points.push_back(point_at(draws[random.index(static_cast<int>(draws.size()))]));
     return points;
   }
 
@@ -170,13 +168,13 @@ class PosteriorFit final : public RecordedFit {
   bool is_new(const Point& point) const {
     constexpr double kSamePoint = 1e-12;  // mean square distance
     return std::none_of(trials_.begin(), trials_.end(),
-                        [&](const Trial& trial) { return pull_to_start(trial.point, point, 1.0) < kSamePoint; });
+                        [&](const FitTrial& trial) { return pull_to_start(trial.point, point, 1.0) < kSamePoint; });
   }
 
   /// The best trial with the searched coordinates of a draw.
   Point point_at(const Eigen::VectorXd& draw) const {
     Point point = trials_[best_].point;
-    for (std::size_t k = 0; k < kSearchedEta.size(); ++k) point[kSearchedEta[k]] = draw[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < kSearchedEta.size(); ++k) point[kSearchedEta[k]] = draw[k];
     return point;
   }
 
@@ -209,7 +207,7 @@ class PosteriorFit final : public RecordedFit {
       auto errors = walker.tail(shared_errors);
       for (double& value : errors) value = random.normal();
       for (Eigen::Index k = 0; k < searched; ++k) {
-        const std::size_t coordinate = kSearchedEta[static_cast<std::size_t>(k)];
+        const std::size_t coordinate = kSearchedEta[k];
         const double move = moves.row(static_cast<Eigen::Index>(coordinate)).head(shared_errors).dot(errors);
         walker[k] = std::clamp(point[coordinate] + move, 0.0, 1.0);
       }
@@ -236,7 +234,7 @@ class PosteriorFit final : public RecordedFit {
       Point point = centre;
       for (const std::size_t j : kSearchedEta) {
         const double reach = kLargestRadius / spans_[j];
-        point[j] = std::clamp(point[j] + std::clamp(shift[static_cast<Eigen::Index>(j)], -reach, reach), 0.0, 1.0);
+        point[j] = std::clamp(point[j] + std::clamp(shift[j], -reach, reach), 0.0, 1.0);
       }
       points.push_back(std::move(point));
     }
@@ -256,8 +254,9 @@ class PosteriorFit final : public RecordedFit {
 
 }  // namespace
 
-std::unique_ptr<Fit> make_posterior_fit(FitData data, const FitSettings& settings,
-                                        std::span<const material::ParameterRange> ranges, std::vector<Point> others) {
+std::unique_ptr<ParameterFit> make_posterior_fit(FitData data, const FitSettings& settings,
+                                                 std::span<const material::ParameterRange> ranges,
+                                                 std::vector<Point> others) {
   return std::make_unique<PosteriorFit>(std::move(data), settings, spans_of(ranges), std::move(others));
 }
 

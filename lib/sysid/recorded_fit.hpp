@@ -11,7 +11,7 @@
 
 namespace nacre::sysid {
 
-class RecordedFit : public Fit {
+class RecordedFit : public ParameterFit {
  public:
   std::vector<Point> ask() final {
     if (asked_.empty() && !finished_) {
@@ -23,9 +23,9 @@ class RecordedFit : public Fit {
   double progress() const final {
     return finished_ ? 1.0 : std::min(1.0, static_cast<double>(trials_.size()) / settings_.budget);
   }
-  const Trial& first() const final { return trials_.front(); }
-  const Trial& best() const final { return trials_[best_]; }
-  const std::vector<Trial>& trials() const final { return trials_; }
+  const FitTrial& first() const final { return trials_.front(); }
+  const FitTrial& best() const final { return trials_[best_]; }
+  const std::vector<FitTrial>& trials() const final { return trials_; }
   std::vector<CoordinateInterval> intervals() const override {
     constexpr double kReach90 = 1.645;  // standard deviations
     std::vector<CoordinateInterval> result;
@@ -61,7 +61,7 @@ class RecordedFit : public Fit {
 
   /// The part of the cost that no simulation tells.
   double pull_on(const Point& point) const { return pull_to_start(point, settings_.start, pull_); }
-  double cost(const Trial& trial) const { return trial.objective + pull_on(trial.point); }
+  double cost(const FitTrial& trial) const { return trial.objective + pull_on(trial.point); }
 
   void record(const Point& point, std::vector<Prediction> predictions, double objective) {
     trials_.push_back({point, std::move(predictions), objective});
@@ -79,7 +79,7 @@ class RecordedFit : public Fit {
 
   FitData data_;
   FitSettings settings_;
-  std::vector<Trial> trials_;
+  std::vector<FitTrial> trials_;
   std::vector<Point> asked_;  ///< points asked for and not answered yet
   std::size_t best_ = 0;
   bool finished_ = false;

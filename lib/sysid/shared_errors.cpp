@@ -5,13 +5,12 @@
 namespace nacre::sysid {
 namespace {
 
-constexpr double kTrendUnit = 0.1;  // of rigid fraction: what data/numerics_floor.toml refers to
+constexpr double kTrendUnit = 0.1;  // of rigid fraction: what data/discretisation_floor.toml refers to
 
 /// Rigid fractions less their mean.
 Eigen::VectorXd centred_fractions(const std::vector<measurement::Replicates>& measured) {
   Eigen::VectorXd fraction(static_cast<Eigen::Index>(measured.size()));
-  for (Eigen::Index i = 0; i < fraction.size(); ++i)
-    fraction[i] = measured[static_cast<std::size_t>(i)].design.rigid_fraction();
+  for (Eigen::Index i = 0; i < fraction.size(); ++i) fraction[i] = measured[i].design.rigid_fraction();
   if (fraction.size() > 0) fraction.array() -= fraction.mean();
   return fraction;
 }
@@ -19,7 +18,7 @@ Eigen::VectorXd centred_fractions(const std::vector<measurement::Replicates>& me
 }  // namespace
 
 Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>& measured,
-                                      const NumericsFloor& floor) {
+                                      const DiscretisationFloor& floor) {
   Eigen::VectorXd fraction = centred_fractions(measured);
   const Eigen::Index designs = fraction.size();
   const double spread = designs > 0 ? std::sqrt(fraction.squaredNorm() / static_cast<double>(designs)) : 0.0;
@@ -28,7 +27,7 @@ Eigen::MatrixXd shared_modulus_errors(const std::vector<measurement::Replicates>
 }
 
 Eigen::MatrixXd shared_fracture_errors(const std::vector<measurement::Replicates>& measured,
-                                       const NumericsFloor& floor) {
+                                       const DiscretisationFloor& floor) {
   const Eigen::VectorXd fraction = centred_fractions(measured) / kTrendUnit;
   const Eigen::Index designs = fraction.size();
   Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(2 * designs, 3);

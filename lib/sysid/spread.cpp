@@ -18,8 +18,7 @@ double noise_variance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& re
 std::vector<double> parameter_deviations(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
                                          const Eigen::VectorXd& weights, double smallest_residual,
                                          const Eigen::MatrixXd& systematic) {
-  if ((weights.array() <= 0.0).all())
-    return std::vector<double>(static_cast<std::size_t>(jacobian.cols()), kUnknownDeviation);
+  if ((weights.array() <= 0.0).all()) return std::vector<double>(jacobian.cols(), kUnknownDeviation);
   const double noise = noise_variance(jacobian, residuals, weights, smallest_residual);
   Eigen::MatrixXd information = jacobian.transpose() * weights.asDiagonal() * jacobian / noise;
   information.diagonal().array() += kUnknownPrecision;

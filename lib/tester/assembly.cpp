@@ -132,7 +132,7 @@ void collect(const LaidDown& made, int refinement, int row, int column, MadeOf& 
   element.mean_fraction = element.share_x = element.share_y = 0.0;
   for (int part = 0; part < parts * parts; ++part) {
     const int part_row = row * parts + part / parts, part_column = column * parts + part % parts;
-    const double fraction = made.fraction[static_cast<std::size_t>(part_row * side + part_column)];
+    const double fraction = made.fraction[part_row * side + part_column];
     const int parts_per_cell = side / made.unit.side();
     const std::size_t cell = made.unit.index(part_row / parts_per_cell, part_column / parts_per_cell);
     element.rigid_fractions.push_back(fraction);

@@ -28,7 +28,7 @@ std::vector<double> spread(const std::vector<double>& events) {
   constexpr int kReach = 3;
   for (int i = 0; i < kIntervals; ++i)
     for (int j = std::max(0, i - kReach); j <= std::min(kIntervals - 1, i + kReach); ++j)
-      result[static_cast<std::size_t>(j)] += events[static_cast<std::size_t>(i)] * (kReach + 1 - std::abs(i - j));
+      result[j] += events[i] * (kReach + 1 - std::abs(i - j));
   return result;
 }
 
@@ -49,10 +49,9 @@ std::vector<double> film_strains(const ToughnessResult& result, int count) {
   for (std::size_t i = 1; i < strain.size(); ++i)
     falls[interval(strain[i])] += std::max(0.0, stress[i - 1] - stress[i]);
   const auto top = std::max_element(stress.begin(), stress.end());
-  const double peak_strain = stress.empty() ? 0.0 : strain[static_cast<std::size_t>(top - stress.begin())];
+  const double peak_strain = stress.empty() ? 0.0 : strain[top - stress.begin()];
   for (int i = 0; i < kIntervals && !result.breaks.empty(); ++i)
-    if (std::abs((i + 0.5) * width - peak_strain) < kPeakHalfWidth * result.failure_strain)
-      peak[static_cast<std::size_t>(i)] = 1.0;
+    if (std::abs((i + 0.5) * width - peak_strain) < kPeakHalfWidth * result.failure_strain) peak[i] = 1.0;
 
   std::vector<double> density(kIntervals, (1.0 - kBreakShare - kFallShare - kPeakShare) / kIntervals);
   add_share(density, spread(breaks), kBreakShare);

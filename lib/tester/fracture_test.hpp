@@ -19,7 +19,7 @@ struct FractureTest {
 };
 
 /// The specimen of a simulation, ready to be pulled. The simulation must be usable (simulation_fault empty).
-FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics = {});
+FractureTest fracture_test(const Simulation& simulation, const Discretisation& discretisation = {});
 
 /// A specimen in the grips, which carry no force, and the strain at which they do so.
 template <class Real>

@@ -19,20 +19,20 @@ double homogeneous_modulus(const pattern::Mixture& mixture, const Simulation& si
 
 }  // namespace
 
-Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics& numerics) {
+Result<ModulusResult> test_modulus(const Simulation& simulation, const Discretisation& discretisation) {
   if (std::string fault = simulation_fault(simulation, TestKind::modulus); !fault.empty())
     return fail("modulus tester: {}", fault);
   const bool homogeneous = simulation.design.mixture() != nullptr;
   // All materials relax alike, so that the branch is a factor.
   const double at_rate = material::rate_stiffening(material::law_extensions(simulation.parameters.extensions),
                                                    simulation.conditions.strain_rate_per_s);
-  if (homogeneous && !numerics.explicit_modulus)
+  if (homogeneous && !discretisation.explicit_modulus)
     return ModulusResult{homogeneous_modulus(*simulation.design.mixture(), simulation) * at_rate};
 
   const SpecimenUnits units = modulus_units(simulation.fidelity);
   const fem::Grid grid = assemble(simulation.design, simulation.parameters, simulation.conditions,
-                                  AssemblyTarget::modulus, units.x, units.y, numerics.refinement);
-  if (numerics.explicit_modulus)
+                                  AssemblyTarget::modulus, units.x, units.y, discretisation.refinement);
+  if (discretisation.explicit_modulus)
     return explicit_modulus(grid, simulation.parameters.modulus.gamma_per_s).transform([&](double modulus_pa) {
       return ModulusResult{modulus_pa * at_rate};
     });

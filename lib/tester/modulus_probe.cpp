@@ -39,7 +39,7 @@ Result<ModulusProbe> ModulusProbe::at(const Simulation& simulation) {
       int a = 0;
       for (const int node : fem::element_nodes(grid, row, column)) {
         for (int direction = 0; direction < 2; ++direction)
-          moved[2 * a + direction] = solution->displacement[static_cast<std::size_t>(2 * node + direction)];
+          moved[2 * a + direction] = solution->displacement[2 * node + direction];
         ++a;
       }
       probe.shear_.push_back(0.5 * moved.dot(fem::unit_stiffness().shear * moved));

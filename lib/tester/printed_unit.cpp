@@ -31,9 +31,9 @@ double moving_average_weight(double start, double end, double width, int offset)
 
 /// Row s: weights of the cells at offsets -reach..reach in the mean over part s of `parts` equal parts of a cell.
 std::vector<std::vector<double>> blur_weights(double width, int parts, int reach) {
-  std::vector<std::vector<double>> weights(static_cast<std::size_t>(parts));
+  std::vector<std::vector<double>> weights(parts);
   for (int part = 0; part < parts; ++part) {
-    std::vector<double>& row = weights[static_cast<std::size_t>(part)];
+    std::vector<double>& row = weights[part];
     double sum = 0.0;
     for (int offset = -reach; offset <= reach; ++offset) {
       const double start = static_cast<double>(part) / parts, end = static_cast<double>(part + 1) / parts;
@@ -56,8 +56,7 @@ class GrownLayout {
     high_ = std::max(below, above);
     for (int row = 0; row < kStrips; ++row)
       for (int column = 0; column < kStrips; ++column)
-        rigid_[static_cast<std::size_t>(row * kStrips + column)] =
-            any_near(layout, middle(row), middle(column), 0.5 + reach);
+        rigid_[row * kStrips + column] = any_near(layout, middle(row), middle(column), 0.5 + reach);
   }
 
   double low() const { return low_; }
@@ -69,7 +68,7 @@ class GrownLayout {
     return 2 * pixel + (rest < low_ ? -1 : rest < high_ ? 0 : 1);
   }
   bool rigid(int row_strip, int column_strip) const {
-    return rigid_[static_cast<std::size_t>(wrapped(row_strip, kStrips) * kStrips + wrapped(column_strip, kStrips))];
+    return rigid_[wrapped(row_strip, kStrips) * kStrips + wrapped(column_strip, kStrips)];
   }
   static double fraction(double value) { return value - std::floor(value); }
 
@@ -171,8 +170,8 @@ PrintedUnit overprinted_unit(const pattern::Layout& layout, double pixels, int c
   for (int row = 0; row < unit.side(); ++row)
     for (int column = 0; column < unit.side(); ++column) {
       const std::size_t e = unit.index(row, column);
-      for (const Piece& y : pieces[static_cast<std::size_t>(row)])
-        for (const Piece& x : pieces[static_cast<std::size_t>(column)]) {
+      for (const Piece& y : pieces[row])
+        for (const Piece& x : pieces[column]) {
           const double area = x.share * y.share;
           const Surroundings around = surroundings(grown, y.first, y.last, x.first, x.last);
           unit.rigid_fraction[e] += area * (around.mixed() ? 0.5 : around.rigid ? 1.0 : 0.0);
@@ -192,22 +191,20 @@ std::vector<double> blurred_fractions(const PrintedUnit& unit, double blur_pixel
   const int reach = width > 0.0 ? static_cast<int>(std::ceil(0.5 * width)) : 0;
   const auto weights = blur_weights(width, parts, reach);
   const auto blur_line = [&](auto value_at, int position) {
-    const std::vector<double>& row = weights[static_cast<std::size_t>(position % parts)];
+    const std::vector<double>& row = weights[position % parts];
     if (reach == 0) return value_at(position / parts);
     double sum = 0.0;
     for (int offset = -reach; offset <= reach; ++offset)
-      sum += row[static_cast<std::size_t>(offset + reach)] * value_at(wrapped(position / parts + offset, cells));
+      sum += row[offset + reach] * value_at(wrapped(position / parts + offset, cells));
     return std::clamp(sum, 0.0, 1.0);
   };
   std::vector<double> along_x(static_cast<std::size_t>(cells * side)), result(static_cast<std::size_t>(side * side));
   for (int row = 0; row < cells; ++row)
     for (int column = 0; column < side; ++column)
-      along_x[static_cast<std::size_t>(row * side + column)] =
-          blur_line([&](int c) { return unit.rigid_fraction[unit.index(row, c)]; }, column);
+      along_x[row * side + column] = blur_line([&](int c) { return unit.rigid_fraction[unit.index(row, c)]; }, column);
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column)
-      result[static_cast<std::size_t>(row * side + column)] =
-          blur_line([&](int r) { return along_x[static_cast<std::size_t>(r * side + column)]; }, row);
+      result[row * side + column] = blur_line([&](int r) { return along_x[r * side + column]; }, row);
   return result;
 }
 

@@ -29,7 +29,7 @@ void scatter_strength(fem::Grid& grid, int refinement, double variation, std::st
       for (int part = 0; part < refinement * refinement; ++part) {
         const int fine_row = row * refinement + part / refinement,
                   fine_column = column * refinement + part % refinement;
-        grid.threshold_j_per_m3[static_cast<std::size_t>(grid.index(fine_row, fine_column))] *= factor;
+        grid.threshold_j_per_m3[grid.index(fine_row, fine_column)] *= factor;
       }
     }
 }

@@ -49,7 +49,7 @@ struct Simulation {
 };
 
 /// Numerical knobs, for verification and for the sanity step of a diagnosis. The defaults are the testers.
-struct Numerics {
+struct Discretisation {
   int refinement = 1;             ///< element size h / refinement, thresholds scaled by refinement
   double time_step_scale = 1.0;   ///< factor on the time step
   double rate_scale = 1.0;        ///< factor on the simulated strain rate (20 /s)
@@ -99,11 +99,11 @@ struct ToughnessResult {
 
 /// Young's modulus (2.3.1, Figure 2-5B). Layouts: static solve at strain 1e-4, double precision. Homogeneous designs:
 /// material point. Error: what made the solution impossible.
-Result<ModulusResult> test_modulus(const Simulation& simulation, const Numerics& numerics = {});
+Result<ModulusResult> test_modulus(const Simulation& simulation, const Discretisation& discretisation = {});
 
 /// Toughness (2.3.1, Figure 2-5A): the notched specimen pulled at 20 /s until separation; layouts and homogeneous
 /// designs alike run on the grid. Error: blow-up (J <= 0 or not finite) with step and element, never a number.
-Result<ToughnessResult> test_toughness(const Simulation& simulation, const Numerics& numerics = {});
+Result<ToughnessResult> test_toughness(const Simulation& simulation, const Discretisation& discretisation = {});
 
 /// The unnotched homogeneous coupon: stress at each of the given nominal strains, by a material-point integrator at
 /// real time.

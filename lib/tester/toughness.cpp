@@ -91,35 +91,36 @@ std::string specimen_name(const Simulation& simulation, int specimen) {
 
 }  // namespace
 
-FractureTest fracture_test(const Simulation& simulation, const Numerics& numerics) {
+FractureTest fracture_test(const Simulation& simulation, const Discretisation& discretisation) {
   const SpecimenUnits units = toughness_units(simulation.fidelity);
   FractureTest test;
   test.grid = assemble(simulation.design, simulation.parameters, simulation.conditions, AssemblyTarget::toughness,
-                       units.x, units.y, numerics.refinement);
+                       units.x, units.y, discretisation.refinement);
   const material::Extensions& extensions = simulation.parameters.extensions;
-  scatter_strength(test.grid, numerics.refinement, material::extension_value(extensions, "strength_scatter"),
-                   specimen_name(simulation, numerics.specimen));
-  cut_notch(test.grid, numerics.refinement);
-  round_notch_root(test.grid, numerics.refinement, material::extension_value(extensions, "blunt_notch"));
+  scatter_strength(test.grid, discretisation.refinement, material::extension_value(extensions, "strength_scatter"),
+                   specimen_name(simulation, discretisation.specimen));
+  cut_notch(test.grid, discretisation.refinement);
+  round_notch_root(test.grid, discretisation.refinement, material::extension_value(extensions, "blunt_notch"));
   const bool pure_soft = simulation.design.rigid_fraction() == 0.0;
   const double gamma_per_s = simulation.parameters.toughness.gamma_per_s;
   const bool capped = simulation.fidelity == Fidelity::full && !pure_soft;
-  test.settings = {
-      .density_kg_per_m3 = thesis::kDensity,
-      .time_step_s = time_step_s(test.grid, gamma_per_s, capped) * numerics.time_step_scale,
-      .strain_rate_per_s = thesis::kSimulatedStrainRate * loading_rate_scale(simulation.fidelity) * numerics.rate_scale,
-      .damping = fem::Damping::smoothing,
-      .gamma_per_s = gamma_per_s,
-      .simd = {}};
+  test.settings = {.density_kg_per_m3 = thesis::kDensity,
+                   .time_step_s = time_step_s(test.grid, gamma_per_s, capped) * discretisation.time_step_scale,
+                   .strain_rate_per_s = thesis::kSimulatedStrainRate * loading_rate_scale(simulation.fidelity) *
+                                        discretisation.rate_scale,
+                   .damping = fem::Damping::smoothing,
+                   .gamma_per_s = gamma_per_s,
+                   .simd = {}};
   // The machine pulls slowly, the solver fast: what relaxes does so at the same strain (docs/METHODS.md).
   test.grid.laws.relaxation_time_s *= simulation.conditions.strain_rate_per_s / test.settings.strain_rate_per_s;
   test.strain_limit = pure_soft ? thesis::kSoftStrainLimit : thesis::kStrainLimit;
   test.limit_is_no_failure = pure_soft;
-  const double sample_strain = kSampleStrain * test.strain_limit / thesis::kStrainLimit / numerics.recording_scale;
+  const double sample_strain =
+      kSampleStrain * test.strain_limit / thesis::kStrainLimit / discretisation.recording_scale;
   const double strain_per_step = test.settings.strain_rate_per_s * test.settings.time_step_s;
   test.steps_per_sample = static_cast<int>(
       std::clamp(std::round(sample_strain / strain_per_step), 1.0, static_cast<double>(thesis::kStepLimit)));
-  test.frame_count = numerics.frame_count;
+  test.frame_count = discretisation.frame_count;
   return test;
 }
 
@@ -164,10 +165,10 @@ template Result<MountedSpecimen<double>> mount<double>(const FractureTest&);
 template Result<ToughnessResult> run_fracture_test<float>(const FractureTest&);
 template Result<ToughnessResult> run_fracture_test<double>(const FractureTest&);
 
-Result<ToughnessResult> test_toughness(const Simulation& simulation, const Numerics& numerics) {
+Result<ToughnessResult> test_toughness(const Simulation& simulation, const Discretisation& discretisation) {
   if (std::string fault = simulation_fault(simulation, TestKind::toughness); !fault.empty())
     return fail("toughness tester: {}", fault);
-  return run_fracture_test<float>(fracture_test(simulation, numerics));
+  return run_fracture_test<float>(fracture_test(simulation, discretisation));
 }
 
 }  // namespace nacre::tester

@@ -35,7 +35,7 @@ Result<UnitCell> pull_unit_cell(const pattern::Pattern& pattern, const material:
     for (int column = 0; column < kQuarterElements; ++column) {
       const auto e = static_cast<std::size_t>(grid.index(row, column));
       const auto block = static_cast<std::size_t>(block_of(row) * kCellBlocks + block_of(column));
-      const double area = sizes[static_cast<std::size_t>(row)] * sizes[static_cast<std::size_t>(column)];
+      const double area = sizes[row] * sizes[column];
       cell.load[block] += area * pulled->energy_j_per_m3[e] / grid.threshold_j_per_m3[e];
       areas[block] += area;
     }

@@ -21,7 +21,7 @@ std::string encode(T message) {
   std::string payload(static_cast<std::size_t>(message.getEncodedSize()), '\0');
   const int size = message.encode(payload.data(), 0, static_cast<int>(payload.size()));
   assert(size >= 0);
-  payload.resize(static_cast<std::size_t>(size));  // shorter when a text holds a zero byte: it ends there
+  payload.resize(size);  // shorter when a text holds a zero byte: it ends there
   return payload;
 }
 

@@ -215,7 +215,7 @@ std::vector<SimulateResult> simulate_answer(const std::string& request_id,
   return answer;
 }
 
-std::optional<std::vector<SimulatedDesign>> AnswerCollector::add(SimulateResult part) {
+std::optional<std::vector<SimulatedDesign>> ResponseCollector::add(SimulateResult part) {
   const std::string request_id = part.request_id;
   const int chunks = part.chunks;
   auto& parts = parts_[request_id];

@@ -71,7 +71,7 @@ struct SimulatedDesign {
   bool operator==(const SimulatedDesign&) const = default;
 };
 
-/// SIMULATED: part of the answer to a request. simulate_answer() cuts a whole answer into messages, AnswerCollector
+/// SIMULATED: part of the answer to a request. simulate_answer() cuts a whole answer into messages, ResponseCollector
 /// joins them.
 struct SimulateResult {
   using Wire = simulate_result_t;
@@ -283,7 +283,7 @@ std::vector<FamilyGamut> family_gamut_chunks(int number, tester::Fidelity fideli
                                              std::span<const explore::Evaluated> samples);
 
 /// Joins the chunks of answers to requests, in any order and any number of times.
-class AnswerCollector {
+class ResponseCollector {
  public:
   /// The whole answer when this chunk completes it (once), nothing otherwise.
   std::optional<std::vector<SimulatedDesign>> add(SimulateResult part);

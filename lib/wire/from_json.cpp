@@ -42,7 +42,7 @@ class Encoder {
 
   static std::int64_t length_of(const Member& member, const Struct& type, const Json& value) {
     if (member.fixed_length >= 0) return member.fixed_length;
-    const Json& count = value.at(type.members[static_cast<std::size_t>(member.count_member)].name);
+    const Json& count = value.at(type.members[member.count_member].name);
     return count.is_number_integer() ? count.get<std::int64_t>() : -1;
   }
 

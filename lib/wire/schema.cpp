@@ -52,8 +52,7 @@ class Walk {
     for (std::size_t i = 0; i < type.members.size(); ++i) {
       const Member& member = type.members[i];
       if (member.is_array()) {
-        const std::int64_t count =
-            member.fixed_length >= 0 ? member.fixed_length : integers[static_cast<std::size_t>(member.count_member)];
+        const std::int64_t count = member.fixed_length >= 0 ? member.fixed_length : integers[member.count_member];
         if (!array(member, count, place)) return false;
       } else if (!value(member, Place{&place, member.name}, &integers[i])) {
         return false;

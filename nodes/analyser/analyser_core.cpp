@@ -221,7 +221,7 @@ void AnalyserCore::ask_for_films_of(const std::string& whose, const material::Pa
 void AnalyserCore::accept_answer(const wire::SimulateResult& part) {
   const auto open = open_answers_.find(part.request_id);
   if (open == open_answers_.end()) return;
-  OpenAnswer& answer = open->second;
+  OpenResponse& answer = open->second;
   answer.chunks = static_cast<std::size_t>(part.chunks);
   answer.chunk.insert(part.chunk);
   for (std::size_t i = 0; i < part.results.size(); ++i)
@@ -238,7 +238,7 @@ void AnalyserCore::accept_fracture(const wire::Fracture& fracture) {
 
 void AnalyserCore::close_when_complete(const std::string& request_id) {
   const auto open = open_answers_.find(request_id);
-  const OpenAnswer& answer = open->second;
+  const OpenResponse& answer = open->second;
   const bool numbers = answer.chunks > 0 && answer.chunk.size() == answer.chunks;
   if (numbers && (!answer.with_fractures || answer.fracture.size() >= answer.broke.size())) open_answers_.erase(open);
 }
@@ -294,9 +294,9 @@ runtime::Status AnalyserCore::status() const {
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   const material::ParameterRanges ranges = game::ranges_of(scenario);
   const diagnosis::ModulusFloor floor =
-      scenario.numerics_floor_file.empty()
+      scenario.discretisation_floor_file.empty()
           ? diagnosis::ModulusFloor{}
-          : diagnosis::read_modulus_floor(scenario.numerics_floor_file, scenario.fidelity);
+          : diagnosis::read_modulus_floor(scenario.discretisation_floor_file, scenario.fidelity);
   return std::make_unique<AnalyserCore>(scenario, ranges, floor);
 }
 

@@ -72,15 +72,15 @@ class AnalyserCore : public runtime::NodeCore {
   std::map<int, std::vector<pattern::Design>> unfilmed_;    // proposals whose films have not been asked for, by round
   std::set<int> filmed_families_;                           // by number
   /// What has come of the answer to a request.
-  struct OpenAnswer {
+  struct OpenResponse {
     bool with_fractures = false;
     std::size_t chunks = 0;  ///< in all; 0 before the first has come
     std::set<int> chunk;
     std::set<std::size_t> broke;     ///< designs that a FRACTURE is sent for
     std::set<std::size_t> fracture;  ///< designs whose FRACTURE has come
   };
-  std::map<std::string, OpenAnswer> open_answers_;  // by request id
-  std::optional<int> report_due_;                   // round
+  std::map<std::string, OpenResponse> open_answers_;  // by request id
+  std::optional<int> report_due_;                     // round
   bool reporting_ = false;
   int reports_ = 0;
   int round_ = 0;
@@ -89,8 +89,8 @@ class AnalyserCore : public runtime::NodeCore {
   std::string phase_ = "following the game";
 };
 
-/// With the ranges of scenario.ranges_file and the floor of scenario.numerics_floor_file; the thesis' ranges, no floor
-/// when those are empty. Throws InputError when one cannot be used.
+/// With the ranges of scenario.ranges_file and the floor of scenario.discretisation_floor_file; the thesis' ranges, no
+/// floor when those are empty. Throws InputError when one cannot be used.
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
 
 }  // namespace nacre::analyser

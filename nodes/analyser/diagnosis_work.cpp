@@ -51,7 +51,7 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
                                  std::string(numbers[p + 1].unit)});
     }
   }
-  for (const diagnosis::Candidate& c : d.candidates) {
+  for (const diagnosis::CandidateEffect& c : d.candidates) {
     message.candidates.push_back({c.name, c.status, c.statistic, c.p_family_wise, c.absorption});
   }
   if (d.gain) {
@@ -95,7 +95,7 @@ std::string diagnose_work(const std::string& spec) {
   settings.bootstraps = task.bootstraps;
   settings.seed = task.seed;
   settings.floor = task.floor;
-  settings.check_numerics = false;
+  settings.check_discretisation = false;
   const std::vector<measurement::SpecimenRecord> specimens = specimens_of(task);
   try {
     return wire::encode(message_of(diagnosis::diagnose(specimens, settings), task.request.round));

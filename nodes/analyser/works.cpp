@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "analyser/report.hpp"
 #include "analyser/run_tables.hpp"
 #include "base/files.hpp"
+#include "report/report.hpp"
 #include "runtime/journal.hpp"
 #include "store/run_database.hpp"
 #include "store/run_record.hpp"
@@ -33,8 +33,9 @@ std::map<std::string, runtime::WorkFunction> work_functions(const std::filesyste
       {"report",
        [database, run_dir](const std::string& round) -> std::string {
          database->checkpoint();
-         write_file_atomically(run_dir / "report.html",
-                               render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
+         write_file_atomically(
+             run_dir / "report.html",
+             report::render_report(store::read_run_record(run_dir / "run.db"), run_dir.filename().string()));
          return fmt::format("round {}: report.html written", round);
        }},
   };

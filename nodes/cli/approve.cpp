@@ -79,7 +79,7 @@ std::vector<pattern::Design> designs_meant(const ApproveOptions& options, const 
 std::string_view word(bool approved) { return approved ? "approved" : "rejected"; }
 
 /// Whether the validation agent has it now; its answer says no more than that.
-bool send(const ApproveOptions& options, const RunAccess& run, const game::StatedDecision& decision) {
+bool send(const ApproveOptions& options, const RunAccess& run, const game::StatedApproval& decision) {
   approval_t message{};
   message.round = decision.proposal_round;
   message.design = decision.design.name();
@@ -136,7 +136,7 @@ int add_own(const ApproveOptions& options, const RunAccess& run) {
   const game::LaboratoryFacts facts = view_laboratory(run).facts;
   int status = 0;
   for (const pattern::Design& design : designs) {
-    const game::StatedDecision decision{-1, design, true, options.by, options.why};
+    const game::StatedApproval decision{-1, design, true, options.by, options.why};
     if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
       remark(*reason);
       status = 1;
@@ -154,7 +154,7 @@ int decide(const ApproveOptions& options, const RunAccess& run, const game::Labo
   const std::vector<pattern::Design> designs = designs_meant(options, proposal);
   int status = 0;
   for (const pattern::Design& design : designs) {
-    const game::StatedDecision decision{proposal.round, design, !options.reject, options.by, options.why};
+    const game::StatedApproval decision{proposal.round, design, !options.reject, options.by, options.why};
     if (const auto reason = game::why_void(facts, decision, run.scenario.validation.approval)) {
       remark(*reason);
       status = 1;

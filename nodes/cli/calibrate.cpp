@@ -32,7 +32,7 @@ struct Options {
   std::string search = "posterior";
   int searches = 1;
   int ensemble = 0;
-  std::string numerics_floor;
+  std::string discretisation_floor;
   std::string store;
   std::uint64_t seed = 1;
   bool json = false;
@@ -184,7 +184,7 @@ void print_table(const sysid::OfflineCalibration& result, const material::Parame
 }
 
 int calibrate(const Options& options) {
-  prepare_output_file(options.out, {options.set, options.ranges, options.numerics_floor, options.store});
+  prepare_output_file(options.out, {options.set, options.ranges, options.discretisation_floor, options.store});
   const measurement::MeasurementSet set = measurement::read_plausible_set(options.set);
   warn_about(set, options.set);
   sysid::OfflineSettings settings;
@@ -208,14 +208,14 @@ int calibrate(const Options& options) {
   settings.hold_out = options.hold_out;
   settings.store = options.store;
   settings.calibration.floor =
-      sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
+      sysid::read_discretisation_floor(discretisation_floor_file(options.discretisation_floor), settings.fidelity);
   if (!options.begin_at.empty()) {
     settings.begin_at = fidelity_from_option(options.begin_at);
     if (*settings.begin_at >= settings.fidelity)
       throw InputError::format("--begin-at {}: expected a cheaper fidelity than {}", options.begin_at,
                                options.fidelity);
     settings.begin_at_floor =
-        sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), *settings.begin_at);
+        sysid::read_discretisation_floor(discretisation_floor_file(options.discretisation_floor), *settings.begin_at);
   }
   Progress progress("calibrate");
   const sysid::OfflineCalibration result = sysid::calibrate_offline(
@@ -267,8 +267,8 @@ void add_calibrate(CLI::App& app, Action& action) {
                   "Plausible parameter sets whose mean predicts what was held out, too")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command.add_option("--numerics-floor", options->numerics_floor,
-                     "What numerics alone leave; default: data/numerics_floor.toml");
+  command.add_option("--discretisation-floor", options->discretisation_floor,
+                     "What numerics alone leave; default: data/discretisation_floor.toml");
   command.add_option("--store", options->store,
                      "File that keeps simulations: an interrupted calibration goes on from it");
   add_fidelity(command, options->fidelity)->capture_default_str();

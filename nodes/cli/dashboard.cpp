@@ -32,7 +32,7 @@ bool is_loopback(const std::string& host) { return host == "localhost" || host =
 /// The page as built beside the program: build/web.
 std::filesystem::path built_page() { return runtime::this_program().parent_path().parent_path() / "web"; }
 
-dashboard::Settings settings_of(const RunAccess& run, const Options& options) {
+dashboard::DashboardSettings settings_of(const RunAccess& run, const Options& options) {
   return {.run_folder = run.folder,
           .page_folder = options.page.empty() ? built_page() : std::filesystem::path(options.page),
           .family_folder = options.families.empty() ? run.folder / "families" : std::filesystem::path(options.families),

@@ -4,13 +4,12 @@
 #include <filesystem>
 #include <string>
 
-#include "analyser/diagnosis_page.hpp"
 #include "base/files.hpp"
 #include "command.hpp"
 #include "diagnosis/diagnosis.hpp"
+#include "diagnosis/included_specimens.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
-#include "diagnosis/taking_part.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "measurement/measurement.hpp"
@@ -19,6 +18,7 @@
 #include "output_path.hpp"
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
+#include "report/diagnosis_page.hpp"
 #include "shipped_files.hpp"
 #include "specimen_doubts.hpp"
 
@@ -30,7 +30,7 @@ struct Options {
   std::string parameters, ranges;
   std::string fidelity = "full";
   std::string table, measured, predicted;
-  std::string numerics_floor;
+  std::string discretisation_floor;
   std::string store, report;
   int search_budget = 40;
   std::uint64_t seed = 1;
@@ -50,7 +50,7 @@ std::string conditions_in_words(const tester::TestConditions& c) {
 std::string size_or_dash(const std::optional<double>& size) { return size ? fmt::format("{:.3g}", *size) : "-"; }
 
 void print_candidates(const diagnosis::Diagnosis& d) {
-  for (const diagnosis::Candidate& c : d.candidates) {
+  for (const diagnosis::CandidateEffect& c : d.candidates) {
     const std::string_view unit = material::find_effect(c.name)->parameters.front().unit;
     fmt::print("  {:<22} {:<14} drop {:8.1f}  p {:.4f}  absorbed {:3.0f} %  signal {:6.1f}  seen from {}{}\n", c.name,
                c.status, c.statistic, c.p_family_wise, 100 * c.absorption, c.signal_to_noise,
@@ -93,15 +93,17 @@ diagnosis::DiagnosisSettings settings_from(const Options& options) {
   settings.fidelity = fidelity_from_option(options.fidelity);
   settings.seed = options.seed;
   settings.bootstraps = options.bootstraps;
-  settings.floor = diagnosis::read_modulus_floor(numerics_floor_file(options.numerics_floor), settings.fidelity);
-  settings.fracture_numerics =
-      diagnosis::read_fracture_numerics(numerics_floor_file(options.numerics_floor), settings.fidelity);
+  settings.floor =
+      diagnosis::read_modulus_floor(discretisation_floor_file(options.discretisation_floor), settings.fidelity);
+  settings.fracture_discretisation = diagnosis::read_fracture_discretisation(
+      discretisation_floor_file(options.discretisation_floor), settings.fidelity);
   settings.store = options.store;
   settings.search_budget = options.search_budget;
   return settings;
 }
 
-diagnosis::Diagnosis diagnosis_of(const diagnosis::TakingPart& part, const diagnosis::DiagnosisSettings& settings) {
+diagnosis::Diagnosis diagnosis_of(const diagnosis::IncludedSpecimens& part,
+                                  const diagnosis::DiagnosisSettings& settings) {
   try {
     return diagnosis::diagnose(part.specimens, settings);
   } catch (const diagnosis::TooFewSpecimens& problem) {
@@ -117,7 +119,7 @@ int plan(const Options& options) {
   diagnosis::DiagnosisSettings settings = settings_from(options);
   Progress progress("plan");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::TakingPart part = diagnosis::taking_part(set.specimens, options.fracture);
+  const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, options.fracture);
   const diagnosis::Plan plan = diagnosis::plan_diagnosis(part.specimens, settings);
   progress.end();
   if (!part.left_out.empty()) remark(part.left_out.substr(1));
@@ -158,7 +160,7 @@ int diagnose(const Options& options) {
   check_usage(options);
   if (!options.report.empty())
     prepare_output_file(options.report,
-                        {options.set, options.parameters, options.ranges, options.numerics_floor, options.store});
+                        {options.set, options.parameters, options.ranges, options.discretisation_floor, options.store});
   if (options.plan) return plan(options);
   if (!options.table.empty()) return diagnose_table(options);
   if (options.set.empty())
@@ -169,12 +171,12 @@ int diagnose(const Options& options) {
   const std::string doubt_of_units = warn_of_units(set.specimens, settings.start, settings.fidelity);
   Progress progress("diagnose");
   settings.progress = [&](double share, std::string_view phase) { progress.set_share(share, std::string(phase)); };
-  const diagnosis::TakingPart part = diagnosis::taking_part(set.specimens, options.fracture);
+  const diagnosis::IncludedSpecimens part = diagnosis::included_specimens(set.specimens, options.fracture);
   diagnosis::Diagnosis d = diagnosis_of(part, settings);
   progress.end();
   d.summary += part.left_out + doubt_of_units;
   if (!options.report.empty())
-    write_file_atomically(options.report, analyser::render_diagnosis_page(d, options.set, settings.fidelity));
+    write_file_atomically(options.report, report::render_diagnosis_page(d, options.set, settings.fidelity));
   if (options.json) {
     auto document = nlohmann::ordered_json::parse(to_json(d));
     document["rejected"] = rejected_json(set.rejected);
@@ -196,8 +198,8 @@ void add_diagnose(CLI::App& app, Action& action) {
   command.add_option("--params", options->parameters, "Parameter file that the base fit starts from");
   add_ranges(command, options->ranges);
   add_fidelity(command, options->fidelity)->capture_default_str();
-  command.add_option("--numerics-floor", options->numerics_floor,
-                     "What the tester's elements leave of an error (data/numerics_floor.toml)");
+  command.add_option("--discretisation-floor", options->discretisation_floor,
+                     "What the tester's elements leave of an error (data/discretisation_floor.toml)");
   command.add_flag("--fracture", options->fracture,
                    "Toughness specimens with their curves take part (not yet proven by blind trials)");
   command.add_flag("--plan", options->plan,

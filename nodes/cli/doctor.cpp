@@ -29,27 +29,27 @@ struct Options {
 int port_to_check(int wanted, std::vector<Finding>& findings) {
   try {
     const runtime::PortReservation reservation(wanted);
-    findings.push_back({"UDP port", Verdict::good, fmt::format("{} is free", reservation.port())});
+    findings.push_back({"UDP port", CheckStatus::good, fmt::format("{} is free", reservation.port())});
     return reservation.port();
   } catch (const InputError& error) {
-    findings.push_back({"UDP port", Verdict::fault, error.what(),
+    findings.push_back({"UDP port", CheckStatus::fault, error.what(),
                         wanted == 0 ? "ss -ulpn" : fmt::format("ss -ulpn 'sport = :{}'", wanted)});
     return 7667;
   }
 }
 
-std::string_view to_string(Verdict verdict) {
-  return verdict == Verdict::good ? "good" : verdict == Verdict::remark ? "remark" : "fault";
+std::string_view to_string(CheckStatus verdict) {
+  return verdict == CheckStatus::good ? "good" : verdict == CheckStatus::remark ? "remark" : "fault";
 }
 
 std::vector<Finding> look_at_everything(const Options& options) {
   const game::Scenario scenario = options.scenario.empty() ? game::Scenario{} : game::read_scenario(options.scenario);
   const bool lan = scenario.hosts == "lan";
   std::vector<Finding> findings = {check_programs()};
-  if (findings.back().verdict == Verdict::good) findings.push_back(check_versions());
+  if (findings.back().verdict == CheckStatus::good) findings.push_back(check_versions());
   const int port = port_to_check(options.port != 0 ? options.port : scenario.port, findings);
   findings.push_back(check_route(port, lan));
-  if (findings.back().verdict == Verdict::good) findings.push_back(check_loopback(port, lan));
+  if (findings.back().verdict == CheckStatus::good) findings.push_back(check_loopback(port, lan));
   findings.push_back(check_receive_buffer());
   findings.push_back(check_disk(options.logs));
   if (std::filesystem::is_directory(options.logs)) {
@@ -80,7 +80,7 @@ int examine(const Options& options) {
     if (!finding.remedy.empty()) fmt::print("        type: {}\n", finding.remedy);
   }
   if (options.json) print_json(document);
-  const auto is_fault = [](const Finding& finding) { return finding.verdict == Verdict::fault; };
+  const auto is_fault = [](const Finding& finding) { return finding.verdict == CheckStatus::fault; };
   return std::any_of(findings.begin(), findings.end(), is_fault) ? 1 : 0;
 }
 

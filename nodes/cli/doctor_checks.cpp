@@ -62,8 +62,9 @@ Finding check_programs() {
     if (::access(program_of(node).c_str(), X_OK) != 0) missing += fmt::format(" nacre_{}", node);
   }
   const std::string folder = runtime::this_program().parent_path().string();
-  if (missing.empty()) return {"programs of the nodes", Verdict::good, "all in " + folder};
-  return {"programs of the nodes", Verdict::fault, fmt::format("{} lacks{}", folder, missing), "cmake --build build"};
+  if (missing.empty()) return {"programs of the nodes", CheckStatus::good, "all in " + folder};
+  return {"programs of the nodes", CheckStatus::fault, fmt::format("{} lacks{}", folder, missing),
+          "cmake --build build"};
 }
 
 Finding check_versions() {
@@ -75,33 +76,33 @@ Finding check_versions() {
       others.push_back(fmt::format("nacre_{}: {}", node, first_line(answer.output)));
   }
   if (!others.empty()) {
-    return {"versions", Verdict::fault, fmt::format("nacre: {}; {}", own, fmt::join(others, "; ")),
+    return {"versions", CheckStatus::fault, fmt::format("nacre: {}; {}", own, fmt::join(others, "; ")),
             "cmake --build build"};
   }
   const std::string libraries = fmt::format("{}; SQLite {}", own, sqlite3_libversion());
   if (sqlite3_libversion_number() >= 3037000 && sqlite3_threadsafe() != 0)
-    return {"versions", Verdict::good, libraries};
-  return {"versions", Verdict::fault, libraries + ": 3.37 or later with threads is needed",
+    return {"versions", CheckStatus::good, libraries};
+  return {"versions", CheckStatus::fault, libraries + ": 3.37 or later with threads is needed",
           "apt-get install libsqlite3-0"};
 }
 
 Finding check_route(int port, bool lan) {
   const auto source = runtime::multicast_source(port);
   if (!source) {
-    return {"multicast route", Verdict::fault, source.error().message,
+    return {"multicast route", CheckStatus::fault, source.error().message,
             "ip link set lo up; ip route add 224.0.0.0/4 dev lo"};
   }
-  if (!source->starts_with("127.")) return {"multicast route", Verdict::good, "multicast leaves from " + *source};
+  if (!source->starts_with("127.")) return {"multicast route", CheckStatus::good, "multicast leaves from " + *source};
   if (!lan) {
-    return {"multicast route", Verdict::good,
+    return {"multicast route", CheckStatus::good,
             "multicast has a way; it stays on this machine (enough for hosts = local)"};
   }
-  return {"multicast route", Verdict::fault, "multicast stays on this machine, and the run spans several",
+  return {"multicast route", CheckStatus::fault, "multicast stays on this machine, and the run spans several",
           "ip route replace 224.0.0.0/4 dev INTERFACE   # the one to the other machines"};
 }
 
 Finding check_loopback(int port, bool lan) {
-  Finding finding{"messages come back", Verdict::fault, "", "nft list ruleset   # and allow UDP to 239.255.76.67"};
+  Finding finding{"messages come back", CheckStatus::fault, "", "nft list ruleset   # and allow UDP to 239.255.76.67"};
   runtime::BusOptions options;
   options.url = runtime::bus_url(port, lan);
   options.node = "doctor";
@@ -118,16 +119,16 @@ Finding check_loopback(int port, bool lan) {
     (*bus)->receive(100, [&](const runtime::Received&) { has_come_back = true; });
   }
   if (!has_come_back) return finding.found = "a message sent to the bus did not come back within 3 s", finding;
-  return {"messages come back", Verdict::good, fmt::format("on UDP port {}", port)};
+  return {"messages come back", CheckStatus::good, fmt::format("on UDP port {}", port)};
 }
 
 Finding check_receive_buffer() {
   constexpr long kWanted = 2'097'152;  // recv_buf_size of the bus
   const char* file = "/proc/sys/net/core/rmem_max";
-  if (!fs::exists(file)) return {"receive buffer", Verdict::good, "set by the network's owner (a namespace)"};
+  if (!fs::exists(file)) return {"receive buffer", CheckStatus::good, "set by the network's owner (a namespace)"};
   const long allowed = std::atol(read_file(file).c_str());
-  if (allowed >= kWanted) return {"receive buffer", Verdict::good, fmt::format("{} bytes allowed", allowed)};
-  return {"receive buffer", Verdict::remark,
+  if (allowed >= kWanted) return {"receive buffer", CheckStatus::good, fmt::format("{} bytes allowed", allowed)};
+  return {"receive buffer", CheckStatus::remark,
           fmt::format("{} bytes allowed, {} wanted: bursts lose messages, which are then sent again", allowed, kWanted),
           "sysctl -w net.core.rmem_max=8388608"};
 }
@@ -136,13 +137,13 @@ Finding check_disk(const fs::path& logs) {
   constexpr double kWantedGb = 1.0;
   struct statvfs disk {};
   if (::statvfs(logs.c_str(), &disk) != 0) {
-    return {"disk space", Verdict::fault, fmt::format("{}: no such folder", logs.string()),
+    return {"disk space", CheckStatus::fault, fmt::format("{}: no such folder", logs.string()),
             "mkdir -p " + shell_word(logs)};
   }
   const double free_gb = 1e-9 * static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
   const std::string found = fmt::format("{:.1f} GB free in {}", free_gb, logs.string());
-  if (free_gb >= kWantedGb) return {"disk space", Verdict::good, found};
-  return {"disk space", Verdict::fault, found,
+  if (free_gb >= kWantedGb) return {"disk space", CheckStatus::good, found};
+  return {"disk space", CheckStatus::fault, found,
           fmt::format("du -sh {}/*   # and delete runs that nobody needs", shell_word(logs))};
 }
 
@@ -150,12 +151,12 @@ Finding check_sync(const fs::path& logs) {
   constexpr double kSlowS = 0.1;
   const auto seconds = seconds_to_keep(logs);
   if (!seconds) {
-    return {"disk writes", Verdict::fault, seconds.error().message,
+    return {"disk writes", CheckStatus::fault, seconds.error().message,
             fmt::format("ls -ld {0}; df -h {0}; df -i {0}", shell_word(logs))};
   }
   const std::string found = fmt::format("a file is on disk after {:.1f} ms", 1e3 * *seconds);
-  if (*seconds < kSlowS) return {"disk writes", Verdict::good, found};
-  return {"disk writes", Verdict::remark, found + ": every measurement waits for that; a local disk is faster",
+  if (*seconds < kSlowS) return {"disk writes", CheckStatus::good, found};
+  return {"disk writes", CheckStatus::remark, found + ": every measurement waits for that; a local disk is faster",
           "nacre launch SCENARIO.toml --logs FOLDER_ON_ANOTHER_DISK"};
 }
 
@@ -163,11 +164,11 @@ Finding judge_clock(std::time_t now, int status) {
   constexpr std::time_t kThisProgramIsYounger = 1'767'225'600;  // 2026-01-01
   const std::string says = fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(now));
   if (now < kThisProgramIsYounger) {
-    return {"clock", Verdict::fault, says + ": before this program was written",
+    return {"clock", CheckStatus::fault, says + ": before this program was written",
             "timedatectl set-time 'YYYY-MM-DD hh:mm:ss'"};
   }
-  if ((status & STA_UNSYNC) == 0) return {"clock", Verdict::good, says + ", kept in step by the network"};
-  return {"clock", Verdict::remark,
+  if ((status & STA_UNSYNC) == 0) return {"clock", CheckStatus::good, says + ", kept in step by the network"};
+  return {"clock", CheckStatus::remark,
           says + ", not kept in step: results do not depend on it, but times in logs of several machines will not fit",
           "timedatectl set-ntp true"};
 }
@@ -184,10 +185,10 @@ namespace {
 std::optional<Finding> fault_of(const std::string& check, const fs::path& file, const std::string& remedy) {
   try {
     if (const auto whole = store::check_database(file); !whole)
-      return Finding{check, Verdict::fault, whole.error().message, remedy};
+      return Finding{check, CheckStatus::fault, whole.error().message, remedy};
     return std::nullopt;
   } catch (const store::DatabaseUnavailable& error) {
-    return Finding{check, Verdict::fault, error.what(),
+    return Finding{check, CheckStatus::fault, error.what(),
                    fmt::format("fuser -v {}   # who writes it: wait for it, or end it", shell_word(file))};
   }
 }
@@ -196,12 +197,13 @@ std::optional<Finding> fault_of(const std::string& check, const fs::path& file, 
 
 Finding check_cache(const fs::path& file) {
   const std::string check = "cache of simulations";
-  if (!fs::exists(file)) return {check, Verdict::good, "there is none yet"};
+  if (!fs::exists(file)) return {check, CheckStatus::good, "there is none yet"};
   const std::string remedy = fmt::format("nacre rebuild --cache {}   # saves what can be read", shell_word(file));
   if (const auto fault = fault_of(check, file, remedy)) return *fault;
   const int version = store::schema_version(file);
-  if (version >= 0 && version <= store::kCacheSchemaVersion) return {check, Verdict::good, file.string() + " is whole"};
-  return {check, Verdict::fault,
+  if (version >= 0 && version <= store::kCacheSchemaVersion)
+    return {check, CheckStatus::good, file.string() + " is whole"};
+  return {check, CheckStatus::fault,
           fmt::format("{} has schema version {}, this program writes {}", file.string(), version,
                       store::kCacheSchemaVersion),
           fmt::format("mv {0} {0}.broken   # the farm begins a new one", shell_word(file))};
@@ -210,23 +212,23 @@ Finding check_cache(const fs::path& file) {
 Finding check_run(const fs::path& run) {
   const std::string check = "database of the run";
   const fs::path file = run / "run.db";
-  if (!fs::exists(file)) return {check, Verdict::good, "there is none yet"};
+  if (!fs::exists(file)) return {check, CheckStatus::good, "there is none yet"};
   const std::string remedy = "nacre rebuild --run " + shell_word(run);
   if (const auto fault = fault_of(check, file, remedy)) return *fault;
   const int version = store::schema_version(file);
-  if (version == store::kRunSchemaVersion) return {check, Verdict::good, file.string() + " is whole"};
+  if (version == store::kRunSchemaVersion) return {check, CheckStatus::good, file.string() + " is whole"};
   return {
-      check, Verdict::remark,
+      check, CheckStatus::remark,
       fmt::format("{} has schema version {}, this program writes {}", file.string(), version, store::kRunSchemaVersion),
       remedy};
 }
 
 Finding check_slurm(bool wanted) {
-  const Verdict otherwise = wanted ? Verdict::fault : Verdict::remark;
+  const CheckStatus otherwise = wanted ? CheckStatus::fault : CheckStatus::remark;
   const auto version = runtime::ask_program({"sbatch", "--version"});
   if (version.end.exit_status == runtime::kProgramNotFound) {
-    if (!wanted) return {"Slurm", Verdict::good, "not installed; only farm.executor = \"slurm\" needs it"};
-    return {"Slurm", Verdict::fault, "sbatch is not installed",
+    if (!wanted) return {"Slurm", CheckStatus::good, "not installed; only farm.executor = \"slurm\" needs it"};
+    return {"Slurm", CheckStatus::fault, "sbatch is not installed",
             "apt-get install slurm-client   # and the cluster's slurm.conf"};
   }
   if (!version.end.orderly()) {
@@ -245,7 +247,7 @@ Finding check_slurm(bool wanted) {
     if (kUsable.contains(state)) usable += count;
   }
   const std::string found = fmt::format("{}, {} of {} nodes take tasks", first_line(version.output), usable, all);
-  if (usable > 0) return {"Slurm", Verdict::good, found};
+  if (usable > 0) return {"Slurm", CheckStatus::good, found};
   return {"Slurm", otherwise, found, "sinfo -R; scontrol update nodename=NODE state=resume"};
 }
 

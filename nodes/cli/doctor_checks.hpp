@@ -11,12 +11,12 @@
 namespace nacre::cli {
 
 /// A remark costs time or comfort; a fault keeps a game from running.
-enum class Verdict { good, remark, fault };
+enum class CheckStatus { good, remark, fault };
 
 /// What one check found.
 struct Finding {
   std::string check;
-  Verdict verdict = Verdict::good;
+  CheckStatus verdict = CheckStatus::good;
   std::string found;
   std::string remedy = {};  ///< what to type; empty when all is well
 };

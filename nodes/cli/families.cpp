@@ -143,7 +143,8 @@ void add_families(CLI::App& app, Action& action) {
                   "Patterns of a family whose cracks are looked at; from 20 on mechanisms are compared")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
-  command.add_option("--numerics-floor", options->numerics_floor, "Default: data/numerics_floor.toml");
+  command.add_option("--discretisation-floor", options->discretisation_floor,
+                     "Default: data/discretisation_floor.toml");
   add_seed(command, options->seed, "Of every random choice")->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }

@@ -22,7 +22,7 @@ struct FamilyOptions {
   std::string params, ranges;
   std::string out;
   std::string fidelity;
-  std::string numerics_floor;
+  std::string discretisation_floor;
   int samples = 300;
   int rank = 2;
   int calibration = 25;

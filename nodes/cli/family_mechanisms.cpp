@@ -16,7 +16,7 @@ std::vector<Cracked> broken(const std::string& task, const std::vector<pattern::
                             const material::ParameterSet& parameters, tester::Fidelity fidelity,
                             const Performances& performances) {
   const int wanted = std::min(count, static_cast<int>(members.size()));
-  std::vector<std::optional<Cracked>> found(static_cast<std::size_t>(wanted));
+  std::vector<std::optional<Cracked>> found(wanted);
   Progress progress(task, wanted);
   parallel_for(wanted, [&](int i) {
     const auto index = static_cast<std::size_t>(i);

@@ -33,7 +33,8 @@ sysid::Calibrated family_model(const Family& family, const FamilyData& data, con
   settings.start = data.parameters;
   settings.toughness_budget = options.calibration;
   settings.seed = options.seed;
-  settings.floor = sysid::read_numerics_floor(numerics_floor_file(options.numerics_floor), data.fidelity);
+  settings.floor =
+      sysid::read_discretisation_floor(discretisation_floor_file(options.discretisation_floor), data.fidelity);
   for (const measurement::Replicates& group : data.measured)
     settings.weights.push_back(families::calibration_weight(family, *game::eightfold_pattern(group.design)));
   Progress progress(family.name + ": calibrating");

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "command.hpp"
+#include "laboratory/laboratory.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
-#include "virtual_lab/laboratory.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -24,7 +24,7 @@ struct Options {
 };
 
 int measure(const Options& options) {
-  virtual_laboratory::Campaign campaign;
+  laboratory::Campaign campaign;
   for (const std::string& argument : options.patterns) {
     campaign.designs.push_back(pattern::design_from_argument(argument));
   }
@@ -35,7 +35,7 @@ int measure(const Options& options) {
   remark(fmt::format("measuring {} designs", campaign.designs.size()));
   Progress progress("measure:");
   const auto records =
-      virtual_laboratory::measure_set(options.laboratory, options.out, campaign, [&](double share, int done, int all) {
+      laboratory::measure_set(options.laboratory, options.out, campaign, [&](double share, int done, int all) {
         progress.set_share(share, fmt::format("{} of {} simulations", done, all));
       });
   progress.end();

@@ -56,10 +56,10 @@ std::string Progress::line() const {
 }
 
 void Progress::show() {
-  constexpr auto kRedraw = std::chrono::milliseconds(100);
+  constexpr auto kRealisation = std::chrono::milliseconds(100);
   constexpr auto kPlainLine = std::chrono::seconds(5);
   const Clock::time_point now = Clock::now();
-  if (now - shown_ < (columns_ > 0 ? Clock::duration(kRedraw) : Clock::duration(kPlainLine))) return;
+  if (now - shown_ < (columns_ > 0 ? Clock::duration(kRealisation) : Clock::duration(kPlainLine))) return;
   shown_ = now;
   if (columns_ > 0) {
     say(fmt::format("\r{}\x1b[K", runtime::fitted(line(), columns_ - 1)));

@@ -5,8 +5,8 @@
 namespace nacre::cli {
 
 runtime::NodeProgram make_laboratory(const game::Scenario& scenario) {
-  return {.core = virtual_laboratory::make_core(scenario),
-          .work = virtual_laboratory::work_functions(virtual_laboratory::truth_of(scenario))};
+  return {.core = virtual_lab::make_core(scenario),
+          .work = virtual_lab::work_functions(virtual_lab::truth_of(scenario))};
 }
 
 }  // namespace nacre::cli

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <string>
 
-#include "analyser/paper.hpp"
-#include "analyser/report.hpp"
 #include "base/files.hpp"
 #include "command.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
+#include "report/paper.hpp"
+#include "report/report.hpp"
 #include "run_access.hpp"
 #include "runtime/round_history.hpp"
 #include "shipped_files.hpp"
@@ -33,14 +33,14 @@ int report(const Options& options) {
     return 1;
   }
   if (options.render)
-    write_file_atomically(page, analyser::render_report(store::read_run_record(database), run.manifest.run_id));
+    write_file_atomically(page, report::render_report(store::read_run_record(database), run.manifest.run_id));
   const std::filesystem::path thesis = shipped_file("data/thesis");
   if (!std::filesystem::exists(thesis))
     remark("data/thesis is neither here nor above the program: its figures are left out");
   const std::filesystem::path folder = options.out.empty() ? run.folder / "paper" : std::filesystem::path(options.out);
   prepare_output_folder(folder.string());
-  analyser::write_paper(folder, analyser::read_paper_source(run.folder, run.manifest.run_id,
-                                                            std::filesystem::exists(thesis) ? thesis : ""));
+  report::write_paper(folder, report::read_paper_source(run.folder, run.manifest.run_id,
+                                                        std::filesystem::exists(thesis) ? thesis : ""));
   if (const auto model = adopted_parameters(run))
     write_file_atomically(folder / "parameters.toml", material::to_toml(*model));
   if (std::filesystem::exists(page)) fmt::print("{}\n", page.string());

@@ -39,7 +39,7 @@ struct Options {
 };
 
 /// A judgement that a person makes.
-struct Judgement {
+struct SpecimenReview {
   std::string specimen;
   bool valid = false;
   std::string why;
@@ -47,7 +47,7 @@ struct Judgement {
 
 /// A judgement that stands now; in a set it has no revision.
 struct Reviewed {
-  Judgement judgement;
+  SpecimenReview review_of_specimen;
   std::optional<int> revision;
 };
 
@@ -71,55 +71,61 @@ ReviewedRun open_reviewed_run(const std::string& folder) {
 }
 
 /// Nothing, said on standard error, where the judgement does not stand.
-std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& in, const Judgement& judgement) {
+std::optional<Reviewed> judge_in_run(const Options& options, const ReviewedRun& in,
+                                     const SpecimenReview& review_of_specimen) {
   const auto& [run, book, revisions] = in;
   const auto specimens = book.specimens();
   const auto specimen = std::find_if(specimens.begin(), specimens.end(),
-                                     [&](const auto& each) { return each.specimen == judgement.specimen; });
-  if (specimen == specimens.end()) throw unknown_specimen(judgement.specimen, options.run, specimens.size());
-  if (judgement.valid) {
-    if (const auto reason = book.against_validity(judgement.specimen)) throw InputError(*reason);
+                                     [&](const auto& each) { return each.specimen == review_of_specimen.specimen; });
+  if (specimen == specimens.end()) throw unknown_specimen(review_of_specimen.specimen, options.run, specimens.size());
+  if (review_of_specimen.valid) {
+    if (const auto reason = book.against_validity(review_of_specimen.specimen)) throw InputError(*reason);
   }
-  const auto last = revisions.find(judgement.specimen);
+  const auto last = revisions.find(review_of_specimen.specimen);
   const int next = last == revisions.end() ? 1 : last->second + 1;
   const int revision = options.revision > 0 ? options.revision : next;
-  if (const auto held = book.review_against(judgement.specimen, {revision, judgement.valid, judgement.why})) {
-    remark(fmt::format("{}: revision {} stands: {}valid: {}", judgement.specimen, held->revision,
+  if (const auto held = book.review_against(review_of_specimen.specimen,
+                                            {revision, review_of_specimen.valid, review_of_specimen.why})) {
+    remark(fmt::format("{}: revision {} stands: {}valid: {}", review_of_specimen.specimen, held->revision,
                        held->valid ? "" : "not ", held->why));
     return std::nullopt;
   }
   review_t message{};
-  message.specimen = judgement.specimen;
+  message.specimen = review_of_specimen.specimen;
   message.revision = revision;
-  message.valid = judgement.valid;
+  message.valid = review_of_specimen.valid;
   message.by = options.by;
-  message.why = judgement.why;
+  message.why = review_of_specimen.why;
   if (deliver(run, "review", {"REVIEW", wire::encode(message)}, options.timeout_s) != 0) return std::nullopt;
-  return Reviewed{judgement, revision};
+  return Reviewed{review_of_specimen, revision};
 }
 
 /// Writes the judgements into the table of the set; its curves and everything else stay as they are.
-std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<Judgement>& judgements) {
+std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<SpecimenReview>& reviews) {
   std::vector<Reviewed> reviewed;
   measurement::SetTable table(options.set);
-  for (const Judgement& judgement : judgements) {
-    if (!table.holds(judgement.specimen)) throw unknown_specimen(judgement.specimen, options.set, table.size());
-    table.judge(judgement.specimen, judgement.valid, fmt::format("{} ({})", judgement.why, options.by));
-    reviewed.push_back({judgement, std::nullopt});
+  for (const SpecimenReview& review_of_specimen : reviews) {
+    if (!table.holds(review_of_specimen.specimen))
+      throw unknown_specimen(review_of_specimen.specimen, options.set, table.size());
+    table.judge(review_of_specimen.specimen, review_of_specimen.valid,
+                fmt::format("{} ({})", review_of_specimen.why, options.by));
+    reviewed.push_back({review_of_specimen, std::nullopt});
   }
   table.write(options.set);
   return reviewed;
 }
 
 void print_reviewed(const Reviewed& reviewed) {
-  fmt::print("{}: {}{}\n", reviewed.judgement.specimen, reviewed.judgement.valid ? "valid" : "not valid",
+  fmt::print("{}: {}{}\n", reviewed.review_of_specimen.specimen,
+             reviewed.review_of_specimen.valid ? "valid" : "not valid",
              reviewed.revision ? fmt::format(" (revision {})", *reviewed.revision) : "");
 }
 
 void print_reviewed_json(const std::vector<Reviewed>& reviewed) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Reviewed& each : reviewed) {
-    nlohmann::ordered_json one{{"specimen", each.judgement.specimen}, {"valid", each.judgement.valid}};
+    nlohmann::ordered_json one{{"specimen", each.review_of_specimen.specimen},
+                               {"valid", each.review_of_specimen.valid}};
     if (each.revision) one["revision"] = *each.revision;
     all.push_back(one);
   }
@@ -127,37 +133,37 @@ void print_reviewed_json(const std::vector<Reviewed>& reviewed) {
 }
 
 /// What stands of the judgements.
-std::vector<Reviewed> judge_all(const Options& options, const std::vector<Judgement>& judgements) {
-  if (judgements.empty()) return {};
-  if (!options.set.empty()) return judge_in_set(options, judgements);
+std::vector<Reviewed> judge_all(const Options& options, const std::vector<SpecimenReview>& reviews) {
+  if (reviews.empty()) return {};
+  if (!options.set.empty()) return judge_in_set(options, reviews);
   const ReviewedRun run = open_reviewed_run(options.run);
   std::vector<Reviewed> reviewed;
-  for (const Judgement& judgement : judgements) {
-    if (const auto one = judge_in_run(options, run, judgement)) reviewed.push_back(*one);
+  for (const SpecimenReview& review_of_specimen : reviews) {
+    if (const auto one = judge_in_run(options, run, review_of_specimen)) reviewed.push_back(*one);
   }
   return reviewed;
 }
 
 /// Status 1 where a judgement does not stand.
-int judge(const Options& options, const std::vector<Judgement>& judgements) {
-  const std::vector<Reviewed> reviewed = judge_all(options, judgements);
+int judge(const Options& options, const std::vector<SpecimenReview>& reviews) {
+  const std::vector<Reviewed> reviewed = judge_all(options, reviews);
   if (options.json) {
     print_reviewed_json(reviewed);
   } else {
     for (const Reviewed& each : reviewed) print_reviewed(each);
   }
-  return reviewed.size() == judgements.size() ? 0 : 1;
+  return reviewed.size() == reviews.size() ? 0 : 1;
 }
 
 /// Specimens to hold against each other, and how many of them are enough.
-struct Material {
+struct ReviewMaterial {
   measurement::MeasurementSet set;
   measurement::ConsistencySettings settings;
 };
 
 /// Those of the run, where nothing is rejected and the scenario says how many, or of the set.
-Material material_to_review(const Options& options) {
-  Material material;
+ReviewMaterial material_to_review(const Options& options) {
+  ReviewMaterial material;
   if (options.set.empty()) {
     const game::LaboratoryFacts facts = view_laboratory(open_run(options.run)).facts;
     material.set.specimens = facts.book.specimens();
@@ -265,16 +271,16 @@ int review(const Options& options) {
     options.json ? print_review_json(groups, history, set.rejected) : print_review(groups, history);
     return 0;
   }
-  std::vector<Judgement> judgements;
+  std::vector<SpecimenReview> reviews;
   for (const ReplicateGroup& group : groups) {
     for (const auto& outlier : group.proposed) {
       const std::string& reason = outlier.reasons.front().text;
-      judgements.push_back(
+      reviews.push_back(
           {outlier.specimen, false, options.why.empty() ? reason : fmt::format("{}: {}", options.why, reason)});
     }
   }
-  if (judgements.empty()) remark("no specimen looks out of line");
-  return judge(options, judgements);
+  if (reviews.empty()) remark("no specimen looks out of line");
+  return judge(options, reviews);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 
 namespace nacre::cli {
 
-using dashboard::Answer;
+using dashboard::Delivery;
 
 constexpr double kPatience_s = 8.0;
 
@@ -68,9 +68,9 @@ std::optional<diagnosis_t> RunDesk::diagnosis(int round) {
   return newest;
 }
 
-Answer RunDesk::hand_in(const runtime::Message& message) {
-  if (!is_playing(feed_.nodes())) return Answer::unanswered;
-  return deliver(now(), "dashboard", message, kPatience_s) == 0 ? Answer::accepted : Answer::unanswered;
+Delivery RunDesk::hand_in(const runtime::Message& message) {
+  if (!is_playing(feed_.nodes())) return Delivery::unanswered;
+  return deliver(now(), "dashboard", message, kPatience_s) == 0 ? Delivery::accepted : Delivery::unanswered;
 }
 
 std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord& specimen) {
@@ -80,50 +80,50 @@ std::vector<std::string> RunDesk::doubts_about(const measurement::SpecimenRecord
   return doubts;
 }
 
-Answer RunDesk::enter(const measurement::SpecimenRecord& specimen) {
+Delivery RunDesk::enter(const measurement::SpecimenRecord& specimen) {
   const runtime::Message message = measurement_message(specimen, run_.scenario.fidelity);
   const auto known = hashes_by_specimen(run_);
   const auto same_name = known.find(specimen.specimen);
   if (same_name == known.end()) return hand_in(message);
-  if (same_name->second != wire::message_hash(message.channel, message.payload)) return Answer::conflicting;
+  if (same_name->second != wire::message_hash(message.channel, message.payload)) return Delivery::conflicting;
   // The validation agent has it, the analyser may have been away.
-  return hand_in(message) == Answer::accepted ? Answer::repeated : Answer::unanswered;
+  return hand_in(message) == Delivery::accepted ? Delivery::repeated : Delivery::unanswered;
 }
 
-std::optional<std::string> RunDesk::against(const dashboard::Judgement& judgement) {
+std::optional<std::string> RunDesk::against(const dashboard::SpecimenReview& review) {
   const game::MeasurementBook book = view_laboratory(run_).facts.book;
   const auto specimens = book.specimens();
   if (std::none_of(specimens.begin(), specimens.end(),
-                   [&](const auto& each) { return each.specimen == judgement.specimen; }))
-    return fmt::format("{}: expected the name of one of the run's {} specimens", judgement.specimen, specimens.size());
-  return judgement.valid ? book.against_validity(judgement.specimen) : std::nullopt;
+                   [&](const auto& each) { return each.specimen == review.specimen; }))
+    return fmt::format("{}: expected the name of one of the run's {} specimens", review.specimen, specimens.size());
+  return review.valid ? book.against_validity(review.specimen) : std::nullopt;
 }
 
-Answer RunDesk::judge(const dashboard::Judgement& judgement) {
+Delivery RunDesk::review(const dashboard::SpecimenReview& review) {
   review_t message{};
-  message.specimen = judgement.specimen;
-  message.revision = highest_revisions(run_)[judgement.specimen] + 1;
-  message.valid = judgement.valid;
-  message.by = judgement.by;
-  message.why = judgement.why;
+  message.specimen = review.specimen;
+  message.revision = highest_revisions(run_)[review.specimen] + 1;
+  message.valid = review.valid;
+  message.by = review.by;
+  message.why = review.why;
   return hand_in({"REVIEW", wire::encode(message)});
 }
 
-std::optional<std::string> RunDesk::against(const dashboard::Decision& decision) {
-  const Result<pattern::Design> design = pattern::design_from_name(decision.design);
+std::optional<std::string> RunDesk::against(const dashboard::Approval& approval) {
+  const Result<pattern::Design> design = pattern::design_from_name(approval.design);
   if (!design) return design.error().message;
   return game::why_void(view_laboratory(run_).facts,
-                        {decision.round, *design, decision.approved, decision.by, decision.why},
+                        {approval.round, *design, approval.approved, approval.by, approval.why},
                         run_.scenario.validation.approval);
 }
 
-Answer RunDesk::decide(const dashboard::Decision& decision) {
+Delivery RunDesk::decide(const dashboard::Approval& approval) {
   approval_t message{};
-  message.round = decision.round;
-  message.design = decision.design;
-  message.approved = decision.approved;
-  message.by = decision.by;
-  message.why = decision.why;
+  message.round = approval.round;
+  message.design = approval.design;
+  message.approved = approval.approved;
+  message.by = approval.by;
+  message.why = approval.why;
   return hand_in({"APPROVAL", wire::encode(message)});
 }
 

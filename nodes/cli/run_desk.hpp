@@ -16,16 +16,16 @@ class RunDesk : public dashboard::Desk {
   std::optional<diagnosis_t> diagnosis(int round) override;
   std::vector<dashboard::NodeReport> nodes() override { return feed_.nodes(); }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) override;
-  dashboard::Answer enter(const measurement::SpecimenRecord& specimen) override;
-  dashboard::Answer judge(const dashboard::Judgement& judgement) override;
-  dashboard::Answer decide(const dashboard::Decision& decision) override;
-  std::optional<std::string> against(const dashboard::Judgement& judgement) override;
-  std::optional<std::string> against(const dashboard::Decision& decision) override;
+  dashboard::Delivery enter(const measurement::SpecimenRecord& specimen) override;
+  dashboard::Delivery review(const dashboard::SpecimenReview& review) override;
+  dashboard::Delivery decide(const dashboard::Approval& approval) override;
+  std::optional<std::string> against(const dashboard::SpecimenReview& review) override;
+  std::optional<std::string> against(const dashboard::Approval& approval) override;
   void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) override;
 
  private:
   /// Sends it, if anybody is there to hear it.
-  dashboard::Answer hand_in(const runtime::Message& message);
+  dashboard::Delivery hand_in(const runtime::Message& message);
   /// The run on the port that it plays on now.
   RunAccess now() const;
   RunAccess run_;

@@ -14,8 +14,8 @@ std::filesystem::path shipped_file(const std::filesystem::path& name) {
   return name;
 }
 
-std::filesystem::path numerics_floor_file(const std::string& given) {
-  return given.empty() ? shipped_file("data/numerics_floor.toml") : std::filesystem::path(given);
+std::filesystem::path discretisation_floor_file(const std::string& given) {
+  return given.empty() ? shipped_file("data/discretisation_floor.toml") : std::filesystem::path(given);
 }
 
 }  // namespace nacre::cli

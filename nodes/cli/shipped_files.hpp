@@ -8,7 +8,7 @@ namespace nacre::cli {
 /// A file or folder that comes with nacre, by its name from the root: above the program, else in the working folder.
 std::filesystem::path shipped_file(const std::filesystem::path& name);
 
-/// data/numerics_floor.toml; `given`, when it is not empty.
-std::filesystem::path numerics_floor_file(const std::string& given);
+/// data/discretisation_floor.toml; `given`, when it is not empty.
+std::filesystem::path discretisation_floor_file(const std::string& given);
 
 }  // namespace nacre::cli

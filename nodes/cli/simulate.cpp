@@ -101,7 +101,7 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
   Progress progress("simulate: tests", static_cast<std::int64_t>(tasks.size()));
   parallel_for(static_cast<int>(tasks.size()), [&](int i) {
-    const Task& task = tasks[static_cast<std::size_t>(i)];
+    const Task& task = tasks[i];
     Specimen& specimen = *task.specimen;
     const tester::Simulation simulation{specimen.design, parameters, {}, fidelity};
     if (task.test == tester::TestKind::modulus) {

@@ -25,7 +25,7 @@ class Branch {
   Branch(int number, const explore::SearchSettings& settings, std::string request_prefix);
 
   /// What must be worked out before next() (a learned search trains); nothing for a search that answers at once.
-  std::optional<explore::Question> question() const { return search_->question(); }
+  std::optional<explore::BatchRequest> batch_request() const { return search_->batch_request(); }
   /// SIMULATE requests for the next generation; empty when the search has ended.
   std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model);
   /// The same, with the answer to question().

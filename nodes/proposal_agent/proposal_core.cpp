@@ -93,7 +93,7 @@ void ProposalCore::start_due_round(runtime::Outputs& outputs) {
   for (Branch& branch : round_->branches) ask_next(branch, outputs);
 }
 
-wire::SimulateRequest ProposalCore::question_to_farm() const {
+wire::SimulateRequest ProposalCore::request_to_farm() const {
   wire::SimulateRequest model;
   model.modulus = model.toughness = true;
   model.fidelity = scenario_.fidelity;
@@ -102,11 +102,11 @@ wire::SimulateRequest ProposalCore::question_to_farm() const {
 }
 
 void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
-  if (const auto question = branch.question()) {
+  if (const auto batch_request = branch.batch_request()) {
     outputs.computes.push_back(
-        {.id = branch.question_id(), .kind = "search", .spec = search_spec(*question, round_->model)});
+        {.id = branch.question_id(), .kind = "search", .spec = search_spec(*batch_request, round_->model)});
   } else {
-    send(branch.next(question_to_farm()), outputs);
+    send(branch.next(request_to_farm()), outputs);
   }
 }
 
@@ -114,7 +114,7 @@ void ProposalCore::send(const std::vector<wire::SimulateRequest>& requests, runt
   for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
   const bool all_finished =
       std::all_of(round_->branches.begin(), round_->branches.end(), [](const Branch& each) { return each.finished(); });
-  if (all_finished && !round_->redraws) draw_again(outputs);
+  if (all_finished && !round_->realisations) draw_again(outputs);
 }
 
 void ProposalCore::accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs) {
@@ -122,12 +122,12 @@ void ProposalCore::accept_batch(const runtime::WorkDone& work, runtime::Outputs&
   Branch* branch = nullptr;
   if (round_) {
     for (Branch& each : round_->branches) {
-      if (each.question_id() == work.id && each.question()) branch = &each;
+      if (each.question_id() == work.id && each.batch_request()) branch = &each;
     }
   }
   if (!branch || !answer)
     return log(outputs, runtime::LogLevel::warning, "the result of " + work.id + " is ignored: no batch is awaited");
-  send(branch->next(question_to_farm(), *answer), outputs);
+  send(branch->next(request_to_farm(), *answer), outputs);
 }
 
 void ProposalCore::accept_answer(const std::string& payload, runtime::Outputs& outputs) {
@@ -135,9 +135,9 @@ void ProposalCore::accept_answer(const std::string& payload, runtime::Outputs& o
   if (!part) return log(outputs, runtime::LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
   if (!round_) return;
   const std::string request_id = part->request_id;
-  if (round_->redraws && round_->redraws->waits_for(request_id)) {
+  if (round_->realisations && round_->realisations->waits_for(request_id)) {
     const auto answer = collector_.add(*std::move(part));
-    if (answer && round_->redraws->take(request_id, *answer)) draw_again(outputs);
+    if (answer && round_->realisations->take(request_id, *answer)) draw_again(outputs);
     return;
   }
   const auto branch = std::find_if(round_->branches.begin(), round_->branches.end(),
@@ -153,14 +153,14 @@ int ProposalCore::simulations() const {
 }
 
 void ProposalCore::draw_again(runtime::Outputs& outputs) {
-  if (!round_->redraws) {
+  if (!round_->realisations) {
     std::vector<std::vector<explore::Evaluated>> gamuts;
     for (const Branch& branch : round_->branches) gamuts.push_back(branch.evaluated());
     round_->found = explore::merge_gamuts(gamuts);
-    round_->redraws.emplace(round_->found, round_->model.measured, scenario_.proposal.redraws, scenario_.seed,
-                            fmt::format("proposal_agent/r{}", round_->model.round));
+    round_->realisations.emplace(round_->found, round_->model.measured, scenario_.proposal.realisations, scenario_.seed,
+                                 fmt::format("proposal_agent/r{}", round_->model.round));
   }
-  const auto requests = round_->redraws->next(question_to_farm());
+  const auto requests = round_->realisations->next(request_to_farm());
   for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
   if (requests.empty()) publish_gamut(outputs);
 }
@@ -168,14 +168,15 @@ void ProposalCore::draw_again(runtime::Outputs& outputs) {
 void ProposalCore::publish_gamut(runtime::Outputs& outputs) {
   round_->selecting = true;
   const std::vector<wire::GamutChunk> chunks =
-      wire::gamut_chunks(round_->model.round, scenario_.fidelity, round_->redraws->gamut());
+      wire::gamut_chunks(round_->model.round, scenario_.fidelity, round_->realisations->gamut());
   for (const wire::GamutChunk& chunk : chunks) outputs.messages.push_back({"GAMUT", wire::write(chunk)});
-  outputs.computes.push_back({.id = fmt::format("select/r{}", round_->model.round),
-                              .kind = "select",
-                              .spec = selection_spec({.model = round_->model,
-                                                      .gamut = chunks,
-                                                      .count = scenario_.proposal.designs,
-                                                      .simulations = simulations() + round_->redraws->simulated()})});
+  outputs.computes.push_back(
+      {.id = fmt::format("select/r{}", round_->model.round),
+       .kind = "select",
+       .spec = selection_spec({.model = round_->model,
+                               .gamut = chunks,
+                               .count = scenario_.proposal.designs,
+                               .simulations = simulations() + round_->realisations->simulated()})});
 }
 
 void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs) {
@@ -188,7 +189,7 @@ void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outpu
   log(outputs, runtime::LogLevel::info,
       fmt::format("round {}: {} designs proposed from {} samples, their toughness from {} further draws; gamut "
                   "hypervolume {:.4g} GPa MPa",
-                  proposal->round, proposal->designs.size(), round_->found.size(), round_->redraws->simulated(),
+                  proposal->round, proposal->designs.size(), round_->found.size(), round_->realisations->simulated(),
                   proposal->gamut_hypervolume_staircase));
   last_parameters_ = game::material_side(round_->model.parameters);
   last_found_ = std::move(round_->found);
@@ -204,7 +205,7 @@ runtime::Status ProposalCore::status() const {
             .progress = -1.0,
             .finished = finished_};
   }
-  if (round_->redraws && !round_->selecting)
+  if (round_->realisations && !round_->selecting)
     return {.phase = "drawing candidates again", .round = round_->model.round, .progress = -1.0, .finished = false};
   if (round_->selecting)
     return {.phase = "selecting designs", .round = round_->model.round, .progress = -1.0, .finished = false};

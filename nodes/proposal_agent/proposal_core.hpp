@@ -11,7 +11,7 @@
 
 #include "game/scenario.hpp"
 #include "proposal_agent/branch.hpp"
-#include "proposal_agent/redraws.hpp"
+#include "proposal_agent/realisations.hpp"
 #include "runtime/node_core.hpp"
 #include "wire/convert.hpp"
 
@@ -30,8 +30,8 @@ class ProposalCore : public runtime::NodeCore {
   struct Round {
     wire::AdoptedModel model;
     std::vector<Branch> branches;
-    std::vector<explore::Evaluated> found;  ///< by all branches, each T of one simulation
-    std::optional<Redraws> redraws;         ///< once every branch has ended
+    std::vector<explore::Evaluated> found;     ///< by all branches, each T of one simulation
+    std::optional<Realisations> realisations;  ///< once every branch has ended
     bool selecting = false;
   };
 
@@ -44,7 +44,7 @@ class ProposalCore : public runtime::NodeCore {
   explore::SearchSettings search_settings(int branch) const;
   void ask_next(Branch& branch, runtime::Outputs& outputs);
   void send(const std::vector<wire::SimulateRequest>& requests, runtime::Outputs& outputs);
-  wire::SimulateRequest question_to_farm() const;
+  wire::SimulateRequest request_to_farm() const;
   void draw_again(runtime::Outputs& outputs);
   void publish_gamut(runtime::Outputs& outputs);
   int simulations() const;
@@ -53,7 +53,7 @@ class ProposalCore : public runtime::NodeCore {
   std::map<int, wire::AdoptedModel> waiting_;  // models of rounds to come
   std::set<int> known_rounds_;
   std::optional<Round> round_;
-  wire::AnswerCollector collector_;
+  wire::ResponseCollector collector_;
   // What was found last and its model: when a round brings the same model again, nothing of it is asked anew; under
   // another model a search that learns begins with what the last one said.
   std::optional<material::ParameterSet> last_parameters_;

@@ -62,37 +62,38 @@ std::vector<pattern::Pattern> patterns_in(const std::string& bytes) {
   return patterns;
 }
 
-explore::Question question_from(const std::string& spec) {
+explore::BatchRequest question_from(const std::string& spec) {
   const auto fields = runtime::unpack(spec);
   // A spec that this program wrote itself must read back.
   if (!fields || fields->size() != 8) throw std::logic_error("the spec of a search is damaged");
-  explore::Question question;
-  question.settings.algorithm = fields->at(0);
-  question.settings.seed = std::stoull(fields->at(1));
-  question.count = std::stoi(fields->at(2));
-  question.evaluated = unpacked(fields->at(3));
-  question.lost = patterns_in(fields->at(4));
-  question.settings.former = unpacked(fields->at(5));
-  question.settings.population = std::stoi(fields->at(6));
+  explore::BatchRequest batch_request;
+  batch_request.settings.algorithm = fields->at(0);
+  batch_request.settings.seed = std::stoull(fields->at(1));
+  batch_request.count = std::stoi(fields->at(2));
+  batch_request.evaluated = unpacked(fields->at(3));
+  batch_request.lost = patterns_in(fields->at(4));
+  batch_request.settings.former = unpacked(fields->at(5));
+  batch_request.settings.population = std::stoi(fields->at(6));
   const auto model = wire::read<wire::AdoptedModel>(fields->at(7));
   if (!model) throw std::logic_error("the model in the spec of a search: " + model.error().message);
   // On one core: the farm has the others.
-  question.settings.mechanics = explore::mechanics_by_tester(game::material_side(model->parameters), model->fidelity, 1);
-  return question;
+  batch_request.settings.mechanics =
+      explore::mechanics_by_tester(game::material_side(model->parameters), model->fidelity, 1);
+  return batch_request;
 }
 
 }  // namespace
 
-std::string search_spec(const explore::Question& question, const wire::AdoptedModel& model) {
-  assert(question.settings.learned == explore::LearnedSettings{});
-  return runtime::pack({question.settings.algorithm, std::to_string(question.settings.seed),
-                        std::to_string(question.count), packed(question.evaluated), packed(question.lost),
-                        packed(question.settings.former), std::to_string(question.settings.population),
-                        wire::write(model)});
+std::string search_spec(const explore::BatchRequest& batch_request, const wire::AdoptedModel& model) {
+  assert(batch_request.settings.learned == explore::LearnedSettings{});
+  return runtime::pack({batch_request.settings.algorithm, std::to_string(batch_request.settings.seed),
+                        std::to_string(batch_request.count), packed(batch_request.evaluated),
+                        packed(batch_request.lost), packed(batch_request.settings.former),
+                        std::to_string(batch_request.settings.population), wire::write(model)});
 }
 
 std::string search_work(const std::string& spec) {
-  return runtime::pack({packed(explore::answer_to(question_from(spec)))});
+  return runtime::pack({packed(explore::batch_for(question_from(spec)))});
 }
 
 Result<std::vector<pattern::Pattern>> batch_from_result(const std::string& result) {

@@ -45,10 +45,10 @@ std::string break_bytes(const std::vector<tester::Break>& breaks) {
 }
 
 std::string write_record(const BatchRecord& record) {
-  const std::vector<double> numbers = {record.answer.modulus_pa, record.answer.toughness_pa,
-                                       record.answer.peak_stress_pa, record.answer.failure_strain, record.seconds};
-  std::vector<std::string> fields = {record.key, record.answer.failure, bytes_of<double>(numbers),
-                                     curve_bytes(record.answer.curve)};
+  const std::vector<double> numbers = {record.response.modulus_pa, record.response.toughness_pa,
+                                       record.response.peak_stress_pa, record.response.failure_strain, record.seconds};
+  std::vector<std::string> fields = {record.key, record.response.failure, bytes_of<double>(numbers),
+                                     curve_bytes(record.response.curve)};
   if (record.breaks) fields.push_back(break_bytes(*record.breaks));
   return runtime::pack(fields);
 }
@@ -62,15 +62,15 @@ Result<BatchRecord> read_record(const std::string& bytes) {
   if (!numbers || numbers->size() != 5 || !curve || curve->size() % 2 != 0) return fail("a record of wrong lengths");
   BatchRecord record;
   record.key = (*fields)[0];
-  record.answer.failure = (*fields)[1];
-  record.answer.modulus_pa = (*numbers)[0];
-  record.answer.toughness_pa = (*numbers)[1];
-  record.answer.peak_stress_pa = (*numbers)[2];
-  record.answer.failure_strain = (*numbers)[3];
+  record.response.failure = (*fields)[1];
+  record.response.modulus_pa = (*numbers)[0];
+  record.response.toughness_pa = (*numbers)[1];
+  record.response.peak_stress_pa = (*numbers)[2];
+  record.response.failure_strain = (*numbers)[3];
   record.seconds = (*numbers)[4];
   const auto middle = curve->begin() + static_cast<std::ptrdiff_t>(curve->size() / 2);
-  record.answer.curve.strain.assign(curve->begin(), middle);
-  record.answer.curve.stress_pa.assign(middle, curve->end());
+  record.response.curve.strain.assign(curve->begin(), middle);
+  record.response.curve.stress_pa.assign(middle, curve->end());
   if (fields->size() == 4) return record;
   const auto packed = values_in<PackedBreak>((*fields)[4]);
   if (!packed) return tl::unexpected(packed.error());

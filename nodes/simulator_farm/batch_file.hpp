@@ -21,7 +21,7 @@ struct Batch {
 /// What a task adds to the farm's cache for one question.
 struct BatchRecord {
   std::string key;  ///< simulation_key
-  store::CachedSimulation answer;
+  store::CachedSimulation response;
   std::optional<std::vector<tester::Break>> breaks;
   double seconds = 0.0;  ///< of the task's time
   bool operator==(const BatchRecord&) const = default;

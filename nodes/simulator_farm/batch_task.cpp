@@ -42,7 +42,7 @@ class SignOfLife {
     changed_.notify_all();
     thread_.join();
   }
-  void answered(int count) { answered_ = count; }
+  void is_answered(int count) { answered_ = count; }
 
  private:
   void run() {
@@ -62,20 +62,20 @@ class SignOfLife {
   std::thread thread_;
 };
 
-BatchRecord answer(store::SimulationCache& cache, const fs::path& films, const std::string& spec) {
+BatchRecord response(store::SimulationCache& cache, const fs::path& films, const std::string& spec) {
   const auto began = Clock::now();
   simulate_work(cache, films, spec);
   const std::string key = asked_in(spec).key;
   return {.key = key,
-          .answer = cache.find(key).value(),
+          .response = cache.find(key).value(),
           .breaks = cache.find_breaks(key),
           .seconds = std::chrono::duration<double>(Clock::now() - began).count()};
 }
 
 /// The batch's bytes; nothing when it is over or answered, by another task that was given it too.
 std::optional<std::string> still_wanted(const Spool& spool, const std::string& batch) {
-  if (fs::exists(spool.result(batch)) || !fs::exists(spool.question(batch))) return std::nullopt;
-  return read_file(spool.question(batch));
+  if (fs::exists(spool.result(batch)) || !fs::exists(spool.open_test(batch))) return std::nullopt;
+  return read_file(spool.open_test(batch));
 }
 
 }  // namespace
@@ -88,17 +88,17 @@ int run_batch_task(const fs::path& folder, const std::string& wave, int task) {
     fmt::print("task {} of {}: nothing is left to do\n", task, wave);
     return 0;
   }
-  const auto questions = read_batch(*bytes);
-  if (!questions) {
-    fmt::print(stderr, "{}: {}\n", spool.question(*batch).string(), questions.error().message);
+  const auto tests = read_batch(*bytes);
+  if (!tests) {
+    fmt::print(stderr, "{}: {}\n", spool.open_test(*batch).string(), tests.error().message);
     return 1;
   }
   SignOfLife sign(spool.sign(*batch));
   store::SimulationCache cache(":memory:");
   std::vector<BatchRecord> records;
-  for (const std::string& spec : questions->specs) {
-    records.push_back(answer(cache, questions->films, spec));
-    sign.answered(static_cast<int>(records.size()));
+  for (const std::string& spec : tests->specs) {
+    records.push_back(response(cache, tests->films, spec));
+    sign.is_answered(static_cast<int>(records.size()));
   }
   if (!still_wanted(spool, *batch)) return 0;
   write_file_atomically(spool.result(*batch), write_batch_result(*batch, records));

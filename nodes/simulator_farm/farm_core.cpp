@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "simulator_farm/question.hpp"
+#include "simulator_farm/test_request.hpp"
 
 namespace nacre::simulator_farm {
 namespace {
@@ -43,7 +43,7 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
     if (!(entry.request == *read)) {
       warn(outputs, fmt::format("request {} came again with other content and is ignored", read->request_id));
     } else if (entry.missing == 0) {
-      answer(entry.request, outputs);
+      response(entry.request, outputs);
     }
     return;
   }
@@ -54,18 +54,18 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
     for (tester::TestKind test : tests_of(request)) {
       const Extras wanted = wanted_extras(request, test);
       const std::string key = tester::simulation_key(simulation_of(request, design), test);
-      Question& question = questions_[key];
-      if (question.suffices(wanted)) continue;
-      question.test = test;
+      OpenTest& open_test = tests_[key];
+      if (open_test.suffices(wanted)) continue;
+      open_test.test = test;
       // A design that stands twice in the request waits twice and is settled twice.
-      question.waiting.push_back(request.request_id);
+      open_test.waiting.push_back(request.request_id);
       ++entry.missing;
       ++asked_;
-      if (!question.running) launch(key, request, design, wanted, outputs);
+      if (!open_test.running) launch(key, request, design, wanted, outputs);
     }
   }
   if (entry.missing == 0) {
-    answer(request, outputs);
+    response(request, outputs);
   } else {
     ++open_requests_;
   }
@@ -73,78 +73,80 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
 
 void FarmCore::launch(const std::string& key, const wire::SimulateRequest& request, const pattern::Design& design,
                       const Extras& wanted, runtime::Outputs& outputs) {
-  Question& question = questions_[key];
-  question.running = true;
-  question.computing = question.has | wanted;
+  OpenTest& open_test = tests_[key];
+  open_test.running = true;
+  open_test.computing = open_test.has | wanted;
   // Asking an answered question again for more of it: the cache has the numbers, nothing is simulated twice for them.
-  outputs.computes.push_back({.id = question.answered ? fmt::format("{}/{}", key, to_string(question.computing)) : key,
-                              .kind = "simulate",
-                              .spec = wire::write(question_of(request, design, question.test, question.computing))});
+  outputs.computes.push_back(
+      {.id = open_test.is_answered ? fmt::format("{}/{}", key, to_string(open_test.computing)) : key,
+       .kind = "simulate",
+       .spec = wire::write(test_request_of(request, design, open_test.test, open_test.computing))});
 }
 
 void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) {
-  const auto position = questions_.find(work.id.substr(0, work.id.find('/')));
-  if (position == questions_.end())
+  const auto position = tests_.find(work.id.substr(0, work.id.find('/')));
+  if (position == tests_.end())
     return warn(outputs, fmt::format("the result of {} is ignored: nobody asked for it", work.id));
-  auto result = read_answer(work.result);
+  auto result = read_response(work.result);
   if (!result) {
     // Whoever asked must not wait for ever: an answer that says why there is none.
     warn(outputs, fmt::format("the result of {} cannot be used: {}", work.id, result.error().message));
-    result = Answer{};
+    result = TestResponse{};
     result->design.failure = "its result cannot be used";
   }
-  Question& question = position->second;
-  question.running = false;
-  if (question.answered && question.answer.design.failure.empty() && !result->design.failure.empty()) {
+  OpenTest& open_test = position->second;
+  open_test.running = false;
+  if (open_test.is_answered && open_test.response.design.failure.empty() && !result->design.failure.empty()) {
     // Numbers that were answered once stay: another's crack or film does not take them away.
-    question.extras_failure = result->design.failure;
+    open_test.extras_failure = result->design.failure;
   } else {
-    question.answered = true;
-    question.has = question.computing;
-    question.answer = *std::move(result);
+    open_test.is_answered = true;
+    open_test.has = open_test.computing;
+    open_test.response = *std::move(result);
   }
-  const std::vector<std::string> waiting = std::exchange(question.waiting, {});
+  const std::vector<std::string> waiting = std::exchange(open_test.waiting, {});
   for (const std::string& id : waiting) {
     Request& request = requests_.at(id);
-    const Extras wanted = wanted_extras(request.request, question.test);
-    if (!question.suffices(wanted)) {
-      question.waiting.push_back(id);
-      if (!question.running) launch(position->first, request.request, question.answer.design.design, wanted, outputs);
+    const Extras wanted = wanted_extras(request.request, open_test.test);
+    if (!open_test.suffices(wanted)) {
+      open_test.waiting.push_back(id);
+      if (!open_test.running)
+        launch(position->first, request.request, open_test.response.design.design, wanted, outputs);
       continue;
     }
     ++answered_;
     if (--request.missing == 0) {
       --open_requests_;
-      answer(request.request, outputs);
+      response(request.request, outputs);
     }
   }
 }
 
-bool FarmCore::Question::suffices(const Extras& wanted) const {
-  return answered && (!failure(wanted).empty() || has.covers(wanted));
+bool FarmCore::OpenTest::suffices(const Extras& wanted) const {
+  return is_answered && (!failure(wanted).empty() || has.covers(wanted));
 }
 
-const std::string& FarmCore::Question::failure(const Extras& wanted) const {
-  return answer.design.failure.empty() && !has.covers(wanted) ? extras_failure : answer.design.failure;
+const std::string& FarmCore::OpenTest::failure(const Extras& wanted) const {
+  return response.design.failure.empty() && !has.covers(wanted) ? extras_failure : response.design.failure;
 }
 
-const FarmCore::Question& FarmCore::question(const wire::SimulateRequest& request, const pattern::Design& design,
-                                             tester::TestKind test) const {
-  return questions_.at(tester::simulation_key(simulation_of(request, design), test));
+const FarmCore::OpenTest& FarmCore::open_test(const wire::SimulateRequest& request, const pattern::Design& design,
+                                              tester::TestKind test) const {
+  return tests_.at(tester::simulation_key(simulation_of(request, design), test));
 }
 
 wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, const pattern::Design& design) const {
   wire::SimulatedDesign whole;
   whole.design = design;
   for (tester::TestKind test : tests_of(request)) {
-    const Question& asked = question(request, design, test);
+    const OpenTest& asked = open_test(request, design, test);
     if (const std::string& failure = asked.failure(wanted_extras(request, test)); !failure.empty()) {
       wire::SimulatedDesign failed;
       failed.design = design;
       failed.failure = fmt::format("{}: {}", tester::to_string(test), failure);
       return failed;
     }
-    const wire::SimulatedDesign& part = asked.answer.design;
+    const wire::SimulatedDesign& part = asked.response.design;
     if (test == tester::TestKind::modulus) {
       whole.modulus_pa = part.modulus_pa;
       continue;
@@ -161,7 +163,7 @@ wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, 
   return whole;
 }
 
-void FarmCore::answer(const wire::SimulateRequest& request, runtime::Outputs& outputs) const {
+void FarmCore::response(const wire::SimulateRequest& request, runtime::Outputs& outputs) const {
   std::vector<wire::SimulatedDesign> results;
   results.reserve(request.designs.size());
   for (const pattern::Design& design : request.designs) results.push_back(assembled(request, design));
@@ -172,7 +174,7 @@ void FarmCore::answer(const wire::SimulateRequest& request, runtime::Outputs& ou
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!results[i].failure.empty()) continue;
     std::optional<wire::Fracture> fracture =
-        question(request, request.designs[i], tester::TestKind::toughness).answer.fracture;
+        open_test(request, request.designs[i], tester::TestKind::toughness).response.fracture;
     if (!fracture) continue;
     fracture->request_id = request.request_id;
     fracture->design_index = static_cast<int>(i);

@@ -8,7 +8,7 @@
 
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
-#include "simulator_farm/question.hpp"
+#include "simulator_farm/test_request.hpp"
 #include "store/kept_simulation.hpp"
 #include "wire/convert.hpp"
 
@@ -27,12 +27,12 @@ class FarmCore : public runtime::NodeCore {
   runtime::Status status() const override;
 
  private:
-  struct Question {
+  struct OpenTest {
     tester::TestKind test = tester::TestKind::modulus;
-    bool answered = false;
+    bool is_answered = false;
     bool running = false;
     Extras has, computing;  ///< of the answer, and of the one that is being computed
-    Answer answer;
+    TestResponse response;
     std::string extras_failure;        ///< why crack or film cannot be had, although the numbers are there
     std::vector<std::string> waiting;  ///< request ids, in the order of asking
     /// Whether the answer is there and holds what is wanted (a failure has nothing to add).
@@ -49,13 +49,13 @@ class FarmCore : public runtime::NodeCore {
   void settle(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void launch(const std::string& key, const wire::SimulateRequest& request, const pattern::Design& design,
               const Extras& wanted, runtime::Outputs& outputs);
-  const Question& question(const wire::SimulateRequest& request, const pattern::Design& design,
-                           tester::TestKind test) const;
-  void answer(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
+  const OpenTest& open_test(const wire::SimulateRequest& request, const pattern::Design& design,
+                            tester::TestKind test) const;
+  void response(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
   wire::SimulatedDesign assembled(const wire::SimulateRequest& request, const pattern::Design& design) const;
 
-  std::map<std::string, Question> questions_;  // by simulation_key
-  std::map<std::string, Request> requests_;    // by request_id
+  std::map<std::string, OpenTest> tests_;    // by simulation_key
+  std::map<std::string, Request> requests_;  // by request_id
   int open_requests_ = 0;
   int asked_ = 0;  // questions of the present busy spell
   int answered_ = 0;

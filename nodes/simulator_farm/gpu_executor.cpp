@@ -154,8 +154,8 @@ void GpuExecutor::keep(const gpu::NumberedResult& over) {
     // What is left to threads is the film; or the crack, where the numbers are theirs.
     if (!is_known(*cache_, settings_.films, asked)) return give_to_threads(std::move(compute));
     // The answer is made of what is kept, as for threads; nothing is left to simulate.
-    std::string answer = simulate_work(*cache_, settings_.films, compute.spec);
-    outbox_.finish(std::move(compute), std::move(answer));
+    std::string response = simulate_work(*cache_, settings_.films, compute.spec);
+    outbox_.finish(std::move(compute), std::move(response));
   } catch (const std::exception& problem) {
     outbox_.finish(std::move(compute), fail("{}", problem.what()));
   }

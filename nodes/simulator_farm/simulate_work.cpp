@@ -14,7 +14,7 @@
 #include "crack/crack_record.hpp"
 #include "film/film_file.hpp"
 #include "simulator_farm/farm_core.hpp"
-#include "simulator_farm/question.hpp"
+#include "simulator_farm/test_request.hpp"
 #include "store/kept_simulation.hpp"
 #include "tester/tester.hpp"
 #include "wire/convert.hpp"
@@ -65,8 +65,8 @@ bool has_numbers(const store::SimulationCache& cache, const std::optional<store:
 void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
   const auto known = cache.find(asked.key);
   if (has_numbers(cache, known, asked)) return;
-  const auto keep = [&](const store::CachedSimulation& answer, const std::vector<tester::Break>* breaks) {
-    if (keep_answer(cache, asked.key, answer, breaks) || known) return;
+  const auto keep = [&](const store::CachedSimulation& response, const std::vector<tester::Break>* breaks) {
+    if (keep_answer(cache, asked.key, response, breaks) || known) return;
     // Another farm with the same cache was faster; harmless, and worth knowing.
     fmt::print(stderr, "simulation {} was done twice at the same time\n", asked.key);
   };
@@ -79,26 +79,26 @@ void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
 std::string film_name(const std::string& key) { return key + ".film"; }
 
 /// Whether a film, for which the specimen is pulled once more here, shows the fracture that was answered.
-bool shows(const film::Film& film, const store::CachedSimulation& answer, const std::vector<tester::Break>& breaks) {
+bool shows(const film::Film& film, const store::CachedSimulation& response, const std::vector<tester::Break>& breaks) {
   store::CachedSimulation pulled;
   pulled.toughness_pa = film.toughness_pa;
   pulled.peak_stress_pa = film.peak_stress_pa;
   pulled.failure_strain = film.failure_strain;
-  return are_of_one_fracture(pulled, answer) && have_most_in_common(film.crack.order, breaks);
+  return are_of_one_fracture(pulled, response) && have_most_in_common(film.crack.order, breaks);
 }
 
 /// Makes the film of a specimen whose answer is known, unless it is there. Gives the file's name; empty, and a line for
 /// the log, where there can be none.
 std::string filmed(const std::filesystem::path& folder, const std::string& key, const tester::Simulation& simulation,
-                   const store::CachedSimulation& answer, const std::vector<tester::Break>& breaks) {
+                   const store::CachedSimulation& response, const std::vector<tester::Break>& breaks) {
   const std::string name = film_name(key);
   if (std::filesystem::exists(folder / name)) return name;
   tester::ToughnessResult known;
-  known.failure_strain = answer.failure_strain;
-  known.curve = answer.curve;
+  known.failure_strain = response.failure_strain;
+  known.curve = response.curve;
   known.breaks = breaks;
   const Result<film::Film> film = film::record_film(simulation, known);
-  if (!film || !shows(*film, answer, breaks)) {
+  if (!film || !shows(*film, response, breaks)) {
     fmt::print(stderr, "no film of {}, {}: {}\n", simulation.design.name(), key,
                film ? "the answer was computed elsewhere (by a device), and pulled here the specimen breaks otherwise"
                     : film.error().message);
@@ -120,16 +120,16 @@ wire::Fracture fracture_of(const tester::Simulation& simulation, std::vector<tes
 }  // namespace
 
 AskedSimulation asked_in(const std::string& spec) {
-  const auto question = wire::read<wire::SimulateRequest>(spec);
-  if (!question || question->designs.size() != 1 || tests_of(*question).size() != 1) {
+  const auto open_test = wire::read<wire::SimulateRequest>(spec);
+  if (!open_test || open_test->designs.size() != 1 || tests_of(*open_test).size() != 1) {
     throw std::logic_error("the spec of a simulation is not one question: " +
-                           (question ? spec : question.error().message));
+                           (open_test ? spec : open_test.error().message));
   }
   AskedSimulation asked;
-  asked.test = tests_of(*question).front();
-  asked.simulation = simulation_of(*question, question->designs.front());
+  asked.test = tests_of(*open_test).front();
+  asked.simulation = simulation_of(*open_test, open_test->designs.front());
   asked.key = tester::simulation_key(asked.simulation, asked.test);
-  asked.extras = wanted_extras(*question, asked.test);
+  asked.extras = wanted_extras(*open_test, asked.test);
   return asked;
 }
 
@@ -143,10 +143,10 @@ bool is_known(const store::SimulationCache& cache, const std::filesystem::path& 
   return !known->failure.empty() || !asked.extras.film || std::filesystem::exists(films / film_name(asked.key));
 }
 
-bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& answer,
+bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& response,
                  const std::vector<tester::Break>* breaks) {
-  const bool is_new = cache.insert(key, answer);
-  if (breaks && (is_new || are_of_one_fracture(answer, cache.find(key).value()))) cache.insert_breaks(key, *breaks);
+  const bool is_new = cache.insert(key, response);
+  if (breaks && (is_new || are_of_one_fracture(response, cache.find(key).value()))) cache.insert_breaks(key, *breaks);
   return is_new;
 }
 
@@ -156,25 +156,25 @@ std::string simulate_work(store::SimulationCache& cache, const std::filesystem::
   // Out of the cache even when just simulated: curves are stored as floats, and an answer must not depend on who asked
   // first.
   store::CachedSimulation known = cache.find(asked.key).value();
-  Answer answer;
+  TestResponse response;
   if (known.failure.empty() && asked.extras.fracture()) {
     if (const auto breaks = cache.find_breaks(asked.key)) {
-      answer.fracture = fracture_of(asked.simulation, *breaks);
-      if (asked.extras.film) answer.fracture->film = filmed(films, asked.key, asked.simulation, known, *breaks);
+      response.fracture = fracture_of(asked.simulation, *breaks);
+      if (asked.extras.film) response.fracture->film = filmed(films, asked.key, asked.simulation, known, *breaks);
     } else {
       known = {};
       known.failure = kNoCrack;
     }
   }
-  answer.design = {.design = asked.simulation.design,
-                   .failure = std::move(known.failure),
-                   .modulus_pa = known.modulus_pa,
-                   .toughness_pa = known.toughness_pa,
-                   .peak_stress_pa = known.peak_stress_pa,
-                   .failure_strain = known.failure_strain,
-                   .curve = {}};
-  if (asked.extras.curve) answer.design.curve = std::move(known.curve);
-  return write_answer(answer);
+  response.design = {.design = asked.simulation.design,
+                     .failure = std::move(known.failure),
+                     .modulus_pa = known.modulus_pa,
+                     .toughness_pa = known.toughness_pa,
+                     .peak_stress_pa = known.peak_stress_pa,
+                     .failure_strain = known.failure_strain,
+                     .curve = {}};
+  if (asked.extras.curve) response.design.curve = std::move(known.curve);
+  return write_response(response);
 }
 
 std::map<std::string, runtime::WorkFunction> work_functions(std::shared_ptr<store::SimulationCache> cache,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/node_core.hpp"
-#include "simulator_farm/question.hpp"
+#include "simulator_farm/test_request.hpp"
 #include "store/simulation_cache.hpp"
 
 namespace nacre::simulator_farm {
@@ -31,7 +31,7 @@ bool is_known(const store::SimulationCache& cache, const std::filesystem::path& 
 /// Keeps what a test gave, whoever ran it. The first answer to a key stays. Breaks (nullptr: they are not kept) stand
 /// beside the numbers of their own fracture alone: whoever comes later, and rounds otherwise, keeps them only where the
 /// numbers agree to 1 %. Returns whether the answer was new.
-bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& answer,
+bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& response,
                  const std::vector<tester::Break>* breaks);
 
 /// Answers a spec: simulates what the cache does not know yet, keeps it there, and writes the Answer (question.hpp)

@@ -37,16 +37,16 @@ RunningCommand::RunningCommand(const std::vector<std::string>& command, double n
   }
 }
 
-std::optional<runtime::ProgramAnswer> RunningCommand::poll(double now_s) {
-  if (!process_) return runtime::ProgramAnswer{output_, {.exit_status = runtime::kProgramNotFound, .signal = 0}};
+std::optional<runtime::ProgramOutput> RunningCommand::poll(double now_s) {
+  if (!process_) return runtime::ProgramOutput{output_, {.exit_status = runtime::kProgramNotFound, .signal = 0}};
   for (const std::string& line : process_->read_lines()) output_ += line + "\n";
   if (const auto end = process_->poll_end()) {
     for (const std::string& line : process_->read_lines()) output_ += line + "\n";
-    return runtime::ProgramAnswer{output_, *end};
+    return runtime::ProgramOutput{output_, *end};
   }
   if (now_s < end_s_) return std::nullopt;
   process_->signal_group(SIGKILL);
-  return runtime::ProgramAnswer{output_ + "no answer in time", {.exit_status = 0, .signal = SIGKILL}};
+  return runtime::ProgramOutput{output_ + "no answer in time", {.exit_status = 0, .signal = SIGKILL}};
 }
 
 std::vector<std::string> submission(const Wave& wave) {

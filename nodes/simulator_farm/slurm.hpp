@@ -22,7 +22,7 @@ class RunningCommand {
   /// A program that cannot be started is an answer with exit status kProgramNotFound.
   RunningCommand(const std::vector<std::string>& command, double now_s, double limit_s = 60.0);
   /// What it printed and how it ended; nothing while it runs.
-  std::optional<runtime::ProgramAnswer> poll(double now_s);
+  std::optional<runtime::ProgramOutput> poll(double now_s);
 
  private:
   std::unique_ptr<runtime::ChildProcess> process_;

@@ -105,14 +105,14 @@ void SlurmExecutor::adopt_spool() {
   spool_.tidy();
   const auto tasks = spool_.tasks();
   for (const std::string& name : spool_.batches()) {
-    const auto batch = read_batch(read_file(spool_.question(name)));
+    const auto batch = read_batch(read_file(spool_.open_test(name)));
     if (!batch) {  // of another version: its answer would not be taken either
       spool_.remove(name);
       continue;
     }
     InFlight& entry = in_flight_.emplace(name, InFlight{{}, {}, BatchWatch(now_s())}).first->second;
     for (const std::string& spec : batch->specs) {
-      entry.questions.push_back({.spec = spec, .compute = std::nullopt});
+      entry.tests.push_back({.spec = spec, .compute = std::nullopt});
       batch_of_spec_[spec] = name;
     }
     const auto given = tasks.find(name);
@@ -138,24 +138,24 @@ void SlurmExecutor::take_new() {
 }
 
 /// Answered at once, or out already, or to go out.
-void SlurmExecutor::sort_question(Question question) {
-  if (is_known(*cache_, settings_.films, asked_in(question.spec))) {
-    if (question.compute) answer(*question.compute);
+void SlurmExecutor::sort_question(OpenTest open_test) {
+  if (is_known(*cache_, settings_.films, asked_in(open_test.spec))) {
+    if (open_test.compute) response(*open_test.compute);
     return;
   }
-  if (const auto out = batch_of_spec_.find(question.spec); out != batch_of_spec_.end()) {
-    for (Question& other : in_flight_.at(out->second).questions) {
-      if (other.spec == question.spec && !other.compute) {
-        other.compute = std::move(question.compute);
+  if (const auto out = batch_of_spec_.find(open_test.spec); out != batch_of_spec_.end()) {
+    for (OpenTest& other : in_flight_.at(out->second).tests) {
+      if (other.spec == open_test.spec && !other.compute) {
+        other.compute = std::move(open_test.compute);
         return;
       }
     }
   }
   if (waiting_.empty()) waiting_since_s_ = now_s();
-  waiting_.push_back(std::move(question));
+  waiting_.push_back(std::move(open_test));
 }
 
-void SlurmExecutor::answer(const runtime::Compute& compute) {
+void SlurmExecutor::response(const runtime::Compute& compute) {
   outbox_.finish(compute, simulate_work(*cache_, settings_.films, compute.spec));
 }
 
@@ -179,19 +179,19 @@ void SlurmExecutor::take_result(const std::string& name) {
     return give_again(name);
   }
   for (const BatchRecord& record : *records) {
-    keep_answer(*cache_, record.key, record.answer, record.breaks ? &*record.breaks : nullptr);
+    keep_answer(*cache_, record.key, record.response, record.breaks ? &*record.breaks : nullptr);
   }
   InFlight entry = std::move(in_flight_.extract(name).mapped());
-  for (std::size_t i = 0; i < entry.questions.size(); ++i) {
-    const AskedSimulation asked = asked_in(entry.questions[i].spec);
+  for (std::size_t i = 0; i < entry.tests.size(); ++i) {
+    const AskedSimulation asked = asked_in(entry.tests[i].spec);
     if (i < records->size()) costs_.learn(asked.test, asked.simulation.fidelity, (*records)[i].seconds);
-    batch_of_spec_.erase(entry.questions[i].spec);
+    batch_of_spec_.erase(entry.tests[i].spec);
   }
   spool_.remove(name);
   std::erase(to_submit_, name);
   // Whatever has not come with it (a film that cannot be kept): asked again, a task would say the same for ever.
-  for (const Question& question : entry.questions) {
-    if (question.compute) answer(*question.compute);
+  for (const OpenTest& open_test : entry.tests) {
+    if (open_test.compute) response(*open_test.compute);
   }
   if (in_flight_.empty()) spool_.tidy();
 }
@@ -259,23 +259,23 @@ void SlurmExecutor::take_listing(const Listing& tasks) {
 void SlurmExecutor::give_again(const std::string& name) {
   InFlight& entry = in_flight_.at(name);
   int attempts = 0;
-  for (Question& question : entry.questions) attempts = std::max(attempts, ++question.attempts);
-  if (entry.questions.size() == 1 && attempts >= settings_.most_attempts) {
+  for (OpenTest& open_test : entry.tests) attempts = std::max(attempts, ++open_test.attempts);
+  if (entry.tests.size() == 1 && attempts >= settings_.most_attempts) {
     throw InputError::format(
         "a simulation was given to Slurm {} times and never came back; its task last said: {}. Logs and the batch "
         "stand "
         "in {}; mend the cluster and start the farm again",
         attempts, spool_.last_words(entry.tasks), spool_.folder().string());
   }
-  if (entry.questions.size() == 1 || attempts < kAttemptsTogether) {
-    spool_.put(name, batch_bytes(entry.questions));
+  if (entry.tests.size() == 1 || attempts < kAttemptsTogether) {
+    spool_.put(name, batch_bytes(entry.tests));
     entry.watch = BatchWatch(now_s());
     to_submit_.push_back(name);
     return;
   }
   InFlight broken = std::move(in_flight_.extract(name).mapped());
-  for (const Question& question : broken.questions) batch_of_spec_.erase(question.spec);
-  for (Question& question : broken.questions) put_batch({std::move(question)});
+  for (const OpenTest& open_test : broken.tests) batch_of_spec_.erase(open_test.spec);
+  for (OpenTest& open_test : broken.tests) put_batch({std::move(open_test)});
   spool_.remove(name);
 }
 
@@ -284,8 +284,8 @@ void SlurmExecutor::give_again(const std::string& name) {
 void SlurmExecutor::cut_batches() {
   if (waiting_.empty() || now_s() < waiting_since_s_ + settings_.gather_s) return;
   std::vector<double> costs_s;
-  for (const Question& question : waiting_) {
-    const AskedSimulation asked = asked_in(question.spec);
+  for (const OpenTest& open_test : waiting_) {
+    const AskedSimulation asked = asked_in(open_test.spec);
     costs_s.push_back(costs_.seconds(asked.test, asked.simulation.fidelity));
   }
   for (const std::size_t count : cut_into_batches(costs_s, settings_.batch_s, kMostQuestions)) {
@@ -295,27 +295,27 @@ void SlurmExecutor::cut_batches() {
   }
 }
 
-std::string SlurmExecutor::batch_bytes(const std::vector<Question>& questions) const {
+std::string SlurmExecutor::batch_bytes(const std::vector<OpenTest>& tests) const {
   Batch batch{fs::absolute(settings_.films), {}};
-  for (const Question& question : questions) batch.specs.push_back(question.spec);
+  for (const OpenTest& open_test : tests) batch.specs.push_back(open_test.spec);
   return write_batch(batch);
 }
 
 /// On disk before Slurm hears of it.
-void SlurmExecutor::put_batch(std::vector<Question> questions) {
-  const std::string bytes = batch_bytes(questions);
+void SlurmExecutor::put_batch(std::vector<OpenTest> tests) {
+  const std::string bytes = batch_bytes(tests);
   const std::string name = batch_name(bytes);
   spool_.put(name, bytes);
-  for (const Question& question : questions) batch_of_spec_[question.spec] = name;
+  for (const OpenTest& open_test : tests) batch_of_spec_[open_test.spec] = name;
   if (const auto known = in_flight_.find(name); known != in_flight_.end()) {
     // On its way from before the farm was killed: whoever waits for it goes on waiting.
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-      Question& waited_for = known->second.questions.at(i);
-      if (!waited_for.compute) waited_for.compute = std::move(questions[i].compute);
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      OpenTest& waited_for = known->second.tests.at(i);
+      if (!waited_for.compute) waited_for.compute = std::move(tests[i].compute);
     }
     return;
   }
-  in_flight_.emplace(name, InFlight{std::move(questions), {}, BatchWatch(now_s())});
+  in_flight_.emplace(name, InFlight{std::move(tests), {}, BatchWatch(now_s())});
   to_submit_.push_back(name);
 }
 
@@ -346,7 +346,7 @@ void SlurmExecutor::submit() {
   submission_.emplace(Submission{name, std::move(batches), std::move(command)});
 }
 
-void SlurmExecutor::take_submission(const runtime::ProgramAnswer& said) {
+void SlurmExecutor::take_submission(const runtime::ProgramOutput& said) {
   const Submission given = std::move(*submission_);
   submission_.reset();
   // Also when it failed: a controller that fell silent may have taken the job. Its name is looked for with the others.

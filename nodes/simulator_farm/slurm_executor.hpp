@@ -58,13 +58,13 @@ class SlurmExecutor : public runtime::Executor {
 
  private:
   /// A question with everybody who waits for it (after a restart: nobody yet).
-  struct Question {
+  struct OpenTest {
     std::string spec;
     std::optional<runtime::Compute> compute;
     int attempts = 0;  ///< batches it was lost with
   };
   struct InFlight {
-    std::vector<Question> questions;
+    std::vector<OpenTest> tests;
     std::vector<Task> tasks;  ///< that it was given to
     BatchWatch watch;
   };
@@ -78,18 +78,18 @@ class SlurmExecutor : public runtime::Executor {
   void turn();
   void adopt_spool();
   void take_new();
-  void sort_question(Question question);
-  void answer(const runtime::Compute& compute);
+  void sort_question(OpenTest open_test);
+  void response(const runtime::Compute& compute);
   void take_results();
   void take_result(const std::string& batch);
   void look_at_slurm();
   void take_listing(const Listing& listing);
   void give_again(const std::string& batch);
   void cut_batches();
-  std::string batch_bytes(const std::vector<Question>& questions) const;
-  void put_batch(std::vector<Question> questions);
+  std::string batch_bytes(const std::vector<OpenTest>& tests) const;
+  void put_batch(std::vector<OpenTest> tests);
   void submit();
-  void take_submission(const runtime::ProgramAnswer& answer);
+  void take_submission(const runtime::ProgramOutput& response);
   void give_up(const std::string& reason);
   double now_s() const;
 
@@ -107,7 +107,7 @@ class SlurmExecutor : public runtime::Executor {
   Spool spool_;
   std::string job_prefix_;
   CostEstimate costs_;
-  std::deque<Question> waiting_;
+  std::deque<OpenTest> waiting_;
   double waiting_since_s_ = 0.0;
   std::map<std::string, InFlight> in_flight_;  ///< by batch
   std::map<std::string, std::string> batch_of_spec_;

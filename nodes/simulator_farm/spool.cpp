@@ -33,7 +33,7 @@ std::optional<std::string> read_if_there(const fs::path& path) {
 Spool::Spool(fs::path folder) : folder_(std::move(folder)) { make_folder(folder_); }
 
 void Spool::put(const std::string& batch, const std::string& bytes) const {
-  if (!fs::exists(question(batch))) write_file_atomically(question(batch), bytes);
+  if (!fs::exists(open_test(batch))) write_file_atomically(open_test(batch), bytes);
 }
 
 void Spool::put_wave(const std::string& name, const std::vector<std::string>& batches) const {
@@ -48,7 +48,7 @@ Result<std::string> Spool::batch_of(const std::string& wave_name, int task) cons
     return fail("{}: there is no task {}, expected 0 to {}", wave(wave_name).string(), task,
                 static_cast<int>(batches.size()) - 1);
   }
-  return batches[static_cast<std::size_t>(task)];
+  return batches[task];
 }
 
 /// Read anew each time: on network file systems a listing is fresh where a single look may be answered from memory.
@@ -87,7 +87,7 @@ std::string Spool::last_words(const std::vector<Task>& tasks) const {
 
 void Spool::remove(const std::string& batch) const {
   std::error_code ignored;  // what cannot be removed is removed by the next tidy()
-  for (const fs::path& file : {question(batch), result(batch), sign(batch)}) fs::remove(file, ignored);
+  for (const fs::path& file : {open_test(batch), result(batch), sign(batch)}) fs::remove(file, ignored);
 }
 
 void Spool::tidy() const {

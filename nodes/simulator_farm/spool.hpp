@@ -22,7 +22,7 @@ class Spool {
   explicit Spool(std::filesystem::path folder);
 
   const std::filesystem::path& folder() const { return folder_; }
-  std::filesystem::path question(const std::string& batch) const { return folder_ / (batch + ".in"); }
+  std::filesystem::path open_test(const std::string& batch) const { return folder_ / (batch + ".in"); }
   std::filesystem::path result(const std::string& batch) const { return folder_ / (batch + ".out"); }
   std::filesystem::path sign(const std::string& batch) const { return folder_ / (batch + ".sign"); }
   std::filesystem::path wave(const std::string& name) const { return folder_ / (name + ".wave"); }

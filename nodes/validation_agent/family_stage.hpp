@@ -10,7 +10,7 @@
 #include "families/grouping.hpp"
 #include "game/scenario.hpp"
 #include "runtime/node_core.hpp"
-#include "validation_agent/farm_questions.hpp"
+#include "validation_agent/farm_requests.hpp"
 #include "validation_agent/fitting.hpp"
 #include "wire/convert.hpp"
 
@@ -24,7 +24,7 @@ struct StageBeginning {
   std::vector<optimize::Performance> benchmark;
   std::vector<pattern::Pattern> settled;  ///< not worth choosing again
   material::ParameterRanges ranges = material::thesis_ranges();
-  sysid::NumericsFloor floor;
+  sysid::DiscretisationFloor floor;
 };
 
 /// Grouping -> for each family in turn: calibration, dense sampling, simulation of the variants, selection of 2.3.4,
@@ -76,7 +76,7 @@ class FamilyStage {
   std::vector<pattern::Pattern> variants_;
   std::vector<explore::Evaluated> gamut_;
   std::vector<measurement::Replicates> asked_;
-  FarmQuestions questions_;
+  FarmRequests questions_;
 };
 
 }  // namespace nacre::validation_agent

@@ -99,7 +99,7 @@ std::vector<game::Order> OrderDesk::orders_for(std::span<const pattern::Design> 
 }
 
 Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pattern::Design& design,
-                                                   const Decision& decision) {
+                                                   const Approval& decision) {
   if (!scenario_.validation.approval) return fail("this game does not ask for approvals");
   const auto [held, is_new] = decisions_.try_emplace({proposal_round, design.name()}, decision);
   if (!is_new) {

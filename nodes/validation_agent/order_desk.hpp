@@ -16,7 +16,7 @@
 namespace nacre::validation_agent {
 
 /// A person's decision about a proposed design.
-struct Decision {
+struct Approval {
   bool approved = false;
   std::string by;
   std::string why;
@@ -39,7 +39,7 @@ class OrderDesk {
 
   /// A decision about a design of the proposal of `proposal_round`, before or after that round is opened. The first one
   /// counts: its order may be in print. Returns orders that go out because of it, or why the decision changes nothing.
-  Result<std::vector<game::Order>> decide(int proposal_round, const pattern::Design& design, const Decision& decision);
+  Result<std::vector<game::Order>> decide(int proposal_round, const pattern::Design& design, const Approval& decision);
 
   /// A person wants a design of their own measured too: in the open round while it is being measured (`now`), else in
   /// the next one. Returns orders that go out at once, or why there are none.
@@ -81,7 +81,7 @@ class OrderDesk {
   std::vector<pattern::Design> waiting_;  // of the open round, undecided
   std::vector<pattern::Design> own_;      // of persons, for the next round
   std::vector<game::Order> orders_;
-  std::map<std::pair<int, std::string>, Decision> decisions_;  // by round of the proposal and design
+  std::map<std::pair<int, std::string>, Approval> decisions_;  // by round of the proposal and design
 };
 
 }  // namespace nacre::validation_agent

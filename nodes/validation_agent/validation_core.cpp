@@ -60,8 +60,8 @@ void ValidationCore::accept_answer(const std::string& payload) {
     return measure_families_when_chosen();
   }
   if (!questions_.take(*std::move(part))) return;
-  if (phase_ == Phase::foretelling) {
-    finish_foretelling();
+  if (phase_ == Phase::predicting) {
+    finish_predicting();
   } else if (phase_ == Phase::predicting) {
     finish_held_out(questions_.predictions().front());
   } else if (phase_ == Phase::calibrating) {
@@ -125,12 +125,12 @@ void ValidationCore::accept_measurement(const std::string& payload) {
     return say(LogLevel::info, fmt::format("specimen {} waits for round {}", record.specimen, measured->round));
   }
   switch (book_.enter(record, measured->order_id)) {
-    case game::MeasurementBook::Entry::repeated:
+    case game::MeasurementBook::Receipt::repeated:
       return;
-    case game::MeasurementBook::Entry::conflicting:
+    case game::MeasurementBook::Receipt::conflicting:
       return say(LogLevel::warning,
                  fmt::format("specimen {} is refused: it was reported before with other content", record.specimen));
-    case game::MeasurementBook::Entry::accepted:
+    case game::MeasurementBook::Receipt::accepted:
       break;
   }
   const std::string what =
@@ -199,7 +199,7 @@ runtime::Status ValidationCore::status() const {
     case Phase::waiting_for_run:
       status.phase = "waiting for the run to be announced";
       break;
-    case Phase::foretelling:
+    case Phase::predicting:
       status.phase = "noting what the extension on trial expects";
       break;
     case Phase::measuring: {
@@ -240,9 +240,9 @@ std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
   if (!scenario.benchmark_file.empty()) start.benchmark = game::read_benchmark_line(scenario.benchmark_file);
   start.ranges = game::ranges_of(scenario);
   start.model = game::starting_model(scenario);
-  start.floor = scenario.numerics_floor_file.empty()
-                    ? sysid::NumericsFloor::none()
-                    : sysid::read_numerics_floor(scenario.numerics_floor_file, scenario.fidelity);
+  start.floor = scenario.discretisation_floor_file.empty()
+                    ? sysid::DiscretisationFloor::none()
+                    : sysid::read_discretisation_floor(scenario.discretisation_floor_file, scenario.fidelity);
   return std::make_unique<ValidationCore>(scenario, std::move(start));
 }
 

@@ -16,7 +16,7 @@
 #include "optimize/pareto.hpp"
 #include "runtime/node_core.hpp"
 #include "validation_agent/family_stage.hpp"
-#include "validation_agent/farm_questions.hpp"
+#include "validation_agent/farm_requests.hpp"
 #include "validation_agent/fitting.hpp"
 #include "validation_agent/order_desk.hpp"
 #include "wire/convert.hpp"
@@ -30,7 +30,7 @@ struct StartingPoint {
       base_materials;                            ///< that round 0 is fitted to; empty: the model is taken as it is
   std::vector<optimize::Performance> benchmark;  ///< used until mixtures are measured; may be empty
   material::ParameterRanges ranges = material::thesis_ranges();
-  sysid::NumericsFloor floor;  ///< at the scenario's fidelity
+  sysid::DiscretisationFloor floor;  ///< at the scenario's fidelity
 };
 
 /// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).
@@ -48,7 +48,7 @@ class ValidationCore : public runtime::NodeCore {
  private:
   enum class Phase {
     waiting_for_run,
-    foretelling,
+    predicting,
     measuring,
     predicting,
     calibrating,
@@ -63,7 +63,7 @@ class ValidationCore : public runtime::NodeCore {
     std::vector<std::string> effects;  ///< sorted
     material::ParameterSet model;      ///< the base refitted with them
     std::map<std::string, sysid::Prediction>
-        foretold;  ///< what it expects of the designs of this round, through the testing machine
+        predicted;  ///< what it expects of the designs of this round, through the testing machine
     std::map<std::string, sysid::Prediction>
         adopted;               ///< and the adopted model of those that separate the two, beside the proposals
     game::TrialErrors errors;  ///< of all rounds since it was first named
@@ -87,9 +87,9 @@ class ValidationCore : public runtime::NodeCore {
   /// That the last diagnosis wants; none once the model holds what it names: they would tell it from the base.
   std::vector<game::Experiment> experiments() const;
   std::vector<pattern::Design> separating_designs() const;
-  std::vector<measurement::Replicates> foretold_designs() const;
-  void foretell();
-  void finish_foretelling();
+  std::vector<measurement::Replicates> predicted_designs() const;
+  void predict();
+  void finish_predicting();
   void begin_unfitted();
   void order();
   void measure_on();
@@ -142,7 +142,7 @@ class ValidationCore : public runtime::NodeCore {
   // Of the present round. The specimens are those that its calibration saw: later ones belong to the next round.
   std::vector<measurement::SpecimenRecord> specimens_;
   std::vector<measurement::Replicates> calibration_set_;
-  FarmQuestions questions_;
+  FarmRequests questions_;
   std::optional<Fitting> fitting_;
   std::vector<measurement::Replicates> held_out_set_;
   std::vector<sysid::Prediction> proposed_;  // for each of held_out_set_

@@ -25,7 +25,7 @@ void ValidationCore::begin_round(int round) {
     return begin_calibration(model_);
   }
   take_early_measurements();
-  if (trial_ && !proposals_.at(round - 1).designs.empty()) return foretell();
+  if (trial_ && !proposals_.at(round - 1).designs.empty()) return predict();
   order();
 }
 
@@ -101,9 +101,9 @@ void ValidationCore::predict_held_out() {
     if (!calibrated_designs_.contains(each.design.name()))
       proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
   }
-  game::Foretold foretold = game::foretold_among(calibration_set_, proposed);
-  held_out_set_ = std::move(foretold.measured);
-  proposed_ = std::move(foretold.predicted);
+  game::Predicted predicted = game::predicted_among(calibration_set_, proposed);
+  held_out_set_ = std::move(predicted.measured);
+  proposed_ = std::move(predicted.predicted);
   if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(proposed_);
   // What the testing machine makes of a prediction needs its curve, which a proposal does not carry: asked for again,
   // and answered from the farm's cache.
@@ -127,7 +127,7 @@ void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predi
     std::map<std::string, sysid::Prediction> adopted;
     for (std::size_t i = 0; i < held_out_set_.size(); ++i) adopted.emplace(held_out_set_[i].design.name(), shown[i]);
     adopted.merge(trial_->adopted);
-    trial_->errors.add(round_, game::under_standard_conditions(calibration_set_), adopted, trial_->foretold);
+    trial_->errors.add(round_, game::under_standard_conditions(calibration_set_), adopted, trial_->predicted);
   }
   extending_ = false;
   begin_calibration(model_);

@@ -61,7 +61,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
   std::sort(effects.begin(), effects.end());
   effects.erase(std::unique(effects.begin(), effects.end()), effects.end());
   if (!trial_ || trial_->effects != effects)
-    trial_ = OnTrial{.effects = std::move(effects), .model = {}, .foretold = {}, .adopted = {}, .errors = {}};
+    trial_ = OnTrial{.effects = std::move(effects), .model = {}, .predicted = {}, .adopted = {}, .errors = {}};
   extending_ = true;
   begin_calibration(*extended);
 }
@@ -121,7 +121,7 @@ std::vector<pattern::Design> ValidationCore::separating_designs() const {
 }
 
 /// The proposed designs, and behind them those that separate.
-std::vector<measurement::Replicates> ValidationCore::foretold_designs() const {
+std::vector<measurement::Replicates> ValidationCore::predicted_designs() const {
   std::vector<measurement::Replicates> designs;
   for (const wire::ProposedDesign& each : proposals_.at(round_ - 1).designs)
     designs.emplace_back().design = each.design;
@@ -131,8 +131,8 @@ std::vector<measurement::Replicates> ValidationCore::foretold_designs() const {
 
 // What the extension on trial expects of the designs of the round is asked for before any of them is ordered. What the
 // adopted model expects stands in PROPOSAL; of designs that only separate the two it is asked for, too.
-void ValidationCore::foretell() {
-  const std::vector<measurement::Replicates> designs = foretold_designs();
+void ValidationCore::predict() {
+  const std::vector<measurement::Replicates> designs = predicted_designs();
   const std::size_t proposed = proposals_.at(round_ - 1).designs.size();
   std::vector<sysid::WantedEvaluation> wanted = {
       {.id = "0", .parameters = trial_->model, .modulus = true, .toughness = true, .items = numbers(0, proposed)}};
@@ -144,15 +144,15 @@ void ValidationCore::foretell() {
                       .toughness = false,
                       .items = numbers(proposed, designs.size())});
   }
-  phase_ = Phase::foretelling;
+  phase_ = Phase::predicting;
   ask_farm("f", wanted, designs);
 }
 
-void ValidationCore::finish_foretelling() {
-  const std::vector<measurement::Replicates> designs = foretold_designs();
+void ValidationCore::finish_predicting() {
+  const std::vector<measurement::Replicates> designs = predicted_designs();
   const auto& predictions = questions_.predictions();
   const std::size_t proposed = predictions.front().size();
-  trial_->foretold.clear();
+  trial_->predicted.clear();
   trial_->adopted.clear();
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const std::string name = designs[i].design.name();
@@ -162,7 +162,7 @@ void ValidationCore::finish_foretelling() {
         fmt::format("round {}: before it is measured, {} expects E {:.4g} MPa{} of {}", round_,
                     fmt::join(trial_->effects, " with "), 1e-6 * shown.modulus_pa.value_or(0.0),
                     shown.toughness_pa ? fmt::format(", T {:.4g} MPa", 1e-6 * *shown.toughness_pa) : "", name));
-    trial_->foretold.emplace(name, shown);
+    trial_->predicted.emplace(name, shown);
     if (i >= proposed) trial_->adopted.emplace(name, game::through_machine(predictions[2][i - proposed], model_));
   }
   order();

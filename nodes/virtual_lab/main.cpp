@@ -7,10 +7,10 @@
 int main(int argc, char** argv) {
   using namespace nacre;
   const auto make = [](const runtime::NodeOptions& options, const game::Scenario& scenario) {
-    const virtual_laboratory::Truth truth = virtual_laboratory::truth_of(scenario);
-    virtual_laboratory::write_sealed(options.run_dir / "laboratory.truth.toml", truth);
-    return runtime::NodeProgram{.core = std::make_unique<virtual_laboratory::VirtualLabCore>(truth),
-                                .work = virtual_laboratory::work_functions(truth)};
+    const laboratory::Truth truth = virtual_lab::truth_of(scenario);
+    laboratory::write_sealed(options.run_dir / "laboratory.truth.toml", truth);
+    return runtime::NodeProgram{.core = std::make_unique<virtual_lab::VirtualLabCore>(truth),
+                                .work = virtual_lab::work_functions(truth)};
   };
   return runtime::node_main(argc, argv, "virtual_lab", make);
 }

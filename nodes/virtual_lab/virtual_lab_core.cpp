@@ -4,9 +4,9 @@
 
 #include "base/hash.hpp"
 #include "base/random.hpp"
-#include "virtual_lab/question.hpp"
+#include "virtual_lab/experiment_text.hpp"
 
-namespace nacre::virtual_laboratory {
+namespace nacre::virtual_lab {
 namespace {
 
 using runtime::LogLevel;
@@ -18,7 +18,7 @@ constexpr const char* kMeasurementChannel = "MEASUREMENT";
 constexpr const char* kWorkKind = "measure";
 constexpr int kPrintPositions = 1000;
 
-Question question_of(const wire::TestOrder& order) {
+Experiment experiment_of(const wire::TestOrder& order) {
   return {.design = order.design,
           .test = order.test,
           .conditions = order.conditions,
@@ -63,13 +63,13 @@ void VirtualLabCore::accept(const std::string& payload, Outputs& outputs) {
     return;
   }
   latest_round_ = std::max(latest_round_, order->round);
-  const Question question = question_of(*order);
-  const std::string spec = to_spec(question);
+  const Experiment experiment = experiment_of(*order);
+  const std::string spec = to_spec(experiment);
   const std::string id = "measure/" + content_hash(spec);
   const auto [simulation, first] =
-      simulations_.try_emplace(id, Simulation{.question = question, .response = {}, .waiting = {}});
+      simulations_.try_emplace(id, Simulation{.experiment = experiment, .response = {}, .waiting = {}});
   if (simulation->second.response) {
-    report(*order, question, *simulation->second.response, outputs);
+    report(*order, experiment, *simulation->second.response, outputs);
     return;
   }
   simulation->second.waiting.push_back(order->order_id);
@@ -90,13 +90,13 @@ void VirtualLabCore::settle(const runtime::WorkDone& work, Outputs& outputs) {
   simulation.response = response_from_text(work.result);
   ++settled_;
   for (const std::string& order_id : simulation.waiting) {
-    report(orders_.at(order_id), simulation.question, *simulation.response, outputs);
+    report(orders_.at(order_id), simulation.experiment, *simulation.response, outputs);
   }
   simulation.waiting.clear();
 }
 
-void VirtualLabCore::report(const wire::TestOrder& order, const Question& question, const Result<Response>& response,
-                            Outputs& outputs) const {
+void VirtualLabCore::report(const wire::TestOrder& order, const Experiment& experiment,
+                            const Result<Response>& response, Outputs& outputs) const {
   if (!response) {
     outputs.log.push_back(
         {LogLevel::warning, fmt::format("{}: no valid specimen: {}", order.order_id, response.error().message)});
@@ -110,7 +110,7 @@ void VirtualLabCore::report(const wire::TestOrder& order, const Question& questi
     const wire::Measurement measurement{.round = order.round,
                                         .order_id = order.order_id,
                                         .fidelity = order.fidelity,
-                                        .record = record_specimen(truth_, question, response, replicate)};
+                                        .record = record_specimen(truth_, experiment, response, replicate)};
     outputs.messages.push_back({.channel = kMeasurementChannel, .payload = wire::write(measurement)});
   }
 }
@@ -137,10 +137,10 @@ std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario) {
 
 std::map<std::string, runtime::WorkFunction> work_functions(const Truth& truth) {
   return {{kWorkKind, [truth](const std::string& spec) {
-             const Result<Question> question = question_from_spec(spec);
-             if (!question) return to_text(tl::unexpected(question.error()));
-             return to_text(respond(truth, *question));
+             const Result<Experiment> experiment = experiment_from_spec(spec);
+             if (!experiment) return to_text(tl::unexpected(experiment.error()));
+             return to_text(respond(truth, *experiment));
            }}};
 }
 
-}  // namespace nacre::virtual_laboratory
+}  // namespace nacre::virtual_lab

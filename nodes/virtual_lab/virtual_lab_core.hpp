@@ -8,11 +8,15 @@
 #include <vector>
 
 #include "game/scenario.hpp"
+#include "laboratory/laboratory.hpp"
 #include "runtime/node_core.hpp"
-#include "virtual_lab/laboratory.hpp"
 #include "wire/convert.hpp"
 
-namespace nacre::virtual_laboratory {
+namespace nacre::virtual_lab {
+
+using laboratory::Experiment;
+using laboratory::Response;
+using laboratory::Truth;
 
 /// TEST_ORDER in; one Compute (kind "measure") per design, test, conditions and fidelity that nobody has ordered yet;
 /// MEASUREMENT out, one per specimen, when the simulation is done. What a specimen shows depends on truth and order
@@ -27,14 +31,14 @@ class VirtualLabCore : public runtime::NodeCore {
  private:
   /// One simulation and who waits for it.
   struct Simulation {
-    Question question;
+    Experiment experiment;
     std::optional<Result<Response>> response;
     std::vector<std::string> waiting;  ///< order ids
   };
 
   void accept(const std::string& payload, runtime::Outputs& outputs);
   void settle(const runtime::WorkDone& work, runtime::Outputs& outputs);
-  void report(const wire::TestOrder& order, const Question& question, const Result<Response>& response,
+  void report(const wire::TestOrder& order, const Experiment& experiment, const Result<Response>& response,
               runtime::Outputs& outputs) const;
 
   Truth truth_;
@@ -53,4 +57,4 @@ Truth truth_of(const game::Scenario& scenario);
 std::unique_ptr<runtime::NodeCore> make_core(const game::Scenario& scenario);
 std::map<std::string, runtime::WorkFunction> work_functions(const Truth& truth);
 
-}  // namespace nacre::virtual_laboratory
+}  // namespace nacre::virtual_lab

@@ -13,10 +13,10 @@
 
 #include "../output_of.hpp"
 #include "base/random.hpp"
+#include "laboratory/laboratory.hpp"
 #include "measurement/measurement.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
-#include "virtual_lab/laboratory.hpp"
 
 namespace nacre::blind {
 
@@ -40,21 +40,21 @@ class Scratch {
 };
 
 /// Modulus specimens of random patterns over the strata, turned twins of the first, checkerboards of the periods given.
-inline std::vector<virtual_laboratory::Question> printed(std::uint64_t seed, int patterns, int twins,
-                                                         const std::vector<int>& checkerboards) {
+inline std::vector<laboratory::Experiment> printed(std::uint64_t seed, int patterns, int twins,
+                                                   const std::vector<int>& checkerboards) {
   RandomStream random(seed, "blind trial patterns");
   const std::vector<pattern::Pattern> drawn = pattern::stratified_patterns(patterns, random);
-  std::vector<virtual_laboratory::Question> questions;
+  std::vector<laboratory::Experiment> experiments;
   const auto add = [&](const pattern::Design& design, double orientation_deg) {
-    virtual_laboratory::Question question;
-    question.design = design;
-    question.conditions.orientation_deg = orientation_deg;
-    questions.push_back(question);
+    laboratory::Experiment experiment;
+    experiment.design = design;
+    experiment.conditions.orientation_deg = orientation_deg;
+    experiments.push_back(experiment);
   };
   for (const pattern::Pattern& each : drawn) add(each, 0.0);
-  for (int i = 0; i < twins; ++i) add(drawn[static_cast<std::size_t>(i)], 90.0);
+  for (int i = 0; i < twins; ++i) add(drawn[i], 90.0);
   for (const int period : checkerboards) add(pattern::checkerboard(period), 0.0);
-  return questions;
+  return experiments;
 }
 
 /// LAB.toml; `noise` is the content of its table [noise].
@@ -66,15 +66,15 @@ inline std::string laboratory_file(int seed, const std::string& fidelity, const 
   return toml;
 }
 
-struct Trial {
+struct BlindTrial {
   nlohmann::json diagnosis;
-  virtual_laboratory::Truth truth;
+  laboratory::Truth truth;
 };
 
-using Questions = std::function<std::vector<virtual_laboratory::Question>(std::uint64_t seed)>;
+using Questions = std::function<std::vector<laboratory::Experiment>(std::uint64_t seed)>;
 
 /// In which batch a replicate is printed, both counted from 0.
-using BatchOf = std::function<int(const virtual_laboratory::Question&, int replicate)>;
+using BatchOf = std::function<int(const laboratory::Experiment&, int replicate)>;
 
 /// What `nacre diagnose SET --fidelity FIDELITY --json` prints.
 inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::string& fidelity) {
@@ -84,24 +84,24 @@ inline nlohmann::json diagnosed(const std::filesystem::path& set, const std::str
 
 /// Lays out a trial with `laboratory` (LAB.toml), diagnoses it with `--fidelity FIDELITY`, returns the diagnosis and
 /// the opened truth.
-inline Trial run_trial(
-    const std::string& laboratory, const Questions& questions, const std::string& fidelity,
-    const BatchOf& batch_of = [](const virtual_laboratory::Question&, int replicate) { return replicate; }) {
+inline BlindTrial run_trial(
+    const std::string& laboratory, const Questions& experiments, const std::string& fidelity,
+    const BatchOf& batch_of = [](const laboratory::Experiment&, int replicate) { return replicate; }) {
   const Scratch scratch;
-  Trial trial;
-  trial.truth = virtual_laboratory::parse_laboratory(laboratory, "trial");
+  BlindTrial trial;
+  trial.truth = laboratory::parse_laboratory(laboratory, "trial");
   std::vector<measurement::SpecimenRecord> records;
   int print_order = 0;
-  for (const auto& question : questions(trial.truth.seed)) {
-    const auto response = virtual_laboratory::respond(trial.truth, question);
+  for (const auto& experiment : experiments(trial.truth.seed)) {
+    const auto response = laboratory::respond(trial.truth, experiment);
     for (int i = 0; i < kReplicates; ++i) {
-      std::string name = question.design.name() + "-" + std::string(tester::to_string(question.test)) +
-                         (question.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
-      if (question.test == tester::TestKind::tensile)
-        name += "-at-" + std::to_string(question.conditions.strain_rate_per_s);
-      records.push_back(virtual_laboratory::record_specimen(
-          trial.truth, question, response,
-          {name, "batch " + std::to_string(1 + batch_of(question, i)), ++print_order}));
+      std::string name = experiment.design.name() + "-" + std::string(tester::to_string(experiment.test)) +
+                         (experiment.conditions.orientation_deg > 0 ? "-turned-" : "-") + std::to_string(i);
+      if (experiment.test == tester::TestKind::tensile)
+        name += "-at-" + std::to_string(experiment.conditions.strain_rate_per_s);
+      records.push_back(
+          laboratory::record_specimen(trial.truth, experiment, response,
+                                      {name, "batch " + std::to_string(1 + batch_of(experiment, i)), ++print_order}));
     }
   }
   measurement::write_measurement_set(scratch.folder() / "set", records);
@@ -111,7 +111,7 @@ inline Trial run_trial(
 
 /// The hidden effect alone is named, its size lies within `tolerance` (relative), and the extended model predicts
 /// held-out patterns better.
-inline void expect_found(const Trial& trial, const std::string& effect, double value, double tolerance) {
+inline void expect_found(const BlindTrial& trial, const std::string& effect, double value, double tolerance) {
   const nlohmann::json& d = trial.diagnosis;
   ASSERT_EQ(d["verdict"], "named") << d["summary"] << d["candidates"].dump(1);
   ASSERT_EQ(d["effects"].size(), 1u) << d["summary"];

@@ -16,25 +16,25 @@ namespace {
 /// As slow as creep and as fast as an impact: a relaxation in between leaves no trace in the shape of either curve.
 constexpr double kSlow = 1e-6, kFast = 10.0;
 
-std::vector<virtual_laboratory::Question> coupons(std::uint64_t) {
-  std::vector<virtual_laboratory::Question> questions;
+std::vector<laboratory::Experiment> coupons(std::uint64_t) {
+  std::vector<laboratory::Experiment> experiments;
   for (const double fraction : {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0}) {
     for (const double rate : {kSlow, kFast}) {
-      virtual_laboratory::Question question;
-      question.design = pattern::Mixture{fraction};
-      question.test = tester::TestKind::tensile;
-      question.conditions.strain_rate_per_s = rate;
-      questions.push_back(question);
+      laboratory::Experiment experiment;
+      experiment.design = pattern::Mixture{fraction};
+      experiment.test = tester::TestKind::tensile;
+      experiment.conditions.strain_rate_per_s = rate;
+      experiments.push_back(experiment);
     }
   }
-  return questions;
+  return experiments;
 }
 
 std::string laboratory(int seed, const std::string& effect, const std::string& value) {
   return laboratory_file(seed, "tiny", "modulus = 0.01\ntoughness = 0.01\nstrain = 0.002\n", effect, value);
 }
 
-std::vector<std::string> possible(const Trial& trial) {
+std::vector<std::string> possible(const BlindTrial& trial) {
   std::vector<std::string> names;
   for (const auto& model : trial.diagnosis["possible"]) names.push_back(model[0]);
   std::sort(names.begin(), names.end());
@@ -44,9 +44,9 @@ std::vector<std::string> possible(const Trial& trial) {
 // All fast coupons come from the second batch: batches that drift and materials that answer faster pulls more stiffly
 // leave the same traces.
 TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeToldApart) {
-  const Trial trial = run_trial(laboratory(51, "batch_drift", "0.08"), coupons, "tiny", [](const auto& question, int) {
-    return question.conditions.strain_rate_per_s == kFast ? 1 : 0;
-  });
+  const BlindTrial trial =
+      run_trial(laboratory(51, "batch_drift", "0.08"), coupons, "tiny",
+                [](const auto& experiment, int) { return experiment.conditions.strain_rate_per_s == kFast ? 1 : 0; });
   EXPECT_EQ(trial.diagnosis["verdict"], "ambiguous") << trial.diagnosis["summary"];
   EXPECT_EQ(possible(trial), (std::vector<std::string>{"batch_drift", "rate_dependence"}))
       << trial.diagnosis["summary"] << trial.diagnosis["candidates"].dump(1);
@@ -57,24 +57,24 @@ TEST(BlindCouponTrials, RateAndBatchThatChangeTogetherCannotBeToldApart) {
 
 // The same drift with both rates in both batches. Means over both batches do not gain by it: replicates show it.
 TEST(BlindCouponTrials, BatchesThatHoldBothRatesShowTheirDrift) {
-  const Trial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny",
-                                [](const auto&, int replicate) { return replicate % 2; });
+  const BlindTrial trial = run_trial(laboratory(52, "batch_drift", "0.08"), coupons, "tiny",
+                                     [](const auto&, int replicate) { return replicate % 2; });
   ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
   ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
   EXPECT_EQ(trial.diagnosis["effects"][0]["name"], "batch_drift");
   EXPECT_NEAR(trial.diagnosis["effects"][0]["parameter"].get<double>(), 0.08, 0.012);
 }
 
-std::vector<virtual_laboratory::Question> unloaded_coupons(std::uint64_t seed) {
-  std::vector<virtual_laboratory::Question> questions = coupons(seed);
-  for (virtual_laboratory::Question& question : questions) question.loading = {{0.02, 0.005, 0.022}};
-  return questions;
+std::vector<laboratory::Experiment> unloaded_coupons(std::uint64_t seed) {
+  std::vector<laboratory::Experiment> experiments = coupons(seed);
+  for (laboratory::Experiment& experiment : experiments) experiment.loading = {{0.02, 0.005, 0.022}};
+  return experiments;
 }
 
 // As a diagnosis orders them. The machine records other strains than the coupon feels, on the way back too.
 TEST(BlindCouponTrials, AMachineIsSeenThroughCouponsThatWereUnloadedOnTheWay) {
   for (const auto& [name, value] : {std::pair{"toe_slack", 0.004}, {"machine_compliance", 2.5e-10}}) {
-    const Trial trial = run_trial(laboratory(54, name, fmt::format("{}", value)), unloaded_coupons, "tiny");
+    const BlindTrial trial = run_trial(laboratory(54, name, fmt::format("{}", value)), unloaded_coupons, "tiny");
     ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
     ASSERT_EQ(trial.diagnosis["effects"].size(), 1u);
     EXPECT_EQ(trial.diagnosis["effects"][0]["name"], name);
@@ -86,7 +86,7 @@ TEST(BlindCouponTrials, AMachineIsSeenThroughCouponsThatWereUnloadedOnTheWay) {
 
 // Alone neither explains the curves: slack lies before the specimen carries, flow at its end.
 TEST(BlindCouponTrials, SlackAndFlowAtOnceAreBothNamed) {
-  const Trial trial = run_trial(
+  const BlindTrial trial = run_trial(
       laboratory(53, "rigid_yield", "4.8e7") + "[[effect]]\nname = \"toe_slack\"\nvalue = 0.007\n", coupons, "tiny");
   ASSERT_EQ(trial.diagnosis["verdict"], "named") << trial.diagnosis["summary"];
   std::map<std::string, double> sizes;

@@ -13,9 +13,9 @@ namespace {
 
 /// Prints, measures, asks and opens the trial that the study calls by this name: constants, designs, scatter and hidden
 /// size follow from name and seed.
-blind_trials::Answer answer_to(const std::string& name, std::uint64_t seed, bool noisy) {
+blind_trials::TrialDiagnosis answer_to(const std::string& name, std::uint64_t seed, bool noisy) {
   const Scratch scratch;
-  const blind_trials::Trial trial{
+  const blind_trials::BlindTrial trial{
       .name = name, .kind = "effect", .seed = seed, .large = false, .noisy = noisy, .hidden = {"rigid_overprint"}};
   blind_trials::TrialOptions options;
   options.program = std::string(NACRE_BINARY_DIR) + "/nacre";

@@ -9,9 +9,9 @@ namespace nacre::blind {
 namespace {
 
 /// Fourteen patterns, turned twins of six, two checkerboards.
-std::vector<virtual_laboratory::Question> modulus_questions(std::uint64_t seed) { return printed(seed, 14, 6, {2, 5}); }
+std::vector<laboratory::Experiment> modulus_experiments(std::uint64_t seed) { return printed(seed, 14, 6, {2, 5}); }
 
-Trial play(const std::string& laboratory) { return run_trial(laboratory, modulus_questions, "full"); }
+BlindTrial play(const std::string& laboratory) { return run_trial(laboratory, modulus_experiments, "full"); }
 
 std::string laboratory(int seed, const std::string& effect = "", const std::string& value = "") {
   return laboratory_file(seed, "full", "modulus = 0.01\n", effect, value);
@@ -19,7 +19,7 @@ std::string laboratory(int seed, const std::string& effect = "", const std::stri
 
 TEST(BlindModulusTrials, NothingHiddenIsBaseSufficient) {
   for (const int seed : {11, 12}) {
-    const Trial trial = play(laboratory(seed));
+    const BlindTrial trial = play(laboratory(seed));
     EXPECT_EQ(trial.diagnosis["verdict"], "base_sufficient") << trial.diagnosis.dump(2);
   }
 }
@@ -29,10 +29,10 @@ TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) {
 }
 
 // What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 %
-// too small (docs/studies/numerics-floor.md).
+// too small (docs/studies/discretisation-floor.md).
 // The set that the first page sends people to.
 TEST(BlindModulusTrials, TheExampleIsDiagnosedAsItsReadmeSays) {
-  Trial example;
+  BlindTrial example;
   example.diagnosis = diagnosed(std::filesystem::path(NACRE_SOURCE_DIR) / "data/examples/turned", "preview");
   expect_found(example, "interface_anisotropy", 0.45, 0.1);
 }
@@ -46,14 +46,14 @@ TEST(BlindModulusTrials, MachineComplianceIsFound) {
 }
 
 TEST(BlindModulusTrials, AnEffectOutsideTheLibraryIsUnexplained) {
-  const Trial trial = play(laboratory(16, "diagonal_debonding", "0.9"));
+  const BlindTrial trial = play(laboratory(16, "diagonal_debonding", "0.9"));
   EXPECT_EQ(trial.diagnosis["verdict"], "unexplained") << trial.diagnosis.dump(2);
   EXPECT_TRUE(trial.diagnosis["effects"].empty());
 }
 
 // Material that is softer across the printer's passes resembles anisotropic interfaces (docs/decisions/0022).
 TEST(BlindModulusTrials, ACauseThatActsEvenlyOnTurnedSpecimensIsUnexplained) {
-  const Trial trial = play(laboratory(17, "bulk_anisotropy", "0.05"));
+  const BlindTrial trial = play(laboratory(17, "bulk_anisotropy", "0.05"));
   EXPECT_EQ(trial.diagnosis["verdict"], "unexplained") << trial.diagnosis.dump(2);
   EXPECT_TRUE(trial.diagnosis["effects"].empty());
 }

@@ -11,11 +11,12 @@
 #include "base/random.hpp"
 #include "fuzz.hpp"
 
-#define NACRE_FUZZ_TARGETS(DO)                                                                                \
-  DO(batch)                                                                                                   \
-  DO(dashboard)                                                                                               \
-  DO(database)                                                                                                \
-  DO(film) DO(journal) DO(laboratory) DO(layout) DO(measurement_set) DO(messages) DO(parameters) DO(scenario) \
+#define NACRE_FUZZ_TARGETS(DO)                                                                       \
+  DO(batch)                                                                                          \
+  DO(dashboard)                                                                                      \
+  DO(database)                                                                                       \
+  DO(film)                                                                                           \
+  DO(journal) DO(laboratory) DO(layout) DO(measurement_set) DO(messages) DO(parameters) DO(scenario) \
       DO(specimen_sheet) DO(tables) DO(tester_export)
 #define DECLARE(name) extern "C" int fuzz_##name(const std::uint8_t* data, std::size_t size);
 NACRE_FUZZ_TARGETS(DECLARE)
@@ -75,7 +76,7 @@ std::string changed(std::string bytes, const std::string& other, RandomStream& r
                                                            "\r\n",
                                                            ",,,,",
                                                            "\xef\xbb\xbf"};
-        bytes.insert(at, kExtremes[static_cast<std::size_t>(random.index(static_cast<int>(kExtremes.size())))]);
+        bytes.insert(at, kExtremes[random.index(static_cast<int>(kExtremes.size()))]);
     }
   }
   return bytes;
@@ -95,7 +96,7 @@ TEST_P(Corpora, HoldNothingThatBreaksAReader) {
   RandomStream random(1, target.name);
   const int changes = target.name == "database" ? 60 : 1000;  // a database costs milliseconds
   for (int i = 0; i < changes; ++i) {
-    const auto any = [&] { return inputs[static_cast<std::size_t>(random.index(static_cast<int>(inputs.size())))]; };
+    const auto any = [&] { return inputs[random.index(static_cast<int>(inputs.size()))]; };
     const std::string input = any();
     feed(target, changed(input, any(), random));
   }

@@ -3,8 +3,8 @@
 #include "fuzz.hpp"
 #include "runtime/journal.hpp"
 #include "simulator_farm/batch_file.hpp"
-#include "simulator_farm/question.hpp"
 #include "simulator_farm/slurm.hpp"
+#include "simulator_farm/test_request.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nacre;

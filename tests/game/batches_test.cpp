@@ -122,8 +122,7 @@ TEST(BatchFiles, DamageAndForeignBatchesAreNoticed) {
   RandomStream random(3, "damage");
   for (int i = 0; i < 300; ++i) {
     std::string damaged = bytes;
-    damaged[static_cast<std::size_t>(random.index(static_cast<int>(bytes.size())))] ^=
-        static_cast<char>(1 << random.index(8));
+    damaged[random.index(static_cast<int>(bytes.size()))] ^= static_cast<char>(1 << random.index(8));
     EXPECT_FALSE(read_batch_result(damaged, "name"));
     EXPECT_FALSE(read_batch_result(
         bytes.substr(0, static_cast<std::size_t>(random.index(static_cast<int>(bytes.size())))), "name"));

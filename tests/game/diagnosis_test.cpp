@@ -84,7 +84,7 @@ std::vector<bool> adopted(const InProcessGame& game, const std::string& effect) 
 
 // Round 1 names it, what it expects of the designs of later rounds comes true, so one of them adopts it; it is kept
 // when it is no longer named.
-TEST(Diagnosis, AnEffectOfTheMaterialThatForetellsBetterExtendsTheModelOfTheSearch) {
+TEST(Diagnosis, AnEffectOfTheMaterialThatPredictsBetterExtendsTheModelOfTheSearch) {
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 2, 3});
   const std::vector<bool> held = adopted(game, "droplet_mixing");
   EXPECT_FALSE(held[1]) << "a name alone adopts nothing";
@@ -108,7 +108,7 @@ TEST(Diagnosis, WhatAnExtensionExpectsIsNotedBeforeAnythingIsOrdered) {
   EXPECT_EQ(noted, 4) << "designs proposed in round 1";
 }
 
-TEST(Diagnosis, WhatSeparatesANameFromTheBaseIsForetoldByBothAndOrdered) {
+TEST(Diagnosis, WhatSeparatesANameFromTheBaseIsPredictedByBothAndOrdered) {
   game::Scenario scenario = small_scenario();
   scenario.rounds = 3;
   scenario.proposal.designs = 4;
@@ -169,7 +169,7 @@ TEST(Diagnosis, HeldOutErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
   EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 4);
 }
 
-TEST(Diagnosis, ANameThatForetellsNothingBetterIsNeverAdopted) {
+TEST(Diagnosis, ANameThatPredictsNothingBetterIsNeverAdopted) {
   game::Scenario scenario = small_scenario();
   scenario.rounds = 3;
   const auto game = played(scenario, [](int) { return named("droplet_mixing", 0.3); });

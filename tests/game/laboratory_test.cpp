@@ -211,7 +211,7 @@ TEST_F(PersonGame, SpecimensWithSwappedLabelsCloseNoOrderOfADesignThatNobodyTest
   EXPECT_EQ(rounds(), 2u);
 }
 
-TEST_F(PersonGame, TwinsAtAnotherRateAreNotHeldAgainstWhatWasForetold) {
+TEST_F(PersonGame, TwinsAtAnotherRateAreNotHeldAgainstWhatWasPredicted) {
   begin();
   const auto all = all_measurements();
   const auto proposal = game_.said<wire::Proposal>("PROPOSAL").front();

@@ -22,7 +22,7 @@ TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli
   // Past the start, which nothing is believed for.
   while (search->evaluated().size() < static_cast<std::size_t>(settings.population + settings.learned.barred_start)) {
     std::vector<std::optional<optimize::Performance>> answers;
-    const auto asked = search->question();
+    const auto asked = search->batch_request();
     const auto start = search->ask();
     if (asked) {
       EXPECT_EQ(start, *batch_from_result(search_work(search_spec(*asked, model))));
@@ -31,14 +31,14 @@ TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli
       answers.push_back(optimize::Performance{1e9 * pattern.rigid_fraction(), toughness_pa += 1e3});
     search->tell(answers);
   }
-  explore::Question question = *search->question();
-  const auto batch = batch_from_result(search_work(search_spec(question, model)));
+  explore::BatchRequest batch_request = *search->batch_request();
+  const auto batch = batch_from_result(search_work(search_spec(batch_request, model)));
   ASSERT_TRUE(batch) << batch.error().message;
   EXPECT_EQ(batch->size(), 10u);
-  question.settings.mechanics = explore::mechanics_by_tester(model.parameters, model.fidelity, 1);
-  EXPECT_EQ(*batch, explore::answer_to(question));
-  question.settings.mechanics = {};
-  EXPECT_NE(*batch, explore::answer_to(question)) << "who believes what could be computed chooses otherwise";
+  batch_request.settings.mechanics = explore::mechanics_by_tester(model.parameters, model.fidelity, 1);
+  EXPECT_EQ(*batch, explore::batch_for(batch_request));
+  batch_request.settings.mechanics = {};
+  EXPECT_NE(*batch, explore::batch_for(batch_request)) << "who believes what could be computed chooses otherwise";
 }
 
 }  // namespace

@@ -20,9 +20,9 @@
 #include "film/film_file.hpp"
 #include "material/parameters.hpp"
 #include "simulator_farm/farm_core.hpp"
-#include "simulator_farm/question.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
+#include "simulator_farm/test_request.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::simulator_farm {
@@ -220,7 +220,7 @@ TEST(SimulatorFarm, LongAnswersAreCutIntoMessagesBelowTheLimit) {
     last = farm.step(done(compute));
   const auto parts = answers(last);
   EXPECT_GT(parts.size(), 1u);
-  wire::AnswerCollector collector;
+  wire::ResponseCollector collector;
   std::optional<std::vector<wire::SimulatedDesign>> whole;
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) whole = collector.add(*part);
   ASSERT_TRUE(whole);

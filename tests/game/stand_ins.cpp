@@ -217,7 +217,7 @@ game::Scenario small_scenario() {
   scenario.fidelity = tester::Fidelity::tiny;
   scenario.stop_at_equilibrium = false;
   scenario.base_materials_file = std::string(NACRE_SOURCE_DIR) + "/data/thesis/base_materials.csv";
-  scenario.numerics_floor_file = std::string(NACRE_SOURCE_DIR) + "/data/numerics_floor.toml";
+  scenario.discretisation_floor_file = std::string(NACRE_SOURCE_DIR) + "/data/discretisation_floor.toml";
   scenario.proposal.samples = 60;
   scenario.proposal.seeds = 2;
   scenario.proposal.population = 10;

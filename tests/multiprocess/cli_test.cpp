@@ -423,7 +423,7 @@ TEST_F(CommandLine, RowsThatCannotBeUsedAreListedWithTheirLine) {
 game::Scenario scenario_without_files() {
   game::Scenario scenario;
   scenario.base_materials_file.clear();
-  scenario.numerics_floor_file.clear();
+  scenario.discretisation_floor_file.clear();
   return scenario;
 }
 

@@ -78,9 +78,7 @@ bool Disturber::wants_everything_killed() {
   return true;
 }
 
-std::string Disturber::any_node() {
-  return kGameNodes[static_cast<std::size_t>(random_.index(static_cast<int>(kGameNodes.size())))];
-}
+std::string Disturber::any_node() { return kGameNodes[random_.index(static_cast<int>(kGameNodes.size()))]; }
 
 void Disturber::kill_node(PlayedGame& game) {
   const int process = game.process_of(any_node());

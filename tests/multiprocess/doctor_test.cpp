@@ -261,9 +261,9 @@ TEST_F(Doctor, SlurmThatFindsNoClusterIsNotCalledMissing) {
 
 TEST(Clock, BeforeTheProgramWasWrittenIsAFaultAndOutOfStepARemark) {
   constexpr std::time_t kToday = 1'795'000'000;
-  EXPECT_EQ(cli::judge_clock(0, 0).verdict, cli::Verdict::fault);
-  EXPECT_EQ(cli::judge_clock(kToday, STA_UNSYNC).verdict, cli::Verdict::remark);
-  EXPECT_EQ(cli::judge_clock(kToday, 0).verdict, cli::Verdict::good);
+  EXPECT_EQ(cli::judge_clock(0, 0).verdict, cli::CheckStatus::fault);
+  EXPECT_EQ(cli::judge_clock(kToday, STA_UNSYNC).verdict, cli::CheckStatus::remark);
+  EXPECT_EQ(cli::judge_clock(kToday, 0).verdict, cli::CheckStatus::good);
 }
 
 }  // namespace

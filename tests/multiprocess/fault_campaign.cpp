@@ -44,7 +44,7 @@ struct Options {
 };
 
 /// What a game leaves behind: what was said, what was measured, what was simulated.
-struct Traces {
+struct PlannedSignatures {
   SaidInGame said;
   std::map<std::string, int> measured;   ///< specimens in the validation agent's journal: times
   std::vector<std::string> simulations;  ///< rows of the cache
@@ -60,8 +60,8 @@ std::vector<std::string> cache_rows(const fs::path& database) {
   return rows;
 }
 
-Traces traces_of(const fs::path& run) {
-  Traces traces;
+PlannedSignatures planned_signatures_of(const fs::path& run) {
+  PlannedSignatures traces;
   traces.said = said_in_game(run);
   for (const wire::Measurement& taken : measurements_taken(run)) ++traces.measured[taken.record.specimen];
   traces.simulations = cache_rows(run.parent_path() / "simulations.db");
@@ -69,7 +69,8 @@ Traces traces_of(const fs::path& run) {
 }
 
 /// What is wrong with a game; empty for one that is the undisturbed game.
-std::vector<std::string> faults_of(const Traces& expected, const Traces& actual, const std::string& said) {
+std::vector<std::string> faults_of(const PlannedSignatures& expected, const PlannedSignatures& actual,
+                                   const std::string& said) {
   std::vector<std::string> wrong = differences(expected.said, actual.said);
   if (expected.measured != actual.measured) wrong.push_back("measurements are lost or taken twice");
   if (expected.simulations != actual.simulations) wrong.push_back("the simulations differ");
@@ -101,12 +102,12 @@ struct Played {
   std::string verdict;  ///< "same", or what is wrong
   FaultCounts counts;
   int resumed = 0;
-  Traces traces;
+  PlannedSignatures traces;
   std::string settings;
 };
 
 /// Plays one disturbed game to its end, resuming it whenever it stops.
-Played play(std::uint64_t seed, const fs::path& scenario, const fs::path& folder, const Traces& expected) {
+Played play(std::uint64_t seed, const fs::path& scenario, const fs::path& folder, const PlannedSignatures& expected) {
   const GameFolder place(folder);
   const fs::path run = folder / "game";
   Disturber disturber(seed, run, place.is_small_disk());
@@ -149,7 +150,7 @@ Played play(std::uint64_t seed, const fs::path& scenario, const fs::path& folder
     wrong.push_back(fmt::format("the game did not end; it said: {}",
                                 said.substr(said.size() - std::min<std::size_t>(said.size(), 600))));
   } else {
-    played.traces = traces_of(run);
+    played.traces = planned_signatures_of(run);
     wrong = faults_of(expected, played.traces, said);
   }
   played.verdict = wrong.empty() ? "same" : wrong.front();
@@ -173,7 +174,7 @@ std::set<int> seeds_played(const fs::path& table) {
   return seeds;
 }
 
-Traces undisturbed_game(const fs::path& scenario, const fs::path& folder) {
+PlannedSignatures undisturbed_game(const fs::path& scenario, const fs::path& folder) {
   if (!fs::exists(folder / "game" / "complete")) {
     fs::remove_all(folder);
     PlayedGame game(scenario, folder, "game");
@@ -182,7 +183,7 @@ Traces undisturbed_game(const fs::path& scenario, const fs::path& folder) {
     }
     std::ofstream(folder / "game" / "complete") << "yes\n";
   }
-  return traces_of(folder / "game");
+  return planned_signatures_of(folder / "game");
 }
 
 int run_campaign(const Options& options) {
@@ -190,7 +191,7 @@ int run_campaign(const Options& options) {
   const fs::path folder = fs::canonical(options.folder), scenario = folder / "campaign.toml",
                  table = folder / "games.csv";
   std::ofstream(scenario) << short_game("campaign", 1);
-  const Traces expected = undisturbed_game(scenario, folder / "undisturbed");
+  const PlannedSignatures expected = undisturbed_game(scenario, folder / "undisturbed");
   if (!fs::exists(table)) std::ofstream(table) << kHead;
   const std::set<int> known = seeds_played(table);
   const auto began = Clock::now();

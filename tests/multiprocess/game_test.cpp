@@ -358,8 +358,7 @@ class Stranger {
   }
   wire::Header header() { return {runtime::now_utime(), "virtual_lab", 1, ++sequence_, run_.filename()}; }
   std::string damaged(std::string bytes) {
-    bytes[static_cast<std::size_t>(random_.index(static_cast<int>(bytes.size())))] ^=
-        static_cast<char>(1 << random_.index(8));
+    bytes[random_.index(static_cast<int>(bytes.size()))] ^= static_cast<char>(1 << random_.index(8));
     return bytes;
   }
   std::string noise() {

@@ -235,7 +235,7 @@ TEST(Shell, KillsAtAnyInstantChangeNothing) {
   game.start_all();
   RandomStream random(11, "kills");
   for (int i = 0; i < 8; ++i) {
-    const std::string& victim = echo::kParticipants[static_cast<std::size_t>(i % 2)];
+    const std::string& victim = echo::kParticipants[i % 2];
     const std::int64_t until = runtime::now_utime() + 20'000 + random.index(300'000);
     game.watch(1, [&] { return runtime::now_utime() >= until; });
     game.kill(victim);

@@ -20,9 +20,9 @@
 #include "runtime/journal.hpp"
 #include "runtime/run_folder.hpp"
 #include "short_game.hpp"
-#include "simulator_farm/question.hpp"
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
+#include "simulator_farm/test_request.hpp"
 
 namespace nacre {
 namespace {

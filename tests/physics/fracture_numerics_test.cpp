@@ -17,7 +17,7 @@ using verification::toughness_differences;
 constexpr int kPatterns = 20;
 
 // Median difference of T below 1 %.
-TEST(FractureNumerics, SingleAndDoublePrecisionAgree) {
+TEST(FractureDiscretisation, SingleAndDoublePrecisionAgree) {
   const std::vector<double> differences = toughness_differences(
       patterns(kPatterns), [](const auto& s) { return tester::run_fracture_test<float>(tester::fracture_test(s)); },
       [](const auto& s) { return tester::run_fracture_test<double>(tester::fracture_test(s)); });
@@ -25,7 +25,7 @@ TEST(FractureNumerics, SingleAndDoublePrecisionAgree) {
 }
 
 // Median change of T below 2 %.
-TEST(FractureNumerics, HalfTheTimeStepChangesLittle) {
+TEST(FractureDiscretisation, HalfTheTimeStepChangesLittle) {
   const std::vector<double> differences = toughness_differences(
       patterns(kPatterns), [](const auto& s) { return tester::test_toughness(s); },
       [](const auto& s) { return tester::test_toughness(s, {.time_step_scale = 0.5}); });
@@ -34,7 +34,7 @@ TEST(FractureNumerics, HalfTheTimeStepChangesLittle) {
 
 // T is the area under the stress of every step, which recording cannot change (exact); the recorded curve's own area
 // stays within 0.1 % of it, with as many samples as usual and with twice as many.
-TEST(FractureNumerics, DoubledRecordingChangesToughnessByLessThanAThousandth) {
+TEST(FractureDiscretisation, DoubledRecordingChangesToughnessByLessThanAThousandth) {
   for (const pattern::Design& design : patterns(5)) {
     const auto once = tester::test_toughness(specimen(design)).value();
     const auto twice = tester::test_toughness(specimen(design), {.recording_scale = 2}).value();

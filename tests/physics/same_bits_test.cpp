@@ -82,9 +82,9 @@ std::vector<std::pair<double, double>> batch_results(const std::vector<pattern::
   parallel_for(
       static_cast<int>(designs.size()),
       [&](int i) {
-        const tester::Simulation simulation = specimen(designs[static_cast<std::size_t>(i)]);
-        results[static_cast<std::size_t>(i)] = {tester::test_modulus(simulation).value().modulus_pa,
-                                                tester::test_toughness(simulation).value().toughness_pa};
+        const tester::Simulation simulation = specimen(designs[i]);
+        results[i] = {tester::test_modulus(simulation).value().modulus_pa,
+                      tester::test_toughness(simulation).value().toughness_pa};
       },
       threads);
   return results;

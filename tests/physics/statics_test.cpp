@@ -156,7 +156,7 @@ fem::Grid smooth_grid(int side) {
                  .threshold_j_per_m3 = std::vector<double>(count, 1e300)};
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column)
-      grid.young_pa[static_cast<std::size_t>(grid.index(row, column))] =
+      grid.young_pa[grid.index(row, column)] =
           std::pow(10.0, 9.0 + 0.5 * std::cos(M_PI * (column + 0.5) / side) * std::sin(3.0 * (row + 0.5) / side));
   return grid;
 }

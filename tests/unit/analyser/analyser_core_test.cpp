@@ -156,7 +156,7 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
     EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "how a design breaks has not come";
     wire::Fracture fracture{.request_id = asked.request_id,
                             .design_index = index,
-                            .design = asked.designs[static_cast<std::size_t>(index)],
+                            .design = asked.designs[index],
                             .crack = {},
                             .broken = 0,
                             .film = "a.film"};
@@ -490,11 +490,11 @@ TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   EXPECT_TRUE(analyser.core.status().finished);
 }
 
-TEST(Analyser, AScenarioMayNameNoNumericsFloor) {
+TEST(Analyser, AScenarioMayNameNoDiscretisationFloor) {
   game::Scenario scenario;
-  scenario.numerics_floor_file = "";
+  scenario.discretisation_floor_file = "";
   EXPECT_NO_THROW(make_core(scenario));
-  scenario.numerics_floor_file = "no/such/file.toml";
+  scenario.discretisation_floor_file = "no/such/file.toml";
   EXPECT_THROW(make_core(scenario), InputError);
 }
 

@@ -65,7 +65,7 @@ TEST(Colour, MaterialsDifferAtRestAndAgreeUnderTheGlow) {
 TEST(Canvas, QuadsThatMeetLeaveNoSeam) {
   Canvas canvas(10.0, 10.0, 73);
   canvas.fill(0xffffff);
-  std::vector<std::array<Point, 4>> quads;
+  std::vector<std::array<CanvasPoint, 4>> quads;
   for (double y = 0.0; y < 10.0; ++y)
     for (double x = 0.0; x < 10.0; ++x) quads.push_back({{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}});
   canvas.quads(quads, 0x336699);
@@ -81,8 +81,7 @@ TEST(Scene, ShowsTheTearWhereElementsFailed) {
     // The specimen's half: the marker of the curve has the same colour.
     long points = 0;
     for (int y = 0; y < picture.height * 9 / 10; ++y)
-      for (int x = 0; x < picture.width / 2; ++x)
-        points += picture.rgb[static_cast<std::size_t>(y * picture.width + x)] == rgb;
+      for (int x = 0; x < picture.width / 2; ++x) points += picture.rgb[y * picture.width + x] == rgb;
     return points;
   };
   EXPECT_EQ(count(0, kAccent), 0);
@@ -104,7 +103,7 @@ TEST(Gif, HoldsAllFramesWithTheirTimesAndColours) {
   const fs::path path = fs::path(testing::TempDir()) / "nacre_animation_test.gif";
   const auto draw = [](int frame) {
     Picture picture{.width = 7, .height = 5, .rgb = std::vector<std::uint32_t>(35, 0x102030)};
-    picture.rgb[static_cast<std::size_t>(frame)] = 0xff0000;
+    picture.rgb[frame] = 0xff0000;
     return picture;
   };
   write_gif(path, {.frame_count = 4, .draw = draw, .hundredths_of_seconds = [](int frame) { return 10 + frame; }});
@@ -126,7 +125,7 @@ TEST(Gif, HoldsAllFramesWithTheirTimesAndColours) {
         const int index = image.RasterBits[y * image.ImageDesc.Width + x];
         if (index == control.TransparentColor) continue;
         const GifColorType& c = gif->SColorMap->Colors[index];
-        shown[static_cast<std::size_t>((y + image.ImageDesc.Top) * 7 + x + image.ImageDesc.Left)] =
+        shown[(y + image.ImageDesc.Top) * 7 + x + image.ImageDesc.Left] =
             static_cast<std::uint32_t>(c.Red << 16 | c.Green << 8 | c.Blue);
       }
     EXPECT_EQ(shown, draw(i).rgb) << "frame " << i;

@@ -64,8 +64,8 @@ TEST(CrackRecord, AStepAlongThePullCountsWithItsHeight) {
 TEST(CrackRecord, ALongWayOffThePathIsABranchAShortOneIsNot) {
   const auto fork = [](int height) {
     std::vector<std::string> lines(10, std::string(20, '.'));
-    for (int column = 0; column < 20; ++column) lines[9][static_cast<std::size_t>(column)] = column < 4 ? 'o' : 'x';
-    for (int i = 1; i <= height; ++i) lines[static_cast<std::size_t>(9 - i)][10] = 'x';
+    for (int column = 0; column < 20; ++column) lines[9][column] = column < 4 ? 'o' : 'x';
+    for (int i = 1; i <= height; ++i) lines[9 - i][10] = 'x';
     return lines;
   };
   EXPECT_EQ(drawn_record(fork(5)).branches, 0);
@@ -149,10 +149,9 @@ TEST(CrackRecord, WithoutANotchThePathBeginsFarthestLeft) {
 Drawing scattered(unsigned seed) {
   Drawing drawing = draw(std::vector<std::string>(31, std::string(40, '.')));
   fem::Grid& grid = drawing.grid;
-  for (int column = 0; column < 8; ++column)
-    grid.phase[static_cast<std::size_t>(grid.index(15, column))] = fem::Phase::empty;
+  for (int column = 0; column < 8; ++column) grid.phase[grid.index(15, column)] = fem::Phase::empty;
   std::mt19937 random(seed);
-  std::vector<bool> failed(static_cast<std::size_t>(grid.element_count()), false);
+  std::vector<bool> failed(grid.element_count(), false);
   for (int i = 0; i < 150; ++i) {
     const int column = static_cast<int>(random() % 32) + 8, row = 15 + static_cast<int>(random() % 9) - 4;
     const auto e = static_cast<std::size_t>(grid.index(row, column));
@@ -171,8 +170,7 @@ TEST(CrackRecord, MirroringTheSpecimenMirrorsTheRecord) {
       const int row = e / drawing.grid.columns, column = e % drawing.grid.columns;
       return drawing.grid.index(drawing.grid.rows - 1 - row, column);
     };
-    for (int e = 0; e < drawing.grid.element_count(); ++e)
-      mirrored.grid.phase[static_cast<std::size_t>(mirror(e))] = drawing.grid.phase[static_cast<std::size_t>(e)];
+    for (int e = 0; e < drawing.grid.element_count(); ++e) mirrored.grid.phase[mirror(e)] = drawing.grid.phase[e];
     for (tester::Break& broken : mirrored.order) broken.element = mirror(broken.element);
     const Record a = crack_record(drawing.grid, drawing.order), b = crack_record(mirrored.grid, mirrored.order);
     std::vector<int> path = a.path->elements;
@@ -220,8 +218,7 @@ TEST(Distances, AreThoseOfTheEightNeighbours) {
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 5; ++column) {
       const int diagonal = std::min(row, column), straight = std::max(row, column) - diagonal;
-      EXPECT_NEAR(distances.cost[static_cast<std::size_t>(grid.index(row, column))],
-                  straight + diagonal * std::sqrt(2.0), 1e-12);
+      EXPECT_NEAR(distances.cost[grid.index(row, column)], straight + diagonal * std::sqrt(2.0), 1e-12);
     }
 }
 

@@ -23,12 +23,12 @@ inline Drawing draw(const std::vector<std::string>& lines) {
   grid.rows = static_cast<int>(lines.size());
   grid.columns = static_cast<int>(lines.front().size());
   grid.element_size_m = kSize;
-  grid.phase.assign(static_cast<std::size_t>(grid.element_count()), fem::Phase::rigid);
+  grid.phase.assign(grid.element_count(), fem::Phase::rigid);
   for (int column = 0; column < grid.columns; ++column)
     for (int row = 0; row < grid.rows; ++row) {
-      const char sign = lines[static_cast<std::size_t>(grid.rows - 1 - row)][static_cast<std::size_t>(column)];
+      const char sign = lines[grid.rows - 1 - row][column];
       const int e = grid.index(row, column);
-      fem::Phase& phase = grid.phase[static_cast<std::size_t>(e)];
+      fem::Phase& phase = grid.phase[e];
       if (sign == 's') phase = fem::Phase::soft;
       if (sign == 'i') phase = fem::Phase::interface;
       if (sign == 'o') phase = fem::Phase::empty;

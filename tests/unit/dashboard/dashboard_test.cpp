@@ -74,8 +74,8 @@ class DashboardOfARun : public testing::Test {
     std::ofstream(folder_ / "families" / "family-2" / "parameters.toml") << material::to_toml(parameters);
   }
 
-  Settings settings() const {
-    Settings settings;
+  DashboardSettings settings() const {
+    DashboardSettings settings;
     settings.run_folder = folder_;
     settings.page_folder = folder_ / "page";
     settings.family_folder = folder_ / "families";
@@ -217,27 +217,27 @@ TEST_F(DashboardOfARun, AJudgementThatTheGameWouldNotHeedIsRefusedWithTheReason)
   const Response refusal = post("/api/review", R"({"specimen":"a","valid":true,"by":"Ada","why":"looks fine"})");
   EXPECT_EQ(refusal.status, 409);
   EXPECT_THAT(refusal.body, HasSubstr("cannot be valid"));
-  EXPECT_TRUE(desk_.judgements.empty());
+  EXPECT_TRUE(desk_.reviews.empty());
 }
 
 TEST_F(DashboardOfARun, WhatIsHandedInReachesTheDesk) {
   EXPECT_EQ(post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})").status, 200);
-  EXPECT_EQ(desk_.judgements.at(0).why, "slipped");
+  EXPECT_EQ(desk_.reviews.at(0).why, "slipped");
   EXPECT_EQ(
       post("/api/approval", R"({"design":"577fffe9fffdef","round":0,"approved":true,"by":"Ada","why":""})").status,
       200);
-  EXPECT_EQ(desk_.decisions.at(0).design, "577fffe9fffdef");
+  EXPECT_EQ(desk_.approvals.at(0).design, "577fffe9fffdef");
   EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
             200);
   EXPECT_EQ(desk_.specimens.at(0).modulus_pa, 1e6);
 }
 
 TEST_F(DashboardOfARun, WhatTheGameDoesNotTakeIsSaid) {
-  desk_.answer = Answer::unanswered;
+  desk_.answer = Delivery::unanswered;
   const Response late = post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
   EXPECT_EQ(late.status, 504);
   EXPECT_THAT(late.body, HasSubstr("does the game play"));
-  desk_.answer = Answer::conflicting;
+  desk_.answer = Delivery::conflicting;
   EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
             409);
   EXPECT_EQ(post("/api/measurement", "{").status, 400);

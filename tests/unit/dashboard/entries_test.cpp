@@ -57,27 +57,27 @@ TEST(Entries, WhatIsNoShallowObjectIsRefused) {
 }
 
 TEST(Entries, AJudgementNeedsAPersonAndAReason) {
-  EXPECT_TRUE(judgement_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})"));
-  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":" "})"));
-  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a","valid":0,"by":"Ada","why":"x"})"));
-  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a","valid":false,"why":"x"})"));
-  EXPECT_FALSE(judgement_from_json(R"({"specimen":"a\nb","valid":false,"by":"Ada","why":"x"})"));
+  EXPECT_TRUE(specimen_review_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})"));
+  EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":" "})"));
+  EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a","valid":0,"by":"Ada","why":"x"})"));
+  EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a","valid":false,"why":"x"})"));
+  EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a\nb","valid":false,"by":"Ada","why":"x"})"));
 }
 
 TEST(Entries, ADecisionNamesADesignAndARound) {
-  const auto decision =
-      decision_from_json(R"({"design":"577fffe9fffdef","round":2,"approved":false,"by":"Ada","why":""})");
-  ASSERT_TRUE(decision) << decision.error().message;
-  EXPECT_EQ(decision->round, 2);
-  EXPECT_EQ(decision_from_json(R"({"design":"mix:0.65","approved":true,"by":"Ada"})")->round, -1);
-  const auto coupon = decision_from_json(R"({"design":"checkerboard:2","approved":true,"by":"Ada"})");
+  const auto approval =
+      approval_from_json(R"({"design":"577fffe9fffdef","round":2,"approved":false,"by":"Ada","why":""})");
+  ASSERT_TRUE(approval) << approval.error().message;
+  EXPECT_EQ(approval->round, 2);
+  EXPECT_EQ(approval_from_json(R"({"design":"mix:0.65","approved":true,"by":"Ada"})")->round, -1);
+  const auto coupon = approval_from_json(R"({"design":"checkerboard:2","approved":true,"by":"Ada"})");
   ASSERT_TRUE(coupon) << coupon.error().message;
   EXPECT_EQ(coupon->design, pattern::design_from_word("checkerboard:2")->name());
-  EXPECT_FALSE(decision_from_json(R"({"design":"577fffe9fffdef","approved":false,"by":"Ada"})"));
+  EXPECT_FALSE(approval_from_json(R"({"design":"577fffe9fffdef","approved":false,"by":"Ada"})"));
   for (const char* round : {"-2", "1e3", "\"1\"", "18446744073709551615", "99999999999999999999999", "2000000"})
-    EXPECT_FALSE(decision_from_json(fmt::format(R"({{"design":"soft","round":{},"approved":true,"by":"Ada"}})", round)))
+    EXPECT_FALSE(approval_from_json(fmt::format(R"({{"design":"soft","round":{},"approved":true,"by":"Ada"}})", round)))
         << round;
-  EXPECT_FALSE(decision_from_json(R"({"design":"nothing","approved":true,"by":"Ada"})"));
+  EXPECT_FALSE(approval_from_json(R"({"design":"nothing","approved":true,"by":"Ada"})"));
 }
 
 TEST(Entries, AWishNamesAModel) {

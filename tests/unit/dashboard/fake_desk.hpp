@@ -23,11 +23,11 @@ class FakeDesk : public Desk {
   std::optional<diagnosis_t> diagnosis(int) override { return std::nullopt; }
   std::vector<NodeReport> nodes() override { return reports; }
   std::vector<std::string> doubts_about(const measurement::SpecimenRecord&) override { return doubts; }
-  Answer enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
-  Answer judge(const Judgement& judgement) override { return judgements.push_back(judgement), answer; }
-  std::optional<std::string> against(const Judgement&) override { return reason_against; }
-  std::optional<std::string> against(const Decision&) override { return reason_against; }
-  Answer decide(const Decision& decision) override { return decisions.push_back(decision), answer; }
+  Delivery enter(const measurement::SpecimenRecord& specimen) override { return specimens.push_back(specimen), answer; }
+  Delivery review(const SpecimenReview& review) override { return reviews.push_back(review), answer; }
+  std::optional<std::string> against(const SpecimenReview&) override { return reason_against; }
+  std::optional<std::string> against(const Approval&) override { return reason_against; }
+  Delivery decide(const Approval& approval) override { return approvals.push_back(approval), answer; }
 
   void keep_grouping(const std::filesystem::path&, const std::vector<families::Family>& families) override {
     groupings.push_back(families);
@@ -36,12 +36,12 @@ class FakeDesk : public Desk {
   Laboratory picture;
   int models_read = 0;  ///< a real desk reads a journal each time
   std::vector<NodeReport> reports;
-  Answer answer = Answer::accepted;
+  Delivery answer = Delivery::accepted;
   std::optional<std::string> reason_against;
   std::vector<std::string> doubts;
   std::vector<measurement::SpecimenRecord> specimens;
-  std::vector<Judgement> judgements;
-  std::vector<Decision> decisions;
+  std::vector<SpecimenReview> reviews;
+  std::vector<Approval> approvals;
   std::vector<std::vector<families::Family>> groupings;
 };
 

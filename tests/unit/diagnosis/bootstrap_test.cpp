@@ -15,10 +15,10 @@ Observations two_tests() {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens(set, synthetic_truth());
   for (const auto& coupon : synthetic_coupons(synthetic_truth(), {1e-3, 1e-2}, 5, 0.01, 5)) specimens.push_back(coupon);
   Observations observations = observe(specimens, 0.003, {});
-  observations.numerics_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
+  observations.discretisation_shared = Eigen::MatrixXd::Zero(observations.size(), 1);
   for (int i = 0; i < observations.size(); ++i)
-    if (observations.rows[static_cast<std::size_t>(i)].test == tester::TestKind::modulus)
-      observations.numerics_shared(i, 0) = 0.01 * (1 + i % 3);
+    if (observations.rows[i].test == tester::TestKind::modulus)
+      observations.discretisation_shared(i, 0) = 0.01 * (1 + i % 3);
   return observations;
 }
 
@@ -38,7 +38,7 @@ TEST(DataSource, CombinationsWeighDataAsTheRowsDo) {
     Eigen::MatrixXd covariance = parts.fixed;
     for (int i = 0; i < observations.size(); ++i)
       for (int j = 0; j < observations.size(); ++j)
-        covariance(i, j) += factors[observations.rows[static_cast<std::size_t>(i)].scatter] * parts.scatter(i, j);
+        covariance(i, j) += factors[observations.rows[i].scatter] * parts.scatter(i, j);
     Eigen::VectorXd y(observations.size());
     for (double& value : y) value = 0.05 * random.normal();
     const double by_rows = Whitener(covariance).chi2(y);

@@ -25,7 +25,7 @@ std::vector<measurement::SpecimenRecord> layouts_and_coupons() {
 TEST(EvenDirections, AreThoseOfConditionsThatVary) {
   std::vector<measurement::SpecimenRecord> specimens = layouts_and_coupons();
   EXPECT_EQ(names_of(even_directions(observe(specimens, 0.0, {}))), std::vector<std::string>{"orientation"});
-  for (int i = 0; i < 3; ++i) specimens[static_cast<std::size_t>(i)].conditions.thickness_mm = 1.6;
+  for (int i = 0; i < 3; ++i) specimens[i].conditions.thickness_mm = 1.6;
   EXPECT_EQ(names_of(even_directions(observe(specimens, 0.0, {}))),
             (std::vector<std::string>{"orientation", "thickness"}));
 }
@@ -36,7 +36,7 @@ TEST(EvenDirections, AreTheSameOnLayoutsAndCouponsAndNothingOnStrains) {
   const ContrastDirection turned = even_directions(observations).front();
   double upright = 0.0;
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     const bool scales =
         row.probe == Probe::mean && (row.feature == Feature::log_modulus || is_curve_stress(row.feature));
     if (!scales) {

@@ -28,7 +28,7 @@ DiagnosisSettings tiny_settings() {
 
 /// With none of an effect a model is the base: no fit of one may end with more than the base leaves.
 Diagnosis with_levels_checked(Diagnosis diagnosis) {
-  for (const Candidate& candidate : diagnosis.candidates) EXPECT_GE(candidate.statistic, -0.02) << candidate.name;
+  for (const CandidateEffect& candidate : diagnosis.candidates) EXPECT_GE(candidate.statistic, -0.02) << candidate.name;
   return diagnosis;
 }
 
@@ -61,7 +61,7 @@ TEST(Diagnosis, DataOfTheBaseModelAreBaseSufficient) {
   EXPECT_TRUE(diagnosis.effects.empty());
   EXPECT_FALSE(diagnosis.gain);
   // What is not found is said to be smaller than what would have shown.
-  for (const Candidate& candidate : diagnosis.candidates) {
+  for (const CandidateEffect& candidate : diagnosis.candidates) {
     if (candidate.status == "not_applicable") continue;
     const material::EffectParameter& parameter = material::find_effect(candidate.name)->parameters.front();
     const double typical = material::value_at_strength(parameter, 0.3);
@@ -178,7 +178,7 @@ TEST(Diagnosis, AnErrorOfTheLoadCellIsInvisibleAndNothingIsNamed) {
   const Diagnosis diagnosis = diagnose_effect("load_cell_gain", 0.05);
   EXPECT_EQ(to_string(diagnosis.verdict), "base_sufficient") << diagnosis.summary;
   const auto gain = std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(),
-                                 [](const Candidate& c) { return c.name == "load_cell_gain"; });
+                                 [](const CandidateEffect& c) { return c.name == "load_cell_gain"; });
   ASSERT_NE(gain, diagnosis.candidates.end());
   EXPECT_EQ(gain->status, "invisible");
   EXPECT_GT(gain->absorption, 0.95);
@@ -335,14 +335,14 @@ TEST(CouponDiagnosis, EveryNumberOfANamedEffectHasItsInterval) {
 TEST(Diagnosis, CouponsDoNotChangeWhatIsSaidOfTheNoiseOfModuli) {
   DiagnosisSettings settings = tiny_settings();
   settings.bootstraps = 700;
-  settings.check_numerics = false;
+  settings.check_discretisation = false;
   settings.floor = {.log_modulus_sd = 0.01, .mesh_amplitude = 1.0, .mesh_remainder_sd = 0.002};
   auto specimens = synthetic_specimens({.patterns = 12, .twins = 0, .replicates = 1, .noise = 0.01}, synthetic_truth());
-  const double alone = diagnose(specimens, settings).numerics_shared_sd;
+  const double alone = diagnose(specimens, settings).discretisation_shared_sd;
   const auto coupons = synthetic_coupons(synthetic_truth(), {1e-3}, 3, 0.01, 5);
   specimens.insert(specimens.end(), coupons.begin(), coupons.end());
   const Diagnosis diagnosis = diagnose(specimens, settings);
-  EXPECT_NEAR(diagnosis.numerics_shared_sd, alone, 0.1 * alone);
+  EXPECT_NEAR(diagnosis.discretisation_shared_sd, alone, 0.1 * alone);
   EXPECT_FALSE(diagnosis.noise_known) << "two per cent are assumed of moduli";
   EXPECT_DOUBLE_EQ(diagnosis.replicate_sd, 0.02);
 }

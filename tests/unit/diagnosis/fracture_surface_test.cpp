@@ -22,9 +22,7 @@ TEST(EffectCovariance, OfSizesOfEitherSignIsACovariance) {
   const std::vector<double> sizes = {-0.6, -0.3, -0.1, 0.1, 0.3, 0.6};
   Eigen::MatrixXd matrix(6, 6);
   for (Eigen::Index i = 0; i < 6; ++i)
-    for (Eigen::Index j = 0; j < 6; ++j)
-      matrix(i, j) =
-          effect_covariance(size(sizes[static_cast<std::size_t>(i)]), size(sizes[static_cast<std::size_t>(j)]));
+    for (Eigen::Index j = 0; j < 6; ++j) matrix(i, j) = effect_covariance(size(sizes[i]), size(sizes[j]));
   EXPECT_GT(matrix.diagonal().minCoeff(), 0.0);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff(), 0.0);
 }

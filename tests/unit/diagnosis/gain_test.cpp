@@ -33,8 +33,8 @@ Observations five_designs() {
 }
 
 /// A model without constants.
-Fit foretelling(const Eigen::VectorXd& values) {
-  Fit fit;
+FittedModel predicting(const Eigen::VectorXd& values) {
+  FittedModel fit;
   fit.predicted = values;
   fit.jacobian.resize(values.size(), 0);
   return fit;
@@ -43,8 +43,8 @@ Fit foretelling(const Eigen::VectorXd& values) {
 TEST(Gain, RanksDesignsThatTheMeasurementsSetApart) {
   const Observations observations = five_designs();
   const double mean = observations.values.mean();
-  const Fit upside_down = foretelling((2.0 * mean - observations.values.array()).matrix()),
-            right = foretelling(observations.values);
+  const FittedModel upside_down = predicting((2.0 * mean - observations.values.array()).matrix()),
+                    right = predicting(observations.values);
   const Gain gain = held_out_gain(observations, upside_down, {right}, {}, 1.0, 1);
   ASSERT_EQ(gain.features.size(), 1u);
   const Ranking& ranking = gain.features[0].ranking;

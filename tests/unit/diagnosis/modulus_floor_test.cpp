@@ -16,7 +16,7 @@ std::filesystem::path file_with(const std::string& text) {
 
 TEST(ModulusFloor, TheShippedFileHasAFloorForEveryFidelity) {
   for (const auto fidelity : {tester::Fidelity::tiny, tester::Fidelity::preview, tester::Fidelity::full}) {
-    const ModulusFloor floor = read_modulus_floor(NACRE_SOURCE_DIR "/data/numerics_floor.toml", fidelity);
+    const ModulusFloor floor = read_modulus_floor(NACRE_SOURCE_DIR "/data/discretisation_floor.toml", fidelity);
     EXPECT_GT(floor.log_modulus_sd, 0.0);
     EXPECT_GE(floor.mesh_amplitude, 1.0) << "the limit lies beyond the first halving";
     EXPECT_LT(floor.mesh_remainder_sd, floor.log_modulus_sd);

@@ -23,8 +23,8 @@ measurement::SpecimenRecord pulled(const std::string& specimen, double orientati
   return record;
 }
 
-Observations observed(const std::vector<measurement::SpecimenRecord>& specimens, double numerics_sd = 0.0) {
-  return observe(specimens, numerics_sd, {});
+Observations observed(const std::vector<measurement::SpecimenRecord>& specimens, double discretisation_sd = 0.0) {
+  return observe(specimens, discretisation_sd, {});
 }
 
 /// Upright specimens and turned ones, each kind of one modulus exactly.
@@ -140,7 +140,7 @@ TEST(Observations, FourSlopesOfOneCouponAreNotFourCoupons) {
       for (const Feature b : stresses) together += c(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
     }
     EXPECT_GT(together / 16.0, 0.75 * alone / 4.0) << "what they have in common does not average out";
-    sd[observations.groups[static_cast<std::size_t>(row.group)].design.name()] = std::sqrt(alone / 4.0);
+    sd[observations.groups[row.group].design.name()] = std::sqrt(alone / 4.0);
   }
   EXPECT_GT(sd.at("soft"), 1.5 * sd.at("rigid")) << "three times as much, known within a third each";
 }
@@ -148,8 +148,7 @@ TEST(Observations, FourSlopesOfOneCouponAreNotFourCoupons) {
 TEST(Observations, WithoutReplicatesStressesOfOneCouponGoTogether) {
   const Observations observations = observed({coupon("a/1", {0.0, 0.005, 0.01, 0.015, 0.02})});
   ASSERT_EQ(observations.replicate_dof(tester::TestKind::tensile), 0);
-  const Eigen::MatrixXd& covariance =
-      observations.scatter[static_cast<std::size_t>(tester::TestKind::tensile)].covariance;
+  const Eigen::MatrixXd& covariance = observations.scatter[tester::TestKind::tensile].covariance;
   const auto at = [&](Feature a, Feature b) {
     return covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
   };
@@ -250,12 +249,12 @@ Observations three_groups() {
   observations.values = Eigen::Vector3d::Zero();
   for (ReplicateScatter& scatter : observations.scatter)
     scatter.covariance = 1e-4 * Eigen::MatrixXd::Identity(kFeatureCount, kFeatureCount);
-  observations.numerics_sd = 0.002;
-  observations.numerics_shared = Eigen::Vector3d(0.05, 0.1, -0.02);
+  observations.discretisation_sd = 0.002;
+  observations.discretisation_shared = Eigen::Vector3d(0.05, 0.1, -0.02);
   return observations;
 }
 
-TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheNumerics) {
+TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheDiscretisation) {
   const Eigen::MatrixXd covariance = three_groups().covariance();
   EXPECT_NEAR(covariance(0, 1), 0.05 * 0.1, 1e-12);
   EXPECT_NEAR(covariance(1, 2), -0.1 * 0.02, 1e-12);
@@ -264,12 +263,12 @@ TEST(Observations, LayoutsGoTogetherAlongTheSharedDirectionOfTheNumerics) {
 
 // What lies along the direction is expected to be numerics, also where nothing was measured; what lies across it is
 // not.
-TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForNumerics) {
+TEST(Observations, ResidualsAlongTheSharedDirectionAreTakenForDiscretisation) {
   const Observations observations = three_groups();
-  const Eigen::VectorXd expected = observations.shared_numerics(Eigen::Vector2d(0.05, 0.1), {0, 1});
+  const Eigen::VectorXd expected = observations.shared_discretisation(Eigen::Vector2d(0.05, 0.1), {0, 1});
   EXPECT_NEAR(expected[0], 0.05, 0.001);
   EXPECT_NEAR(expected[2], -0.02, 0.001);
-  const Eigen::VectorXd across = observations.shared_numerics(Eigen::Vector2d(0.1, -0.05), {0, 1});
+  const Eigen::VectorXd across = observations.shared_discretisation(Eigen::Vector2d(0.1, -0.05), {0, 1});
   EXPECT_LT(across.norm(), 1e-3);
 }
 
@@ -308,7 +307,7 @@ TEST(Observations, ABatchThatLiesOffTheOthersShowsWhereASteadyChangeDoesNot) {
     const Observations observations = observed(specimens);
     double largest = 0.0;
     for (int i = 0; i < observations.size(); ++i)
-      if (observations.rows[static_cast<std::size_t>(i)].probe == Probe::batch_rest)
+      if (observations.rows[i].probe == Probe::batch_rest)
         largest = std::max(largest, std::abs(observations.values[i]));
     return largest;
   };
@@ -318,7 +317,7 @@ TEST(Observations, ABatchThatLiesOffTheOthersShowsWhereASteadyChangeDoesNot) {
   const auto offset = std::ranges::find(observations.batch_offsets, "batch 1", &BatchOffset::batch);
   ASSERT_NE(offset, observations.batch_offsets.end());
   for (int i = 0; i < observations.size(); ++i) {
-    const Row& row = observations.rows[static_cast<std::size_t>(i)];
+    const Row& row = observations.rows[i];
     if (row.group < 0 && row.probe != Probe::print_order) {
       EXPECT_NEAR(observations.values[i], 0.1 * offset->rows[i], 1e-9) << "what the batch is off by explains all";
     }
@@ -326,9 +325,7 @@ TEST(Observations, ABatchThatLiesOffTheOthersShowsWhereASteadyChangeDoesNot) {
   const Eigen::MatrixXd covariance = observations.covariance();
   for (int i = 0; i < observations.size(); ++i)
     for (int j = 0; j < i; ++j)
-      if (observations.rows[static_cast<std::size_t>(i)].group < 0 &&
-          observations.rows[static_cast<std::size_t>(i)].feature ==
-              observations.rows[static_cast<std::size_t>(j)].feature) {
+      if (observations.rows[i].group < 0 && observations.rows[i].feature == observations.rows[j].feature) {
         EXPECT_EQ(covariance(i, j), 0.0) << "rows of history are independent";
       }
 }

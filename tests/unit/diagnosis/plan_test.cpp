@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/candidate_effects.hpp"
 #include "diagnosis/candidates.hpp"
-#include "diagnosis/looked_for.hpp"
 #include "diagnosis/workbench.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"

@@ -4,16 +4,16 @@
 
 #include <cmath>
 
+#include "../pattern/random_patterns.hpp"
 #include "base/statistics.hpp"
 #include "explore/predictors.hpp"
-#include "../pattern/random_patterns.hpp"
 
 namespace nacre::explore {
 namespace {
 
 using pattern::random_patterns;
 
-TEST(Mechanics, UnitCellsForetellTheModuliOfPatternsThatNobodySimulated) {
+TEST(Mechanics, UnitCellsPredictTheModuliOfPatternsThatNobodySimulated) {
   const material::ParameterSet parameters = material::default_parameters();
   const Mechanics mechanics = mechanics_by_tester(parameters, tester::Fidelity::preview, 1);
   const auto learnt = random_patterns(30, 1), unseen = random_patterns(60, 2);

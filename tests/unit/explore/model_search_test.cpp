@@ -146,7 +146,7 @@ TEST(Predictors, LearnFromOrdinarySamplesTooWhenThereAreTooMany) {
   const std::vector<Evaluated> learnt = learnt_samples(samples, 40), ordered = best_by_rank(samples, samples.size());
   const auto place = [&](const Evaluated& sample) { return std::ranges::find(ordered, sample) - ordered.begin(); };
   ASSERT_EQ(learnt.size(), 40u);
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(place(learnt[static_cast<std::size_t>(i)]), i < 20 ? i : 20 + 19 * (i - 20));
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(place(learnt[i]), i < 20 ? i : 20 + 19 * (i - 20));
   EXPECT_THAT(learnt_samples(samples, 400), ::testing::UnorderedElementsAreArray(samples));
 }
 
@@ -168,7 +168,7 @@ TEST(Learned, TheModulusThatIsComputedDecidesAndNotTheOneBelieved) {
     return moduli;
   };
   const auto search = make_search(chosen);
-  while (!search->question()) {
+  while (!search->batch_request()) {
     std::vector<std::optional<optimize::Performance>> answers;
     for (const pattern::Pattern& pattern : search->ask()) answers.push_back(synthetic_performance(pattern));
     search->tell(answers);
@@ -219,15 +219,15 @@ class EveryModelSearch : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryModelSearch, AnswersToItsQuestionsAreWhatItAsks) {
   const auto search = make_search(settings(GetParam(), 4, 40)), other = make_search(settings(GetParam(), 4, 40));
-  int questions = 0;
+  int batch_requests = 0;
   while (true) {
-    const auto question = search->question();
-    questions += question.has_value();
+    const auto batch_request = search->batch_request();
+    batch_requests += batch_request.has_value();
     const auto batch = search->ask();
-    const auto same = question ? other->ask_with(answer_to(*question)) : other->ask();
+    const auto same = batch_request ? other->ask_with(batch_for(*batch_request)) : other->ask();
     ASSERT_EQ(batch, same);
     if (batch.empty()) break;
-    EXPECT_FALSE(search->question()) << "a question while a batch is out";
+    EXPECT_FALSE(search->batch_request()) << "a question while a batch is out";
     std::vector<std::optional<optimize::Performance>> answers;
     for (const pattern::Pattern& pattern : batch) {
       answers.push_back(pattern.bits() % 5 == 0 ? std::nullopt : std::optional(synthetic_performance(pattern)));
@@ -235,7 +235,7 @@ TEST_P(EveryModelSearch, AnswersToItsQuestionsAreWhatItAsks) {
     search->tell(answers);
     other->tell(answers);
   }
-  EXPECT_EQ(questions, 2);
+  EXPECT_EQ(batch_requests, 2);
 }
 
 TEST_P(EveryModelSearch, AnInterruptedSearchGoesOnWithoutThinkingTwice) {

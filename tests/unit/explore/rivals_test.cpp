@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/random.hpp"
-#include "explore/family_front.hpp"
-#include "explore/front_discovery.hpp"
+#include "explore/rivals/family_front.hpp"
+#include "explore/rivals/front_discovery.hpp"
 
 namespace nacre::explore {
 namespace {
@@ -17,7 +17,7 @@ double price_of(const std::vector<int>& families, const std::vector<std::vector<
                 const FamilyPrices& settings) {
   double price = settings.family * static_cast<double>(std::set<int>(families.begin(), families.end()).size());
   for (std::size_t c = 0; c < families.size(); ++c) {
-    price += prices[c][static_cast<std::size_t>(families[c])];
+    price += prices[c][families[c]];
     if (c > 0 && families[c] != families[c - 1]) price += settings.change;
   }
   return price;
@@ -37,7 +37,7 @@ double brute_force(const std::vector<std::vector<double>>& prices, const FamilyP
 }
 
 std::vector<std::vector<double>> random_prices(int cells, int families, RandomStream& random) {
-  std::vector<std::vector<double>> prices(static_cast<std::size_t>(cells));
+  std::vector<std::vector<double>> prices(cells);
   for (auto& row : prices)
     for (int f = 0; f < families; ++f) row.push_back(random.uniform(0.0, 10.0));
   return prices;
@@ -77,7 +77,7 @@ class TwoBowls final : public SmoothPair {
     return {(at - centres_[0]).squaredNorm(), (at - centres_[1]).squaredNorm()};
   }
   Eigen::VectorXd gradient(int objective, const Eigen::VectorXd& at) const override {
-    return 2.0 * (at - centres_[static_cast<std::size_t>(objective)]);
+    return 2.0 * (at - centres_[objective]);
   }
   Eigen::MatrixX2d values_all(const Eigen::MatrixXd& at) const override {
     Eigen::MatrixX2d result(at.rows(), 2);

@@ -48,7 +48,7 @@ TEST_F(Slices, AreCountedBackLayerByLayer) {
   DropletCount total{};
   for (int layer = 0; layer < plan.layers(); ++layer) {
     const DropletCount count = count_droplets(plan.slice(layer));
-    EXPECT_EQ(stack.by_layer[static_cast<std::size_t>(layer)], count);
+    EXPECT_EQ(stack.by_layer[layer], count);
     for (std::size_t i = 0; i < 3; ++i) total[i] += count[i];
   }
   EXPECT_EQ(stack.total, total);

@@ -25,13 +25,11 @@ std::vector<double> product(const Grid& grid, const std::vector<char>& held, con
   std::vector<double> result(x.size(), 0.0);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      const material::Lame& constants = lame[static_cast<std::size_t>(grid.index(row, column))];
+      const material::Lame& constants = lame[grid.index(row, column)];
       const ElementMatrix stiffness =
           constants.mu_pa * unit_stiffness().shear + constants.lambda_pa * unit_stiffness().bulk;
       const auto nodes = element_nodes(grid, row, column);
-      const auto unknown = [&](int a) {
-        return static_cast<std::size_t>(2 * nodes[static_cast<std::size_t>(a / 2)] + a % 2);
-      };
+      const auto unknown = [&](int a) { return static_cast<std::size_t>(2 * nodes[a / 2] + a % 2); };
       for (int a = 0; a < 8; ++a)
         for (int b = 0; b < 8; ++b)
           if (!held[unknown(a)] && !held[unknown(b)]) result[unknown(a)] += stiffness(a, b) * x[unknown(b)];
@@ -46,8 +44,8 @@ TEST(Dissection, EliminatesEveryFreeUnknownOnceAndPlacesEveryElementOnce) {
     const DissectionPlan plan = dissect(grid, held);
     std::vector<int> eliminated(held.size(), 0), placed(grid.phase.size(), 0);
     for (const DissectionBlock& block : plan.blocks) {
-      for (const int unknown : block.pivots) ++eliminated[static_cast<std::size_t>(unknown)];
-      for (const int element : block.elements) ++placed[static_cast<std::size_t>(element)];
+      for (const int unknown : block.pivots) ++eliminated[unknown];
+      for (const int element : block.elements) ++placed[element];
     }
     for (std::size_t i = 0; i < held.size(); ++i) EXPECT_EQ(eliminated[i], held[i] ? 0 : 1);
     EXPECT_EQ(std::count(placed.begin(), placed.end(), 1), grid.element_count());
@@ -94,7 +92,7 @@ TEST(FrontalCholesky, InstructionSetsGiveTheSameBits) {
 TEST(FrontalCholesky, RefusesWhatCanMoveFreely) {
   Grid grid = uniform_grid(8, 8);
   for (int column = 0; column < 8; ++column)
-    for (const int row : {3}) grid.phase[static_cast<std::size_t>(grid.index(row, column))] = Phase::empty;
+    for (const int row : {3}) grid.phase[grid.index(row, column)] = Phase::empty;
   const std::vector<char> held = bottom_held(grid);
   FrontalCholesky factorisation(std::make_shared<const DissectionPlan>(dissect(grid, held)));
   EXPECT_FALSE(factorisation.factorise(lame_of(grid)));

@@ -71,16 +71,16 @@ TEST(MirrorCell, MirroredItIsTheSameMedium) {
   const auto folded = [](int i) { return i < kSide ? i : 2 * kSide - 1 - i; };
   RandomCell whole;
   for (int row = 0; row < 2 * kSide; ++row) {
-    whole.sizes.push_back(half.sizes[static_cast<std::size_t>(folded(row))]);
+    whole.sizes.push_back(half.sizes[folded(row)]);
     for (int column = 0; column < 2 * kSide; ++column)
-      whole.lame.push_back(half.lame[static_cast<std::size_t>(folded(row) * kSide + folded(column))]);
+      whole.lame.push_back(half.lame[folded(row) * kSide + folded(column)]);
   }
   const auto small = pull_cell(half.sizes, half.lame), large = pull_cell(whole.sizes, whole.lame);
   EXPECT_NEAR(large->modulus_pa / small->modulus_pa, 1.0, 1e-8);
   for (int row = 0; row < 2 * kSide; ++row)
     for (int column = 0; column < 2 * kSide; ++column)
-      EXPECT_NEAR(large->energy_j_per_m3[static_cast<std::size_t>(row * 2 * kSide + column)] /
-                      small->energy_j_per_m3[static_cast<std::size_t>(folded(row) * kSide + folded(column))],
+      EXPECT_NEAR(large->energy_j_per_m3[row * 2 * kSide + column] /
+                      small->energy_j_per_m3[folded(row) * kSide + folded(column)],
                   1.0, 1e-5);
 }
 

@@ -37,8 +37,7 @@ TEST(StaticSolver, BothGripsFeelTheSameForce) {
 TEST(StaticSolver, EmptyElementsCarryNothing) {
   Grid grid = uniform_grid(10, 6);
   for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < 4; ++column)
-      grid.phase[static_cast<std::size_t>(grid.index(row, column))] = Phase::empty;
+    for (int column = 0; column < 4; ++column) grid.phase[grid.index(row, column)] = Phase::empty;
   const Result<StaticSolution> whole = pull(uniform_grid(10, 6), 1e-4), part = pull(grid, 1e-4);
   ASSERT_TRUE(whole && part);
   EXPECT_NEAR(part->top_stress_pa / whole->top_stress_pa, 0.6, 1e-10);
@@ -65,7 +64,7 @@ TEST(StaticSolver, AnImpossibleStrainIsAnError) {
 TEST(StaticSolver, ATornGridIsAnError) {
   Grid grid = uniform_grid(6, 6);
   for (int column = 0; column < 6; ++column)
-    for (const int row : {1, 4}) grid.phase[static_cast<std::size_t>(grid.index(row, column))] = Phase::empty;
+    for (const int row : {1, 4}) grid.phase[grid.index(row, column)] = Phase::empty;
   const Result<StaticSolution> solution = pull(grid, 1e-4);
   ASSERT_FALSE(solution);
   EXPECT_NE(solution.error().message.find("held by nothing"), std::string::npos);

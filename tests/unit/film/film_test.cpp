@@ -63,7 +63,7 @@ TEST(Film, DisplacementsAreRightToAStepWhereMaterialStands) {
   const Frame& frame = sample().frames.back();
   for (int row = 0; row < 40; ++row)
     for (int column = 0; column < 40; ++column) {
-      if (exact.material[static_cast<std::size_t>(row * 40 + column)] == 3) continue;
+      if (exact.material[row * 40 + column] == 3) continue;
       const int node = row * 41 + column;
       ASSERT_NEAR(sample().displacement_x_m(frame, node), exact.displacement_m[2 * static_cast<std::size_t>(node)],
                   step_m);
@@ -75,8 +75,7 @@ TEST(Film, DisplacementsAreRightToAStepWhereMaterialStands) {
 TEST(Film, FailedElementsAreThoseOfTheFrame) {
   for (std::size_t i = 0; i < sample().frames.size(); ++i) {
     std::vector<std::uint8_t> state = sample().material;
-    for (int k = 0; k < sample().frames[i].broken; ++k)
-      state[static_cast<std::size_t>(sample().crack.order[static_cast<std::size_t>(k)].element)] = 3;
+    for (int k = 0; k < sample().frames[i].broken; ++k) state[sample().crack.order[k].element] = 3;
     EXPECT_EQ(state, filmed().frames[i].material) << "frame " << i;
   }
   EXPECT_GT(sample().frames.back().broken, 10);

@@ -95,7 +95,7 @@ TEST(DesignStates, TheFirstDecisionCounts) {
 
 TEST(DesignStates, TheOppositeOfTheFirstDecisionOnAProposalDoesNotCount) {
   LaboratoryFacts facts;
-  const StatedDecision yes{0, kDesign, true, "other", "go"};
+  const StatedApproval yes{0, kDesign, true, "other", "go"};
   EXPECT_FALSE(decision_against(facts, yes));
   facts.decisions = {{0, kOther, false, "lab", ""}, {0, kDesign, false, "lab", "islands"}, yes};
   ASSERT_TRUE(decision_against(facts, yes));
@@ -120,7 +120,7 @@ TEST(DesignStates, WhatTheGamePassesOverDecidesNothing) {
 TEST(DesignStates, ADecisionThatWouldChangeNothingSaysWhy) {
   LaboratoryFacts facts;
   facts.proposed = {{0, kDesign}};
-  const auto reason = [&](const StatedDecision& decision, bool asks = true) {
+  const auto reason = [&](const StatedApproval& decision, bool asks = true) {
     return why_void(facts, decision, asks).value_or("");
   };
   EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "");
@@ -141,7 +141,7 @@ TEST(DesignStates, WhatWaitsForAnAnswerWaitsWhateverWasPrintedOfIt) {
   LaboratoryFacts facts;
   facts.proposed = {{0, kDesign}};
   facts.printed = {{"look-1", kDesign, tester::TestKind::modulus, 0.0, ""}};
-  const StatedDecision own{-1, kDesign, true, "lab", ""};
+  const StatedApproval own{-1, kDesign, true, "lab", ""};
   EXPECT_NE(why_void(facts, own, true).value_or(""), "") << "a printed look";
   facts.book.enter(specimen_of("look-1", kDesign), "");
   EXPECT_NE(why_void(facts, own, true).value_or(""), "") << "a measured one";

@@ -33,7 +33,7 @@ TEST(ExtensionTrial, ErrorsOfDifferentSizeDoNotHideAGain) {
   EXPECT_TRUE(gain_is_established(errors_of({0.60, 0.25, 0.12, 0.31}, {0.01, 0.02, 0.01, 0.01})));
 }
 
-TEST(ExtensionTrial, DesignsThatBothForetellSayNothing) {
+TEST(ExtensionTrial, DesignsThatBothPredictSayNothing) {
   EXPECT_FALSE(gain_is_established(errors_of({0.03, -0.02, 0.02, -0.02}, {0.02, -0.02, 0.015, -0.02})));
 }
 
@@ -58,7 +58,7 @@ TEST(ExtensionTrial, ALossIsNoGain) {
 
 TEST(ExtensionTrial, AShownLossOfToughnessForbidsIt) {
   TrialErrors errors = errors_of({0.11, 0.09, 0.10, -0.12}, {0.01, 0.02, -0.01, 0.02});
-  for (const ForetoldError& each : errors.modulus)
+  for (const OutOfSampleError& each : errors.modulus)
     errors.toughness.push_back({each.design, each.round, 0.1, each.adopted < 0.0 ? -0.6 : 0.6});
   EXPECT_FALSE(gain_is_established(errors));
 }
@@ -111,7 +111,7 @@ TEST(ExtensionTrial, ADesignThatBothAreFarOffHardlyEverDecides) {
   EXPECT_LE(adopted, 3 * kGames / 20);
 }
 
-TEST(ExtensionTrial, OnlyDesignsThatBothHadForetoldCount) {
+TEST(ExtensionTrial, OnlyDesignsThatBothHadPredictedCount) {
   measurement::Replicates measured;
   measured.design = *pattern::design_from_name("577fffe9fffdef");
   measured.modulus_pa = 1e8;

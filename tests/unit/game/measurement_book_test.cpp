@@ -9,7 +9,7 @@ namespace nacre::game {
 namespace {
 
 using measurement::SpecimenRecord;
-using Entry = MeasurementBook::Entry;
+using Receipt = MeasurementBook::Receipt;
 
 SpecimenRecord specimen(const std::string& name, double modulus_pa = 1e9) {
   SpecimenRecord record;
@@ -30,9 +30,9 @@ Order order(const std::string& id, int replicates) {
 
 TEST(MeasurementBook, IdenticalRepeatIsIgnoredAndADifferentOneRefused) {
   MeasurementBook book;
-  EXPECT_EQ(book.enter(specimen("a"), "o"), Entry::accepted);
-  EXPECT_EQ(book.enter(specimen("a"), "o"), Entry::repeated);
-  EXPECT_EQ(book.enter(specimen("a", 2e9), "o"), Entry::conflicting);
+  EXPECT_EQ(book.enter(specimen("a"), "o"), Receipt::accepted);
+  EXPECT_EQ(book.enter(specimen("a"), "o"), Receipt::repeated);
+  EXPECT_EQ(book.enter(specimen("a", 2e9), "o"), Receipt::conflicting);
   ASSERT_EQ(book.specimens().size(), 1u);
   EXPECT_EQ(book.specimens().front().modulus_pa, 1e9);
 }

@@ -40,7 +40,7 @@ Scenario with_nothing_at_its_default() {
   s.base_materials_file = "b.csv";
   s.model_file = "m.toml";
   s.ranges_file = "r.csv";
-  s.numerics_floor_file = "f.toml";
+  s.discretisation_floor_file = "f.toml";
   s.farm = {"slurm", {"--partition=a b", "--time=\"5\""}, 7};
   s.proposal = {"random", 17, 5, 4, 3, 2};
   s.validation = {1, 2, 1, 4, 5, 6, {0.0, 1.0 / 3.0, 1.0}, true};
@@ -124,7 +124,7 @@ TEST(Scenario, ShippedScenariosAreValid) {
         read_scenario(std::filesystem::path(NACRE_SOURCE_DIR) / "launch" / fmt::format("{}.toml", name));
     EXPECT_EQ(scenario.name, name);
     EXPECT_TRUE(std::filesystem::exists(scenario.base_materials_file));
-    EXPECT_TRUE(std::filesystem::exists(scenario.numerics_floor_file));
+    EXPECT_TRUE(std::filesystem::exists(scenario.discretisation_floor_file));
   }
 }
 

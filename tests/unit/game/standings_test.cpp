@@ -124,7 +124,7 @@ TEST(Standings, BenchmarkIsMeasuredUnderStandardConditions) {
   EXPECT_THAT(benchmark_line({thin, tough}), testing::IsEmpty());
 }
 
-TEST(Standings, ATwinPulledFasterIsCalibratedOnButIsNeitherForetoldNorASeedOfFamilies) {
+TEST(Standings, ATwinPulledFasterIsCalibratedOnButIsNeitherPredictedNorASeedOfFamilies) {
   const pattern::Design design = pattern::Pattern(7);
   const SpecimenRecord stiff = modulus("a", design, 1e9), tough = toughness("b", design, 4e5);
   const std::vector<SpecimenRecord> specimens = {
@@ -133,10 +133,10 @@ TEST(Standings, ATwinPulledFasterIsCalibratedOnButIsNeitherForetoldNorASeedOfFam
   EXPECT_EQ(set.size(), 3u) << "each predicted at its own rate";
   std::map<std::string, sysid::Prediction> predictions;
   predictions[design.name()].modulus_pa = 1.2e9;
-  const Foretold foretold = foretold_among(set, predictions);
-  ASSERT_EQ(foretold.measured.size(), 1u);
-  EXPECT_EQ(foretold.predicted.size(), 1u);
-  EXPECT_EQ(foretold.measured.front().modulus_pa, 1e9);
+  const Predicted predicted = predicted_among(set, predictions);
+  ASSERT_EQ(predicted.measured.size(), 1u);
+  EXPECT_EQ(predicted.predicted.size(), 1u);
+  EXPECT_EQ(predicted.measured.front().modulus_pa, 1e9);
   const auto seeds = patterns_with_both(specimens);
   ASSERT_EQ(seeds.size(), 1u);
   EXPECT_EQ(seeds.front().toughness_pa, 4e5);
@@ -163,17 +163,17 @@ TEST(Standings, CalliperReadingsDoNotTearReplicatesApart) {
   EXPECT_EQ(set.front().modulus_count, 2);
 }
 
-TEST(Standings, ForetoldDesignsAreMeasuredOnesWithTheirPredictions) {
+TEST(Standings, PredictedDesignsAreMeasuredOnesWithTheirPredictions) {
   const pattern::Design predicted_design = pattern::Pattern(7);
   const auto set = calibration_set({modulus("a", predicted_design, 1e9), modulus("b", pattern::Pattern(9), 1e9)});
   std::map<std::string, sysid::Prediction> predictions;
   predictions[predicted_design.name()].modulus_pa = 1.2e9;
   predictions["never measured"].modulus_pa = 5e9;
-  const Foretold foretold = foretold_among(set, predictions);
-  ASSERT_EQ(foretold.measured.size(), 1u);
-  ASSERT_EQ(foretold.predicted.size(), 1u);
-  EXPECT_EQ(foretold.measured.front().design, predicted_design);
-  EXPECT_EQ(foretold.predicted.front().modulus_pa, 1.2e9);
+  const Predicted predicted = predicted_among(set, predictions);
+  ASSERT_EQ(predicted.measured.size(), 1u);
+  ASSERT_EQ(predicted.predicted.size(), 1u);
+  EXPECT_EQ(predicted.measured.front().design, predicted_design);
+  EXPECT_EQ(predicted.predicted.front().modulus_pa, 1.2e9);
 }
 
 // With an adopted machine the gamut, which knows the material side alone, would lie far above what can be measured.

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/random.hpp"
-#include "optimize/acquisition.hpp"
+#include "optimize/rivals/acquisition.hpp"
 
 namespace nacre::optimize {
 namespace {
@@ -85,8 +85,8 @@ TEST(GaussianProcess, ManyPointsAtOnceEqualOneByOne) {
   const auto all = process.predict_all(at);
   for (Eigen::Index i = 0; i < at.rows(); ++i) {
     const auto one = process.predict(at.row(i).transpose());
-    EXPECT_NEAR(all[static_cast<std::size_t>(i)].mean, one.mean, 1e-12);
-    EXPECT_NEAR(all[static_cast<std::size_t>(i)].deviation, one.deviation, 1e-10);
+    EXPECT_NEAR(all[i].mean, one.mean, 1e-12);
+    EXPECT_NEAR(all[i].deviation, one.deviation, 1e-10);
   }
 }
 

@@ -283,7 +283,7 @@ TEST(SpaceFillingPoints, CoverTheCubeMoreEvenlyThanChance) {
   std::vector<int> counts(16, 0);
   for (int i = 0; i < 160; ++i) {
     const Point point = points.next();
-    ++counts[static_cast<std::size_t>(static_cast<int>(point[0] * 4) * 4 + static_cast<int>(point[1] * 4))];
+    ++counts[static_cast<int>(point[0] * 4) * 4 + static_cast<int>(point[1] * 4)];
   }
   for (const int count : counts) {
     EXPECT_GE(count, 7);

@@ -58,9 +58,9 @@ TEST(Pattern, BitsKeyAndLayoutTellTheSame) {
 TEST(Pattern, OrbitsCoverAllPixelsOnce) {
   std::array<int, kFreePixels> images{};
   for (int r = 0; r < kSide; ++r) {
-    for (int c = 0; c < kSide; ++c) ++images[static_cast<std::size_t>(Pattern::free_index(r, c))];
+    for (int c = 0; c < kSide; ++c) ++images[Pattern::free_index(r, c)];
   }
-  for (int i = 0; i < kFreePixels; ++i) EXPECT_EQ(images[static_cast<std::size_t>(i)], Pattern::orbit_size(i));
+  for (int i = 0; i < kFreePixels; ++i) EXPECT_EQ(images[i], Pattern::orbit_size(i));
   EXPECT_EQ(Pattern::free_index(0, 0), 0);
   EXPECT_EQ(Pattern::free_index(0, 9), 9);
   EXPECT_EQ(Pattern::free_index(1, 1), 10);

@@ -61,7 +61,7 @@ TEST(StratifiedPatterns, TenSpreadThreeThreeTwoTwoOverTheIntervalsOfTable32) {
   std::array<int, 4> counts{};
   for (const Pattern& pattern : patterns) {
     const int percent = pattern.rigid_count() / 4;
-    ++counts[static_cast<std::size_t>(percent < 60 ? 0 : percent < 70 ? 1 : percent < 80 ? 2 : 3)];
+    ++counts[percent < 60 ? 0 : percent < 70 ? 1 : percent < 80 ? 2 : 3];
     EXPECT_EQ(violation(pattern), std::nullopt);
   }
   EXPECT_EQ(counts, (std::array<int, 4>{3, 3, 2, 2}));

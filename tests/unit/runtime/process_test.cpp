@@ -73,7 +73,7 @@ TEST(ChildProcess, IsKilledWithTheObject) {
 }
 
 TEST(AskProgram, AnswersWithOutputAndEnd) {
-  const ProgramAnswer answer = ask_program({"/bin/echo", "hello"});
+  const ProgramOutput answer = ask_program({"/bin/echo", "hello"});
   EXPECT_EQ(answer.output, "hello\n");
   EXPECT_TRUE(answer.end.orderly());
   EXPECT_EQ(ask_program({"/nowhere/program"}).end.exit_status, 127);

@@ -1,4 +1,4 @@
-#include "runtime/questions.hpp"
+#include "runtime/pending_requests.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,33 +8,33 @@ namespace {
 constexpr const char* kAsked = "agent/r1/c/T2.0/0#00000000000000aa";
 constexpr const char* kOtherwise = "agent/r1/c/T2.0/0#00000000000000bb";
 
-TEST(Questions, WhatWasAskedIsTaken) {
-  Questions questions;
+TEST(PendingRequests, WhatWasAskedIsTaken) {
+  PendingRequests questions;
   questions.ask(kAsked);
-  EXPECT_EQ(questions.fate_of(kAsked, false), AnswerFate::take);
-  EXPECT_EQ(questions.fate_of(kAsked, true), AnswerFate::take);
+  EXPECT_EQ(questions.fate_of(kAsked, false), ResponseFate::take);
+  EXPECT_EQ(questions.fate_of(kAsked, true), ResponseFate::take);
 }
 
 // The farm says again what a lost journal held, before the node has come to ask it.
-TEST(Questions, WhatMayStillBeAskedIsLeftOnItsWay) {
-  Questions questions;
-  EXPECT_EQ(questions.fate_of(kAsked, false), AnswerFate::leave);
+TEST(PendingRequests, WhatMayStillBeAskedIsLeftOnItsWay) {
+  PendingRequests questions;
+  EXPECT_EQ(questions.fate_of(kAsked, false), ResponseFate::leave);
   questions.ask("agent/r1/c/T1.0/0#00000000000000aa");
-  EXPECT_EQ(questions.fate_of(kAsked, false), AnswerFate::leave);
+  EXPECT_EQ(questions.fate_of(kAsked, false), ResponseFate::leave);
 }
 
-TEST(Questions, NobodyWaitsForWhatWasAskedOtherwiseOrCannotBeAskedAnyMore) {
-  Questions questions;
+TEST(PendingRequests, NobodyWaitsForWhatWasAskedOtherwiseOrCannotBeAskedAnyMore) {
+  PendingRequests questions;
   questions.ask(kAsked);
-  EXPECT_EQ(questions.fate_of(kOtherwise, false), AnswerFate::dismiss);
-  EXPECT_EQ(questions.fate_of("agent/r9/other#00000000000000cc", true), AnswerFate::dismiss);
+  EXPECT_EQ(questions.fate_of(kOtherwise, false), ResponseFate::dismiss);
+  EXPECT_EQ(questions.fate_of("agent/r9/other#00000000000000cc", true), ResponseFate::dismiss);
 }
 
-TEST(Questions, IdsWithoutAHashAreTheirOwnPlaces) {
-  Questions questions;
+TEST(PendingRequests, IdsWithoutAHashAreTheirOwnPlaces) {
+  PendingRequests questions;
   questions.ask("echo/1");
-  EXPECT_EQ(questions.fate_of("echo/1", false), AnswerFate::take);
-  EXPECT_EQ(questions.fate_of("echo/2", false), AnswerFate::leave);
+  EXPECT_EQ(questions.fate_of("echo/1", false), ResponseFate::take);
+  EXPECT_EQ(questions.fate_of("echo/2", false), ResponseFate::leave);
 }
 
 }  // namespace

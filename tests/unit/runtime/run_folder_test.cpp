@@ -24,7 +24,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 game::Scenario scenario_without_files() {
   game::Scenario scenario;
-  scenario.base_materials_file = scenario.numerics_floor_file = "";
+  scenario.base_materials_file = scenario.discretisation_floor_file = "";
   return scenario;
 }
 

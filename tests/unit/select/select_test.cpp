@@ -33,8 +33,7 @@ Gamut round_gamut(int on_front, int inside, std::uint64_t seed = 1) {
   for (int i = 0; i < on_front + inside; ++i) {
     const double angle = random.uniform(0.0, M_PI / 2),
                  radius = i < on_front ? 1.0 : std::sqrt(random.uniform()) * 0.95;
-    gamut.push_back(
-        {patterns[static_cast<std::size_t>(i)], {radius * std::cos(angle) * 2e9, radius * std::sin(angle) * 1e6}});
+    gamut.push_back({patterns[i], {radius * std::cos(angle) * 2e9, radius * std::sin(angle) * 1e6}});
   }
   return gamut;
 }
@@ -50,7 +49,7 @@ TEST(SelectDesigns, CoverTheFrontWithOneDesignPerBin) {
   ASSERT_EQ(selected.size(), 8u);
   std::set<pattern::Pattern> patterns;
   for (int bin = 0; bin < 8; ++bin) {
-    const Selected& design = selected[static_cast<std::size_t>(bin)];
+    const Selected& design = selected[bin];
     EXPECT_EQ(design.bin, bin);
     EXPECT_TRUE(contains(gamut, design));
     patterns.insert(design.pattern);
@@ -86,7 +85,7 @@ TEST(SelectDesigns, EmptyBinsAreFilledFromTheRemainingCandidatesAndSaySo) {
   for (int i = 0; i < 10; ++i) {
     const bool tough = i < 5;
     const double step = i % 5;
-    gamut.push_back({patterns[static_cast<std::size_t>(i)],
+    gamut.push_back({patterns[i],
                      {(tough ? 1.0 + 0.001 * step : 2.0 + 0.001 * step) * 1e9,
                       (tough ? 1.0 - 0.001 * step : 0.1 - 0.001 * step) * 1e6}});
   }
@@ -124,7 +123,7 @@ TEST(SelectDesigns, SamplesOnALineAreSelectedAllTheSame) {
   const auto patterns = random_patterns(12, 5);
   Gamut falling, flat, upright;
   for (int i = 0; i < 12; ++i) {
-    const auto& pattern = patterns[static_cast<std::size_t>(i)];
+    const auto& pattern = patterns[i];
     falling.push_back({pattern, {(1.0 + i) * 1e8, (12.0 - i) * 1e5}});
     flat.push_back({pattern, {(1.0 + i) * 1e8, 1e6}});
     upright.push_back({pattern, {1e9, (1.0 + i) * 1e5}});

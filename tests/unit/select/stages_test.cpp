@@ -51,7 +51,7 @@ TEST(AbovePolyline, AgreesWithManyPointsOnTheLine) {
     bool reached = false;
     double margin = 1.0;
     for (int i = 0; i + 1 < 4; ++i) {
-      const auto &a = line[static_cast<std::size_t>(i)], &b = line[static_cast<std::size_t>(i) + 1];
+      const auto &a = line[i], &b = line[static_cast<std::size_t>(i) + 1];
       for (int k = 0; k <= 2000; ++k) {
         const double t = k / 2000.0;
         const double shortfall = std::max(point.modulus_pa - a.modulus_pa - t * (b.modulus_pa - a.modulus_pa),

@@ -11,11 +11,11 @@
 namespace nacre::blind_trials {
 namespace {
 
-Trial trial_hiding(std::vector<std::string> hidden) {
+BlindTrial trial_hiding(std::vector<std::string> hidden) {
   return {"double-a+b-large-7", "double", 7, true, false, std::move(hidden)};
 }
 
-Answer two_effects() {
+TrialDiagnosis two_effects() {
   return {.commit = "abc1234",
           .verdict = "named",
           .hidden = {{3.33e-10, 29.4, 0.33, 1.0}, {-0.464, 12.0, 0.09, 0.99}},
@@ -26,16 +26,16 @@ Answer two_effects() {
 }
 
 TEST(BlindAnswer, GoesThroughItsCells) {
-  const Answer before = two_effects(), after = answer_from_cells(to_cells(before));
+  const TrialDiagnosis before = two_effects(), after = answer_from_cells(to_cells(before));
   EXPECT_EQ(to_cells(before).size() + 1, answer_columns().size());
   EXPECT_EQ(to_cells(after), to_cells(before));
   EXPECT_EQ(after.possible, before.possible);
   ASSERT_EQ(after.hidden.size(), 2U);
   EXPECT_EQ(after.hidden[1].size, -0.464);
   EXPECT_EQ(after.named[1].low90, 3.11e-10);
-  Answer nothing;
+  TrialDiagnosis nothing;
   nothing.verdict = "base_sufficient";
-  const Answer null = answer_from_cells(to_cells(nothing));
+  const TrialDiagnosis null = answer_from_cells(to_cells(nothing));
   EXPECT_TRUE(null.hidden.empty() && null.named.empty() && null.possible.empty());
   EXPECT_EQ(null.p_misfit, 1.0);
 }
@@ -65,11 +65,11 @@ TEST(BlindScore, AnotherNameIsWrong) {
 }
 
 TEST(BlindScore, AnotherFormOfAnEffectIsRightWithItsFamily) {
-  Answer answer;
+  TrialDiagnosis answer;
   answer.verdict = "named";
   answer.hidden = {{0.3, 12.0, 0.0, 0.0}};
   answer.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
-  const Trial form{"form-smooth_mixing-large-9", "form", 9, true, false, {"smooth_mixing"}};
+  const BlindTrial form{"form-smooth_mixing-large-9", "form", 9, true, false, {"smooth_mixing"}};
   EXPECT_TRUE(score_of(form, answer).right_family);
   answer.named = {{"plane_strain", 0.8, 0.7, 0.9}};
   EXPECT_FALSE(score_of(form, answer).right_family);
@@ -77,7 +77,7 @@ TEST(BlindScore, AnotherFormOfAnEffectIsRightWithItsFamily) {
 }
 
 TEST(BlindScore, ANameWhereNothingIsHiddenIsOfNoFamily) {
-  Answer answer;
+  TrialDiagnosis answer;
   answer.verdict = "named";
   answer.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
   const Score score = score_of({"null-nothing-large-1", "null", 1, true, false, {}}, answer);
@@ -87,12 +87,12 @@ TEST(BlindScore, ANameWhereNothingIsHiddenIsOfNoFamily) {
 
 TEST(BlindTrials, OutsideIsWhatTheLibraryHasNoFamilyFor) {
   std::map<std::string, std::set<std::string>> hidden;
-  for (const Trial& trial : all_trials({}))
+  for (const BlindTrial& trial : all_trials({}))
     for (const std::string& effect : trial.hidden) hidden[trial.kind].insert(effect);
   EXPECT_EQ(hidden["outside"].size(), 8u);
   EXPECT_EQ(hidden["form"].size(), 5u);
   EXPECT_EQ(hidden["even"].size(), 2u);
-  for (const virtual_laboratory::EffectKind& kind : virtual_laboratory::effect_kinds()) {
+  for (const laboratory::EffectKind& kind : laboratory::effect_kinds()) {
     const std::string name(kind.name);
     const bool unknown = !kind.in_library && kind.family.empty();
     EXPECT_EQ(hidden["outside"].contains(name), unknown && !kind.even) << name;

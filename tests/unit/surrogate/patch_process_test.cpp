@@ -8,9 +8,9 @@
 
 #include <Eigen/Dense>
 
+#include "../pattern/random_patterns.hpp"
 #include "base/random.hpp"
 #include "base/statistics.hpp"
-#include "../pattern/random_patterns.hpp"
 
 namespace nacre::surrogate {
 namespace {
@@ -89,9 +89,7 @@ TEST(PatchCovariance, IsPositiveDefinite) {
   }
   Eigen::MatrixXd matrix(90, 90);
   for (int i = 0; i < 90; ++i)
-    for (int j = 0; j < 90; ++j)
-      matrix(i, j) = covariance(quarter_rows(patterns[static_cast<std::size_t>(i)]),
-                                quarter_rows(patterns[static_cast<std::size_t>(j)]));
+    for (int j = 0; j < 90; ++j) matrix(i, j) = covariance(quarter_rows(patterns[i]), quarter_rows(patterns[j]));
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff(), 1e-5);
 }
 
@@ -217,8 +215,7 @@ TEST(PatchProcess, CovarianceSaysWhatOneMoreSampleWouldLeave) {
   const Eigen::MatrixXd covariance = process->covariance(asked);
   const auto predictions = process->predict(asked);
   ASSERT_EQ(covariance.rows(), 10);
-  for (int i = 0; i < 10; ++i)
-    EXPECT_NEAR(covariance(i, i), std::pow(predictions[static_cast<std::size_t>(i)].deviation, 2), 1e-12);
+  for (int i = 0; i < 10; ++i) EXPECT_NEAR(covariance(i, i), std::pow(predictions[i].deviation, 2), 1e-12);
   // The first of them becomes a sample: its column, squared, is what the others lose.
   std::vector<pattern::Pattern> more = learnt;
   more.push_back(asked.front());
@@ -227,7 +224,7 @@ TEST(PatchProcess, CovarianceSaysWhatOneMoreSampleWouldLeave) {
   const auto afterwards = make_patch_process({more, more_values}, kernel)->predict(asked);
   for (int i = 0; i < 10; ++i) {
     const double left = covariance(i, i) - std::pow(covariance(i, 0), 2) / covariance(0, 0);
-    EXPECT_NEAR(std::pow(afterwards[static_cast<std::size_t>(i)].deviation, 2), std::max(0.0, left), 1e-6) << i;
+    EXPECT_NEAR(std::pow(afterwards[i].deviation, 2), std::max(0.0, left), 1e-6) << i;
   }
 }
 

@@ -490,7 +490,7 @@ TEST(Calibration, SaysThatTheModelMisfitsWhenItLacksAnEffect) {
 
 /// Moduli of designs that the default parameters describe: three replicates that scatter by 0.3 %, and what `floor`
 /// says that numerics leave of each design.
-std::vector<Replicates> designs_without_effect(int count, const NumericsFloor& floor, RandomStream& random) {
+std::vector<Replicates> designs_without_effect(int count, const DiscretisationFloor& floor, RandomStream& random) {
   std::vector<Replicates> measured = measured_designs(count, material::default_parameters());
   for (Replicates& design : measured) {
     const double shown_pa = design.modulus_pa * std::exp(floor.log_modulus_sd * random.normal());

@@ -41,7 +41,7 @@ TEST(RelativeScatter, IsTheDeclaredOneWithoutReplicates) {
 
 TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
   const std::vector<Replicates> measured = {measured_modulus(1e9, 2e7, 4), measured_modulus(1e9, 2e7, 4)};
-  NumericsFloor floor = NumericsFloor::none();
+  DiscretisationFloor floor = DiscretisationFloor::none();
   floor.log_modulus_sd = 0.03;
   const double e = std::exp(0.05) * 1e9, variance = 1e-4 + 9e-4;
   const Likelihood likelihood = modulus_likelihood_of(measured, {modulus(e), modulus(1e9)}, floor, 1);
@@ -54,7 +54,7 @@ TEST(Likelihood, CountsSquaredResidualsOverScatterAndFloor) {
 
 TEST(Likelihood, KnowsWhatTheFloorShiftsInAllDesignsAtOnce) {
   const std::vector<Replicates> measured(2, measured_modulus(1e9, 2e7, 4));
-  NumericsFloor floor = NumericsFloor::none();
+  DiscretisationFloor floor = DiscretisationFloor::none();
   floor.log_modulus_common_sd = 0.05;
   const auto told = [&](double first, double second) {
     return modulus_likelihood_of(measured, {modulus(1e9 * std::exp(first)), modulus(1e9 * std::exp(second))}, floor, 0);
@@ -70,7 +70,7 @@ TEST(Likelihood, KnowsWhatTheFloorShiftsInAllDesignsAtOnce) {
 
 TEST(GoodnessOfFit, CallsNoMisfitWhereNothingWasFittedAndTheFloorExplainsAll) {
   RandomStream random(7, "floor");
-  NumericsFloor floor = NumericsFloor::none();
+  DiscretisationFloor floor = DiscretisationFloor::none();
   floor.log_modulus_sd = 0.005;
   floor.log_modulus_common_sd = 0.05;
   floor.log_toughness_sd = 0.2;
@@ -108,8 +108,8 @@ TEST(Likelihood, TestsNothingWhereTheFitLeavesLessThanOneDegreeOfFreedom) {
 }
 
 TEST(Likelihood, StaysFiniteWhereReplicatesAgreeExactly) {
-  const Likelihood likelihood =
-      modulus_likelihood_of({measured_modulus(1e9, 0.0, 4)}, {modulus(2e9)}, NumericsFloor{.log_modulus_sd = 0.0}, 0);
+  const Likelihood likelihood = modulus_likelihood_of({measured_modulus(1e9, 0.0, 4)}, {modulus(2e9)},
+                                                      DiscretisationFloor{.log_modulus_sd = 0.0}, 0);
   EXPECT_TRUE(std::isfinite(likelihood.fit.chi_squared));
   EXPECT_TRUE(std::isfinite(likelihood.fit.chi_squared_replicates));
   EXPECT_TRUE(likelihood.fit.misfit());
@@ -141,7 +141,7 @@ TEST(GoodnessOfFit, CallsFewMisfitsHoweverLittleIsKnownOfTheScatter) {
                                           : measured_modulus(a, 0.0, 1));
       }
       const std::vector<Prediction> truth(kDesigns, modulus(1e9));
-      misfits += modulus_likelihood_of(measured, truth, NumericsFloor::none(), 0).fit.misfit();
+      misfits += modulus_likelihood_of(measured, truth, DiscretisationFloor::none(), 0).fit.misfit();
     }
     EXPECT_LE(misfits, kSets / 40) << replicated << " designs with replicates";
   }
@@ -160,28 +160,29 @@ TEST(GoodnessOfFit, CallsResidualsOfTheSizeOfScatterNoMisfitAndLargerOnesOne) {
   EXPECT_TRUE(modulus_likelihood_of(measured, wrong, {}, 4).fit.misfit());
 }
 
-TEST(NumericsFloor, IsReadFromTheTableOfItsFidelity) {
+TEST(DiscretisationFloor, IsReadFromTheTableOfItsFidelity) {
   const auto file = std::filesystem::path(testing::TempDir()) / "floor.toml";
   write_file_atomically(file,
                         "[tiny]\nlog_modulus_mean = -0.05\nlog_toughness_sd = 0.3\n"
                         "covariance_rigid = [[1e-6, 0, 0], [0, 0.04, 0], [0, 0, 0.01]]\n"
                         "log_eta_sd = {w_vw_j_per_m3 = 0.6, gamma_per_s = 1.7}\n");
-  const NumericsFloor floor = read_numerics_floor(file, tester::Fidelity::tiny);
+  const DiscretisationFloor floor = read_discretisation_floor(file, tester::Fidelity::tiny);
   EXPECT_EQ(floor.log_modulus_common_sd, 0.05);
   EXPECT_EQ(floor.log_toughness_sd, 0.3);
-  EXPECT_EQ(floor.log_modulus_sd, NumericsFloor{}.log_modulus_sd);
+  EXPECT_EQ(floor.log_modulus_sd, DiscretisationFloor{}.log_modulus_sd);
   EXPECT_DOUBLE_EQ(floor.log_toughness_trend_sd, 0.2);
   EXPECT_DOUBLE_EQ(floor.log_peak_trend_sd, 0.1);
   EXPECT_EQ(floor.log_eta_sd, (material::ToughnessVector{0, 0, 0, 0, 0, 0, 0, 0.6, 0, 1.7}));
-  EXPECT_EQ(read_numerics_floor(file, tester::Fidelity::full).log_toughness_sd, NumericsFloor{}.log_toughness_sd);
+  EXPECT_EQ(read_discretisation_floor(file, tester::Fidelity::full).log_toughness_sd,
+            DiscretisationFloor{}.log_toughness_sd);
   write_file_atomically(file, "[tiny]\nlog_toughness_sd = \"much\"\n");
-  EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
+  EXPECT_THROW(read_discretisation_floor(file, tester::Fidelity::tiny), InputError);
   write_file_atomically(file, "[tiny]\nlog_eta_sd = {w_vw = 0.6}\n");
-  EXPECT_THROW(read_numerics_floor(file, tester::Fidelity::tiny), InputError);
+  EXPECT_THROW(read_discretisation_floor(file, tester::Fidelity::tiny), InputError);
 }
 
-TEST(NumericsFloor, NoneLeavesNothingOfAnyQuantity) {
-  const NumericsFloor none = NumericsFloor::none();
+TEST(DiscretisationFloor, NoneLeavesNothingOfAnyQuantity) {
+  const DiscretisationFloor none = DiscretisationFloor::none();
   for (const double sd : {none.log_modulus_sd, none.log_toughness_sd, none.log_peak_sd, none.log_modulus_common_sd,
                           none.log_toughness_common_sd, none.log_peak_common_sd, none.log_modulus_trend_sd,
                           none.log_toughness_trend_sd, none.log_peak_trend_sd})
@@ -193,7 +194,7 @@ TEST(NumericsFloor, NoneLeavesNothingOfAnyQuantity) {
 struct OneSlope {
   FitData data;
   Point start = Point(kEtaCount, 0.5);
-  Trial trial;
+  FitTrial trial;
   Eigen::MatrixXd slopes;
   explicit OneSlope(int designs) {
     for (int i = 0; i < designs; ++i) {
@@ -213,7 +214,7 @@ struct OneSlope {
 };
 
 TEST(FeaturePosterior, NarrowsAParameterAsTheRootOfTheDesigns) {
-  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
+  const DiscretisationFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
   const auto deviation = [&](int designs) {
     OneSlope problem(designs);
     FeaturePosterior posterior(problem.data, problem.start, floor);
@@ -227,7 +228,7 @@ TEST(FeaturePosterior, NarrowsAParameterAsTheRootOfTheDesigns) {
 }
 
 /// -log posterior of `problem` where log T of each design changes by changes[i], for sizes of the shared errors.
-double cost_of(const OneSlope& problem, const NumericsFloor& floor, const std::vector<FeatureChange>& changes,
+double cost_of(const OneSlope& problem, const DiscretisationFloor& floor, const std::vector<FeatureChange>& changes,
                const Eigen::VectorXd& shared, double deviation = 0.0) {
   FeaturePosterior posterior(problem.data, problem.start, floor);
   posterior.set_base(problem.trial);
@@ -235,7 +236,7 @@ double cost_of(const OneSlope& problem, const NumericsFloor& floor, const std::v
 }
 
 TEST(FeaturePosterior, AnErrorCommonToAllDesignsIsNotAveragedAway) {
-  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3};
+  const DiscretisationFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3};
   const OneSlope problem(400);
   const std::vector<FeatureChange> none(400), all(400, FeatureChange{0.6, 0.0});  // two standard deviations
   const Eigen::Vector3d error(2.0, 0.0, 0.0);
@@ -257,7 +258,7 @@ TEST(FeaturePosterior, WhatTheEmulatorMayBeWrongByIsNoEvidence) {
 }
 
 TEST(FeaturePosterior, TenDesignsOfATenthOfTheWeightCountAsOne) {
-  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
+  const DiscretisationFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.0};
   struct Told {
     double information, cost;  // on the parameter that acts; of a change of all toughnesses
   };
@@ -278,7 +279,8 @@ TEST(FeaturePosterior, TenDesignsOfATenthOfTheWeightCountAsOne) {
 }
 
 TEST(FeaturePosterior, NorIsAnErrorThatGrowsWithTheRigidFraction) {
-  const NumericsFloor floor{.log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3, .log_toughness_trend_sd = 0.1};
+  const DiscretisationFloor floor{
+      .log_toughness_sd = 0.2, .log_toughness_common_sd = 0.3, .log_toughness_trend_sd = 0.1};
   OneSlope problem(400);
   std::vector<FeatureChange> none(400), trend;
   for (std::size_t i = 0; i < 400; ++i) {

@@ -77,23 +77,23 @@ TEST(FreedomTaken, IsLessWherePriorAndDataShare) {
 
 // Log E of each design is linear in all six coordinates, and off by a twentieth that none of them explains.
 std::vector<Prediction> linear_moduli(const Point& point, int designs, int failing) {
-  std::vector<Prediction> predictions(static_cast<std::size_t>(designs + failing));
+  std::vector<Prediction> predictions(designs + failing);
   for (int i = 0; i < designs; ++i) {
     RandomStream random(static_cast<std::uint64_t>(i), "design");
     double log_modulus = 0.05 * random.normal();
     for (const double x : point) log_modulus += random.normal() * (x - 0.5);
-    predictions[static_cast<std::size_t>(i)].modulus_pa = 1e9 * std::exp(log_modulus);
+    predictions[i].modulus_pa = 1e9 * std::exp(log_modulus);
   }
   return predictions;
 }
 
-std::unique_ptr<Fit> fitted_moduli(int designs, int failing) {
+std::unique_ptr<ParameterFit> fitted_moduli(int designs, int failing) {
   measurement::Replicates design;
   design.modulus_count = 1;
   design.modulus_pa = 1e9;
   const std::size_t count = static_cast<std::size_t>(designs + failing);
   auto fit = make_modulus_fit({.measured = std::vector(count, design), .weights = std::vector(count, 1.0)},
-                              {.start = Point(6, 0.5), .budget = 60, .floor = NumericsFloor::none()});
+                              {.start = Point(6, 0.5), .budget = 60, .floor = DiscretisationFloor::none()});
   for (std::vector<Point> points = fit->ask(); !points.empty(); points = fit->ask()) {
     std::vector<std::vector<Prediction>> told;
     for (const Point& point : points) told.push_back(linear_moduli(point, designs, failing));
@@ -123,7 +123,7 @@ TEST(LeastSquaresFit, DesignsWhoseSimulationFailsNarrowNoInterval) {
 TEST(ToughnessDeviations, ASetWithoutCurvesHasARowForEachDesign) {
   constexpr int kDesigns = 12;
   FitData data{.measured = {}, .weights = std::vector<double>(kDesigns, 1.0)};
-  Trial trial{.point = Point(kEtaCount, 0.5), .predictions = {}};
+  FitTrial trial{.point = Point(kEtaCount, 0.5), .predictions = {}};
   Eigen::VectorXd residuals(kDesigns);
   for (int i = 0; i < kDesigns; ++i) {
     measurement::Replicates design;
@@ -133,7 +133,7 @@ TEST(ToughnessDeviations, ASetWithoutCurvesHasARowForEachDesign) {
     data.measured.push_back(design);
     trial.predictions.push_back({.modulus_pa = {}, .toughness_pa = 2e5 * std::exp(residuals[i]), .curve = {}});
   }
-  std::vector<Trial> trials = {trial, trial};
+  std::vector<FitTrial> trials = {trial, trial};
   trials[1].point[kW0] = 0.6;
   const std::vector<double> spans(kEtaCount, 2.0);
   FeatureEmulator emulator(spans, kDesigns);
@@ -144,9 +144,8 @@ TEST(ToughnessDeviations, ASetWithoutCurvesHasARowForEachDesign) {
   Eigen::MatrixXd information = slopes.topRows(kDesigns).transpose() * slopes.topRows(kDesigns) / deviation / deviation;
   information.diagonal().array() += 12.0;
   const Eigen::MatrixXd covariance = information.inverse();
-  const auto deviations = toughness_deviations(data, trials, 0, spans, false, NumericsFloor::none());
-  for (int j = 0; j < kEtaCount; ++j)
-    EXPECT_NEAR(deviations[static_cast<std::size_t>(j)], std::sqrt(covariance(j, j)), 1e-9) << j;
+  const auto deviations = toughness_deviations(data, trials, 0, spans, false, DiscretisationFloor::none());
+  for (int j = 0; j < kEtaCount; ++j) EXPECT_NEAR(deviations[j], std::sqrt(covariance(j, j)), 1e-9) << j;
 }
 
 }  // namespace

@@ -35,12 +35,8 @@ Grid assembled(const pattern::Design& design, const material::Extensions& extens
   return assemble(design, parameters, {.orientation_deg = orientation_deg}, target, 2, 1, refinement);
 }
 
-Phase phase_at(const Grid& grid, int row, int column) {
-  return grid.phase[static_cast<std::size_t>(grid.index(row, column))];
-}
-double young_at(const Grid& grid, int row, int column) {
-  return grid.young_pa[static_cast<std::size_t>(grid.index(row, column))];
-}
+Phase phase_at(const Grid& grid, int row, int column) { return grid.phase[grid.index(row, column)]; }
+double young_at(const Grid& grid, int row, int column) { return grid.young_pa[grid.index(row, column)]; }
 
 bool same(const Grid& a, const Grid& b) {
   return a.columns == b.columns && a.rows == b.rows && a.element_size_m == b.element_size_m && a.phase == b.phase &&

@@ -82,8 +82,7 @@ TEST(Overprint, ByHalfAPixelMovesEveryBoundaryByOneElement) {
   // Along the row through the middle of the blocks: 9 rigid elements, 1 interface, 9 soft, 1 interface.
   const auto phases_in_row = [](const Grid& g, int row) {
     std::string text;
-    for (int column = 0; column < g.columns; ++column)
-      text += "sri."[static_cast<std::size_t>(g.phase[static_cast<std::size_t>(g.index(row, column))])];
+    for (int column = 0; column < g.columns; ++column) text += "sri."[g.phase[g.index(row, column)]];
     return text;
   };
   const std::string before = phases_in_row(base, 4), after = phases_in_row(grid, 4);
@@ -171,8 +170,8 @@ TEST(StrengthScatter, OfAFinerMeshIsThatOfTheVoxels) {
   scatter_strength(fine, 2, 0.3, "a");
   for (int row = 0; row < fine.rows; ++row)
     for (int column = 0; column < fine.columns; ++column)
-      EXPECT_DOUBLE_EQ(fine.threshold_j_per_m3[static_cast<std::size_t>(fine.index(row, column))],
-                       2.0 * coarse.threshold_j_per_m3[static_cast<std::size_t>(coarse.index(row / 2, column / 2))]);
+      EXPECT_DOUBLE_EQ(fine.threshold_j_per_m3[fine.index(row, column)],
+                       2.0 * coarse.threshold_j_per_m3[coarse.index(row / 2, column / 2)]);
 }
 
 Grid notched(double radius, int refinement = 1) {

@@ -46,10 +46,10 @@ TEST(SimulationKey, ChangesWithDesignFidelityAndOrientation) {
 
 TEST(SimulationKey, OfTheModulusFeelsThetaAndNothingOfEta) {
   for (int i = 0; i < material::kModulusParameterCount; ++i) {
-    const bool is_damping = material::modulus_parameter_names()[static_cast<std::size_t>(i)] == "gamma_per_s";
+    const bool is_damping = material::modulus_parameter_names()[i] == "gamma_per_s";
     const auto change = [i](Simulation& s) {
       auto theta = material::to_vector(s.parameters.modulus);
-      theta[static_cast<std::size_t>(i)] *= 1.0 + 1e-15;
+      theta[i] *= 1.0 + 1e-15;
       s.parameters.modulus = material::modulus_from_vector(theta);
     };
     EXPECT_EQ(distinguishes(TestKind::modulus, change), !is_damping) << i;  // the static solution has no damping
@@ -62,7 +62,7 @@ TEST(SimulationKey, OfTheToughnessFeelsEveryEta) {
   for (int i = 0; i < material::kToughnessParameterCount; ++i) {
     const auto change = [i](Simulation& s) {
       auto eta = material::to_vector(s.parameters.toughness);
-      eta[static_cast<std::size_t>(i)] *= 1.0 + 1e-15;
+      eta[i] *= 1.0 + 1e-15;
       s.parameters.toughness = material::toughness_from_vector(eta);
     };
     EXPECT_TRUE(distinguishes(TestKind::toughness, change)) << i;

@@ -102,7 +102,7 @@ TEST(Tensile, SoftensFromTheThresholdOfTheToughnessTable) {
   for (int i = 1; i <= 60; ++i) history.push_back(0.05 * i * first);
   const Curve curve = test_tensile(simulation, history).value();
   const auto peak = std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) - curve.stress_pa.begin();
-  EXPECT_NEAR(history[static_cast<std::size_t>(peak)] / first, 1.0, 0.1);
+  EXPECT_NEAR(history[peak] / first, 1.0, 0.1);
   EXPECT_EQ(curve.stress_pa.back(), 0.0);
   EXPECT_NEAR(area_under(curve) / (2.0 * threshold), 1.0, 0.05);
 }

@@ -11,9 +11,9 @@ double toughness(double rigid_fraction, double gamma_per_s, double time_step_sca
   simulation.parameters.toughness.e_tb_pa = 1e6;
   simulation.parameters.toughness.w_tb_j_per_m3 = 3e5;
   simulation.parameters.toughness.gamma_per_s = gamma_per_s;
-  Numerics numerics;
-  numerics.time_step_scale = time_step_scale;
-  return test_toughness(simulation, numerics).value().toughness_pa;
+  Discretisation discretisation;
+  discretisation.time_step_scale = time_step_scale;
+  return test_toughness(simulation, discretisation).value().toughness_pa;
 }
 
 // With alpha = gamma dt above 3/4 the shortest waves grow without bound, and T was 1/500 of what it is. What is left is

@@ -31,18 +31,18 @@ TEST(UnitCell, AllRigidItIsTheRigidMaterialLoadedEverywhereAlike) {
 
 /// A specimen of two units with free sides is a little softer or stiffer than an endless one, and ranks alike: with the
 /// model as it is and with one that blurs the boundaries.
-TEST(UnitCell, ForetellsTheModulusTester) {
+TEST(UnitCell, PredictsTheModulusTester) {
   const auto patterns = random_patterns(60);
   for (const double mixing_pixels : {0.0, 0.8}) {
     material::ParameterSet parameters = material::default_parameters();
     if (mixing_pixels > 0.0) parameters.extensions["droplet_mixing"] = {mixing_pixels};
-    std::vector<double> foretold, tested;
+    std::vector<double> predicted, tested;
     for (const pattern::Pattern& pattern : patterns) {
-      foretold.push_back(pull_unit_cell(pattern, parameters, AssemblyTarget::modulus)->modulus_pa);
+      predicted.push_back(pull_unit_cell(pattern, parameters, AssemblyTarget::modulus)->modulus_pa);
       tested.push_back(test_modulus({pattern, parameters, {}, Fidelity::preview})->modulus_pa);
-      EXPECT_LT(std::abs(std::log(foretold.back() / tested.back())), 0.15) << pattern.key();
+      EXPECT_LT(std::abs(std::log(predicted.back() / tested.back())), 0.15) << pattern.key();
     }
-    EXPECT_GT(rank_correlation(foretold, tested), 0.99) << mixing_pixels;
+    EXPECT_GT(rank_correlation(predicted, tested), 0.99) << mixing_pixels;
   }
 }
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "base/result.hpp"
-#include "virtual_lab/question.hpp"
+#include "virtual_lab/experiment_text.hpp"
 
-namespace nacre::virtual_laboratory {
+namespace nacre::laboratory {
 namespace {
 
 using runtime::Message;
@@ -111,7 +111,7 @@ TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherQuestion) {
   EXPECT_EQ(core.step(message(pulled)).computes.size(), 1u);
   const Outputs outputs = core.step(message(unloaded));
   ASSERT_EQ(outputs.computes.size(), 1u);
-  EXPECT_EQ(question_from_spec(outputs.computes.front().spec).value().loading, unloaded.loading);
+  EXPECT_EQ(experiment_from_spec(outputs.computes.front().spec).value().loading, unloaded.loading);
 }
 
 TEST(VirtualLabCore, AnUnknownLoadingProgrammeIsRefusedWithAWarningThatQuotesIt) {
@@ -144,4 +144,4 @@ TEST(VirtualLabCore, AnUnreadableResultOfWorkGivesInvalidSpecimens) {
 }
 
 }  // namespace
-}  // namespace nacre::virtual_laboratory
+}  // namespace nacre::laboratory

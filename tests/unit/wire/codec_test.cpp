@@ -42,7 +42,7 @@ std::string corrupted(std::string bytes, RandomStream& random) {
   if (kind == 1)
     return bytes.insert(static_cast<std::size_t>(random.index(static_cast<int>(bytes.size()))), edits, '\xff');
   for (int i = 0; i < edits; ++i) {
-    char& byte = bytes[static_cast<std::size_t>(random.index(static_cast<int>(bytes.size())))];
+    char& byte = bytes[random.index(static_cast<int>(bytes.size()))];
     byte = kind == 2 ? static_cast<char>(random.index(256)) : static_cast<char>(byte ^ (1 << random.index(8)));
   }
   return bytes;

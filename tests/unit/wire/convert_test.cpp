@@ -243,7 +243,7 @@ TEST(Convert, AnswersAreCutBelowADatagramAndJoinedInAnyOrder) {
   }
   std::vector<SimulateResult> parts = simulate_answer("analyser/1", results);
   ASSERT_GT(parts.size(), 3u);
-  AnswerCollector collector;
+  ResponseCollector collector;
   std::optional<std::vector<SimulatedDesign>> whole;
   for (std::size_t i = parts.size(); i-- > 0;) {
     EXPECT_LE(write(parts[i]).size(), kMaximumBlankPayload);

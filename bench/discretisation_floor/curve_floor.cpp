@@ -1,0 +1,140 @@
+// What the elements of the fracture tester leave of the features that a diagnosis compares
+// (lib/diagnosis/features.hpp): elements of size h against h/2, the layouts and parameter sets of discretisation_floor.
+// Finished tests are kept in a table. Result: [FIDELITY.curve] of data/discretisation_floor.toml,
+// docs/studies/discretisation-floor.md.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <Eigen/Dense>
+
+#include "base/files.hpp"
+#include "diagnosis/features.hpp"
+#include "floor_rows.hpp"
+#include "study/study_command.hpp"
+
+namespace {
+
+using namespace nacre;
+using namespace nacre::discretisation_floor;
+using diagnosis::Feature;
+
+constexpr std::size_t kLeastPairs = 4;  // of a parameter set, to say anything of it
+constexpr double kMiddleFraction = 0.675, kFractionUnit = 0.1;
+
+/// The features of a fracture test, in their order.
+std::vector<Feature> compared() {
+  std::vector<Feature> features;
+  for (int f = static_cast<int>(Feature::log_toughness); f <= static_cast<int>(Feature::tail); ++f)
+    features.push_back(static_cast<Feature>(f));
+  return features;
+}
+
+/// Not a number where a test failed or does not show a feature: the table keeps numbers only, so 1e9 stands for it.
+constexpr double kMissing = 1e9;
+
+std::vector<study::Wanted> wanted_curves(const Plan& plan) {
+  std::vector<study::Wanted> wanted;
+  for (std::size_t pass = 0; pass < plan.sets.size(); ++pass)
+    for (std::size_t i = 0; i < plan.layouts.size(); ++i)
+      for (const int refinement : {1, 2}) {
+        const std::size_t set = (i + pass) % plan.sets.size();
+        tester::Simulation simulation{plan.layouts[i], plan.sets[set], {}, plan.fidelity};
+        simulation.parameters.toughness.gamma_per_s *= refinement * refinement;
+        wanted.push_back({toughness_key(plan, i, set, refinement), [=]() -> std::vector<double> {
+                            const auto result = tester::test_toughness(simulation, {.refinement = refinement});
+                            const diagnosis::FeatureValues features =
+                                result ? diagnosis::fracture_features(result->curve) : diagnosis::FeatureValues{};
+                            std::vector<double> values;
+                            for (const Feature feature : compared())
+                              values.push_back(diagnosis::value_of(features, feature).value_or(kMissing));
+                            return values;
+                          }});
+      }
+  return wanted;
+}
+
+struct Pair {
+  double z = 0.0;
+  Eigen::VectorXd change;  ///< feature(h/2) - feature(h)
+};
+
+/// Covariance of changes: mean over parameter sets of what all layouts share, of what goes with rigid fraction, and
+/// what is left per layout.
+struct CurveFloor {
+  Eigen::MatrixXd shared, rigid, layout;
+  int pairs = 0, sets = 0;
+};
+
+CurveFloor curve_floor(const Plan& plan, const study::StudyTable& table) {
+  const auto count = static_cast<Eigen::Index>(compared().size());
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(count, count);
+  CurveFloor floor{none, none, none};
+  double freedom = 0.0;
+  for (std::size_t s = 0; s < plan.sets.size(); ++s) {
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+      const auto coarse = table.find(toughness_key(plan, i, s, 1)), fine = table.find(toughness_key(plan, i, s, 2));
+      if (!coarse || !fine) continue;
+      Pair pair{(plan.layouts[i].rigid_fraction() - kMiddleFraction) / kFractionUnit, Eigen::VectorXd(count)};
+      for (Eigen::Index f = 0; f < count; ++f) pair.change[f] = (*fine)[f] - (*coarse)[f];
+      if (pair.change.cwiseAbs().maxCoeff() < 0.5 * kMissing && (*fine)[0] < kMissing) pairs.push_back(pair);
+    }
+    if (pairs.size() < kLeastPairs) continue;
+    double n = 0.0, z1 = 0.0, z2 = 0.0;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(count), sum_z = sum;
+    for (const Pair& pair : pairs)
+      n += 1.0, z1 += pair.z, z2 += pair.z * pair.z, sum += pair.change, sum_z += pair.z * pair.change;
+    const double determinant = n * z2 - z1 * z1;
+    const Eigen::VectorXd middle = (z2 * sum - z1 * sum_z) / determinant, slope = (n * sum_z - z1 * sum) / determinant;
+    floor.shared += middle * middle.transpose();
+    floor.rigid += slope * slope.transpose();
+    for (const Pair& pair : pairs) {
+      const Eigen::VectorXd rest = pair.change - middle - pair.z * slope;
+      floor.layout += rest * rest.transpose();
+    }
+    freedom += n - 2.0;
+    floor.pairs += static_cast<int>(pairs.size());
+    ++floor.sets;
+  }
+  if (floor.sets == 0) return floor;
+  floor.shared /= floor.sets, floor.rigid /= floor.sets, floor.layout /= freedom;
+  return floor;
+}
+
+std::string text_of(const Eigen::MatrixXd& matrix) {
+  std::string text = "[\n";
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    text += "  [";
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      text += fmt::format("{}{:.3e}", column == 0 ? "" : ", ", matrix(row, column));
+    text += "],\n";
+  }
+  return text + "]";
+}
+
+void run(const FloorOptions& options) {
+  const Plan plan = plan_of(options);
+  std::vector<std::string> columns;
+  for (const Feature feature : compared()) columns.emplace_back(to_string(feature));
+  study::StudyTable table(options.table.table, columns);
+  const int missing = study::fill(table, wanted_curves(plan), options.table.seconds, options.table.threads);
+  if (missing > 0) fmt::print(stderr, "{} fracture tests are still missing: run it again\n", missing);
+  const CurveFloor floor = curve_floor(plan, table);
+  std::string names;
+  for (const std::string& name : columns) names += (names.empty() ? "\"" : ", \"") + name + "\"";
+  fmt::print(
+      "[{}.curve]  # {} pairs, {} parameter sets\nfeatures = [{}]\ncovariance_shared = {}\ncovariance_rigid = "
+      "{}\ncovariance_layout = {}\n",
+      options.fidelity, floor.pairs, floor.sets, names, text_of(floor.shared), text_of(floor.rigid),
+      text_of(floor.layout));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Numerics floor of the features of a curve: elements of size h against h/2"};
+  FloorOptions options{.table = {.table = "curve_floor.csv"}};
+  add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  return study::exit_status_of([&] { run(options); });
+}

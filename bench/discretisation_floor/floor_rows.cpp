@@ -1,0 +1,117 @@
+#include "floor_rows.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "base/result.hpp"
+#include "explore/gamut_csv.hpp"
+#include "material/ranges.hpp"
+#include "pattern/random_pattern.hpp"
+#include "tester/fracture_test.hpp"
+
+namespace nacre::discretisation_floor {
+namespace {
+
+/// The first `count` patterns of a gamut by rank, within a rank in order of evaluation.
+std::vector<pattern::Pattern> best_of_gamut(int count, const std::string& file) {
+  const std::vector<explore::Evaluated> gamut = explore::read_gamut_csv(file);
+  if (static_cast<int>(gamut.size()) < count)
+    throw InputError::format("{}: expected at least {} patterns, it has {}", file, count, gamut.size());
+  std::vector<optimize::Performance> performances;
+  for (const explore::Evaluated& each : gamut) performances.push_back(each.performance);
+  const std::vector<int> ranks = optimize::non_dominated_ranks(performances);
+  std::vector<std::size_t> order(gamut.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return ranks[i]; });
+  std::vector<pattern::Pattern> best;
+  for (int i = 0; i < count; ++i) best.push_back(gamut[order[i]].pattern);
+  return best;
+}
+
+double drawn(const material::ParameterRange& range, RandomStream& random) {
+  return material::from_unit(range, random.uniform(0.25, 0.75));
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, FloorOptions& options) {
+  app.add_option("--layouts", options.layouts, "Half random (50-85 % rigid), half the best of the gamut")
+      ->check(CLI::Range(12, 1000));
+  app.add_option("--sets", options.sets, "Parameter sets, the defaults first")->check(CLI::Range(1, 100));
+  app.add_option("--gamut", options.gamut, "gamut.csv of nacre explore")->check(CLI::ExistingFile);
+  study::add_fidelity_option(app, options.fidelity);
+  study::add_table_options(app, options.table, "layouts and parameter sets");
+}
+
+Plan plan_of(const FloorOptions& options) {
+  return {.fidelity = *tester::fidelity_from_string(options.fidelity),
+          .seed = options.table.seed,
+          .layouts = floor_layouts(options.layouts, options.gamut, options.table.seed),
+          .sets = floor_parameter_sets(options.sets, options.table.seed)};
+}
+
+std::vector<pattern::Pattern> floor_layouts(int count, const std::string& gamut_file, std::uint64_t seed) {
+  RandomStream random(seed, "numerics floor");
+  const std::vector<pattern::Pattern> stratified = pattern::stratified_patterns(count / 2, random);
+  const std::vector<pattern::Pattern> best = best_of_gamut(count - count / 2, gamut_file);
+  std::vector<pattern::Pattern> layouts;
+  for (std::size_t i = 0; i < best.size(); ++i) {  // in turn, so that a study cut short has both kinds
+    layouts.push_back(best[i]);
+    if (i < stratified.size()) layouts.push_back(stratified[i]);
+  }
+  return layouts;
+}
+
+std::vector<material::ParameterSet> floor_parameter_sets(int count, std::uint64_t seed) {
+  RandomStream random(seed, "numerics floor/parameters");
+  std::vector<material::ParameterSet> sets = {material::default_parameters()};
+  while (static_cast<int>(sets.size()) < count) {
+    material::ModulusVector theta{};
+    material::ToughnessVector eta{};
+    const auto theta_ranges = material::thesis_ranges().modulus(material::FitTarget::microstructures);
+    const auto eta_ranges = material::thesis_ranges().toughness(material::FitTarget::microstructures);
+    for (std::size_t i = 0; i < theta.size(); ++i) theta[i] = drawn(theta_ranges[i], random);
+    for (std::size_t i = 0; i < eta.size(); ++i) eta[i] = drawn(eta_ranges[i], random);
+    sets.push_back({.modulus = material::modulus_from_vector(theta),
+                    .toughness = material::toughness_from_vector(eta),
+                    .extensions = {}});
+  }
+  return sets;
+}
+
+double modulus_pa(const Plan& plan, const pattern::Pattern& layout, const material::ModulusParameters& theta,
+                  int refinement) {
+  tester::Simulation simulation{layout, material::default_parameters(), {}, plan.fidelity};
+  simulation.parameters.modulus = theta;
+  const Result<tester::ModulusResult> result = tester::test_modulus(simulation, {.refinement = refinement});
+  if (!result) throw InputError::format("{}: {}", layout.key(), result.error().message);
+  return result->modulus_pa;
+}
+
+std::string toughness_key(const Plan& plan, std::size_t layout, std::size_t set, int refinement) {
+  return fmt::format("{} {} {} {} {}", tester::to_string(plan.fidelity), plan.seed, plan.layouts[layout].key(), set,
+                     refinement);
+}
+
+std::vector<study::Wanted> wanted_fracture_tests(const Plan& plan) {
+  std::vector<study::Wanted> wanted;
+  for (std::size_t pass = 0; pass < static_cast<std::size_t>(plan.sets_per_layout); ++pass)
+    for (std::size_t i = 0; i < plan.layouts.size(); ++i)
+      for (const int refinement : {1, 2}) {
+        const std::size_t set = (i + pass) % plan.sets.size();
+        tester::Simulation simulation{plan.layouts[i], plan.sets[set], {}, plan.fidelity};
+        simulation.parameters.toughness.gamma_per_s *= refinement * refinement;
+        const std::string key = toughness_key(plan, i, set, refinement);
+        wanted.push_back({key, [=]() -> std::vector<double> {
+                            const auto result = tester::test_toughness(simulation, {.refinement = refinement});
+                            if (result) return {result->toughness_pa, result->peak_stress_pa, result->failure_strain};
+                            fmt::print(stderr, "{}: {}\n", key, result.error().message);
+                            return {0.0, 0.0, 0.0};
+                          }});
+      }
+  return wanted;
+}
+
+}  // namespace nacre::discretisation_floor

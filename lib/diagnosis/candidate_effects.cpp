@@ -1,0 +1,45 @@
+#include "diagnosis/candidate_effects.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace nacre::diagnosis {
+namespace {
+
+using tester::TestKind;
+
+constexpr int kLeastGroups = 8, kLeastCoupons = 4;
+constexpr double kNothing = 1e-9;
+
+}  // namespace
+
+bool tells_on_moduli(const material::Effect& effect) {
+  return effect.side == material::EffectSide::measurement || effect.name == "interface_anisotropy" ||
+         effect.name == "droplet_mixing" || effect.name == "rigid_overprint";
+}
+
+bool is_modulus_of_layout(const Observations& observations, Eigen::Index row) {
+  const Row& each = observations.rows[row];
+  return each.probe == Probe::mean && each.test == TestKind::modulus &&
+         observations.group_of(static_cast<int>(row)).design.layout() != nullptr;
+}
+
+bool has_signature(const material::Effect& effect, const Eigen::VectorXd& change, const Observations& observations,
+                   std::span<const Eigen::Index> rows) {
+  return std::ranges::any_of(rows, [&](Eigen::Index row) {
+    return change[row] > kNothing && (tells_on_moduli(effect) || !is_modulus_of_layout(observations, row));
+  });
+}
+
+std::optional<std::string> why_too_few(std::span<const Observation> groups) {
+  const auto layouts = std::ranges::count_if(groups, [](const Observation& g) { return g.design.layout() != nullptr; });
+  const auto coupons = std::ranges::count(groups, TestKind::tensile, &Observation::test);
+  if (layouts >= kLeastGroups || coupons >= kLeastCoupons) return std::nullopt;
+  return fmt::format(
+      "a diagnosis needs at least {} designs with a valid modulus or toughness (once per test and conditions), or {} "
+      "coupons with a curve that differ in material, rate or thickness (replicates count once); there are {} and {}",
+      kLeastGroups, kLeastCoupons, layouts, coupons);
+}
+
+}  // namespace nacre::diagnosis

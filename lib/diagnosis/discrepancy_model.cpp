@@ -1,0 +1,148 @@
+#include "diagnosis/discrepancy_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "base/parallel.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+/// Amplitudes that are tried, in standard deviations of a row; 0 is the base model.
+constexpr std::array kAmplitudes = {0.0, 0.25, 0.35, 0.5, 0.7,  1.0,  1.4,  2.0,
+                                    2.8, 4.0,  5.6,  8.0, 11.0, 16.0, 23.0, 32.0};
+/// Enough to tell 3 %.
+constexpr int kMostDraws = 1000;
+
+/// Mean of `matrix`'s diagonal over the rows of each kind (feature, test, probe) is brought to `noise`'s.
+Eigen::MatrixXd in_units_of(const Eigen::MatrixXd& noise, Eigen::MatrixXd matrix, const Observations& observations) {
+  std::map<std::tuple<Feature, tester::TestKind, Probe>, std::pair<double, double>> sums;
+  const auto kind = [&](int i) {
+    const Row& row = observations.rows[i];
+    return std::tuple(row.feature, row.test, row.probe);
+  };
+  for (int i = 0; i < observations.size(); ++i)
+    sums[kind(i)].first += matrix(i, i), sums[kind(i)].second += noise(i, i);
+  Eigen::VectorXd scale(observations.size());
+  for (int i = 0; i < observations.size(); ++i) {
+    const auto& [own, wanted] = sums[kind(i)];
+    scale[i] = own > 0.0 ? std::sqrt(wanted / own) : 0.0;
+  }
+  return scale.asDiagonal() * matrix * scale.asDiagonal();
+}
+
+/// Residuals of one data set with the base's coordinates integrated out (their prior is Gaussian), under one covariance
+/// of the noise.
+struct Marginal {
+  Eigen::VectorXd residual;    ///< from the middle of the prior
+  Eigen::MatrixXd covariance;  ///< noise and what the base can move
+};
+
+Marginal marginal(const FittedModel& base, const NoisyData& data) {
+  Marginal result{data.values - base.predicted, data.whitener.covariance()};
+  for (const int i : base.free) {
+    if (i >= base.base_count) continue;
+    const Eigen::VectorXd column = base.jacobian.col(i);
+    result.residual -= column * (0.5 - base.u[i]);
+    result.covariance += std::pow(base.prior_sd[i], 2) * column * column.transpose();
+  }
+  return result;
+}
+
+struct Amplitude {
+  double value = 0.0;
+  double deviance = 0.0;  ///< -2 log likelihood, less the logarithmic determinant of the covariance without outsider
+};
+
+/// The most probable amplitude. All are tried: where rows of unlike scatter meet, the likelihood may have more than one
+/// hill.
+Amplitude most_probable(const Marginal& data, const Eigen::MatrixXd& unit) {
+  Amplitude best;
+  double reference = 0.0;
+  for (const double amplitude : kAmplitudes) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance + amplitude * amplitude * unit);
+    const double determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    if (amplitude == 0.0) reference = determinant;
+    const double deviance = factor.matrixL().solve(data.residual).squaredNorm() + determinant - reference;
+    if (amplitude == 0.0 || deviance < best.deviance) best = {amplitude, deviance};
+  }
+  return best;
+}
+
+/// The least chi2 that `count` effects reach on these data, added one by one along their signatures.
+double best_chi2(const Marginal& data, const std::vector<Signature>& signatures, int count) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(data.covariance);
+  Eigen::VectorXd residual = factor.matrixL().solve(data.residual);
+  std::vector<Eigen::VectorXd> taken;
+  for (int step = 0; step < count; ++step) {
+    double best = 0.0;
+    Eigen::VectorXd along_best;
+    for (const Signature& signature : signatures) {
+      const Eigen::MatrixXd whitened = factor.matrixL().solve(signature.changes);
+      for (Eigen::Index i = 0; i < whitened.cols(); ++i) {
+        Eigen::VectorXd g = whitened.col(i);
+        for (const Eigen::VectorXd& other : taken) g -= other * other.dot(g);
+        const double length = g.norm(), along = length > 1e-6 ? g.dot(residual) / length : 0.0;
+        if ((signature.one_sided && along < 0.0) || along * along <= best) continue;
+        best = along * along;
+        along_best = g / length;
+      }
+    }
+    if (best == 0.0) break;
+    residual -= along_best * along_best.dot(residual);
+    taken.push_back(along_best);
+  }
+  return residual.squaredNorm();
+}
+
+}  // namespace
+
+Eigen::MatrixXd discrepancy_covariance(const Observations& observations,
+                                       const std::vector<ContrastDirection>& directions, const Eigen::MatrixXd& noise) {
+  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(observations.size(), observations.size()), own = along;
+  for (const ContrastDirection& direction : directions) along += direction.values * direction.values.transpose();
+  for (int i = 0; i < observations.size(); ++i) {
+    for (int j = 0; j < observations.size(); ++j) {
+      const Row &a = observations.rows[i], &b = observations.rows[j];
+      const bool alike = a.feature == b.feature && a.test == b.test && a.probe == b.probe;
+      if (alike && a.probe == Probe::mean && observations.group_of(i).design == observations.group_of(j).design)
+        own(i, j) = 1.0;
+    }
+  }
+  return 0.5 * in_units_of(noise, std::move(along), observations) +
+         0.5 * in_units_of(noise, std::move(own), observations);
+}
+
+DiscrepancyTest tested_against_discrepancy(const Evidence& evidence, double chi2, int count) {
+  const Observations& observations = evidence.observations;
+  const DataSource source(observations);
+  const Anchor anchor = source.combined(evidence.base);
+  const Eigen::MatrixXd by_rows =
+      source.combined(discrepancy_covariance(observations, evidence.base.directions, observations.covariance()));
+  const Eigen::MatrixXd unit = source.combined(by_rows.transpose());
+  const NoisyData data{source.combined(Eigen::MatrixXd(observations.values)),
+                       Whitener::independent(Eigen::VectorXd::Ones(observations.size()))};
+  const Amplitude own = most_probable(marginal(anchor.fit, data), unit);
+  DiscrepancyTest discrepancy{own.value, own.deviance - chi2, 1.0};
+  const int draws = std::min(kMostDraws, evidence.settings.bootstraps);
+  std::vector<double> leads(draws);
+  const Eigen::MatrixXd spread =
+      own.value * Eigen::MatrixXd((unit + 1e-9 * unit.trace() / static_cast<double>(unit.rows()) *
+                                              Eigen::MatrixXd::Identity(unit.rows(), unit.cols()))
+                                      .llt()
+                                      .matrixL());
+  parallel_for(draws, [&](int i) {
+    RandomStream random(evidence.settings.seed + 4, "outsider/" + std::to_string(i));
+    Eigen::VectorXd cause(observations.size());
+    for (double& value : cause) value = random.normal();
+    const Marginal drawn = marginal(anchor.fit, source.draw(anchor.fit.predicted + spread * cause, random));
+    leads[i] = most_probable(drawn, unit).deviance - best_chi2(drawn, anchor.signatures, count);
+  });
+  discrepancy.p = exceedance(leads, discrepancy.lead);
+  return discrepancy;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <filesystem>
+#include <vector>
+
+#include "diagnosis/features.hpp"
+#include "tester/tester.hpp"
+
+namespace nacre::diagnosis {
+
+/// What the elements of the fracture tester leave of an error in the features of a curve
+/// (data/discretisation_floor.toml, table [FIDELITY.curve]; docs/studies/discretisation-floor.md). Between layouts i
+/// and j, z = (rigid fraction - 0.675) / 0.1: covariance = shared + z_i z_j rigid + (i = j) layout.
+struct FractureDiscretisation {
+  std::vector<Feature> features;          ///< empty: nothing known
+  Eigen::MatrixXd shared, rigid, layout;  ///< features x features
+  /// Covariance between feature a of one layout and feature b of another (or the same), 0 when one of them is not in
+  /// the list.
+  double covariance(Feature a, Feature b, double z_a, double z_b, bool same_layout) const;
+};
+
+/// Reads [FIDELITY.curve]; a file without that table knows nothing. Throws InputError naming file and key.
+FractureDiscretisation read_fracture_discretisation(const std::filesystem::path& file, tester::Fidelity fidelity);
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,47 @@
+#include "diagnosis/included_specimens.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace nacre::diagnosis {
+namespace {
+
+using measurement::SpecimenRecord;
+using tester::TestKind;
+
+bool is_coupon(const SpecimenRecord& s) { return s.valid && s.test == TestKind::tensile && s.design.mixture(); }
+bool is_homogeneous_modulus(const SpecimenRecord& s) {
+  return s.valid && s.test == TestKind::modulus && s.design.mixture();
+}
+bool is_layout_modulus(const SpecimenRecord& s) { return s.valid && s.test == TestKind::modulus && s.design.layout(); }
+bool is_fracture(const SpecimenRecord& s) { return s.test == TestKind::toughness; }
+
+}  // namespace
+
+IncludedSpecimens included_specimens(const std::vector<SpecimenRecord>& specimens, bool fracture) {
+  IncludedSpecimens part{specimens, ""};
+  const bool coupons = std::ranges::any_of(specimens, is_coupon);
+  const bool layouts =
+      std::ranges::any_of(specimens, [](const SpecimenRecord& s) { return s.valid && s.design.layout(); });
+  const auto homogeneous = std::ranges::count_if(specimens, is_homogeneous_modulus);
+  const bool homogeneous_left_out = layouts && !coupons;
+  if (homogeneous > 0 && homogeneous_left_out)
+    part.left_out = fmt::format(
+        " {} moduli of homogeneous specimens were left out: without tensile coupons they say nothing of layouts.",
+        homogeneous);
+  const bool something_else =
+      coupons || std::ranges::any_of(specimens, is_layout_modulus) || (homogeneous > 0 && !homogeneous_left_out);
+  if (fracture || !something_else) return part;
+  const auto valid =
+      std::ranges::count_if(specimens, [](const SpecimenRecord& s) { return s.valid && is_fracture(s); });
+  std::erase_if(part.specimens, is_fracture);
+  if (valid > 0)
+    part.left_out += fmt::format(
+        " {} toughness specimens were left out: what acts on fracture alone is not looked for (--fracture takes them "
+        "in).",
+        valid);
+  return part;
+}
+
+}  // namespace nacre::diagnosis

@@ -1,0 +1,116 @@
+#include "laboratory/hidden_coupon.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::laboratory {
+namespace {
+
+/// Uniaxial response by true (logarithmic) strain: a spring with a yield stress, a Maxwell branch (of second
+/// Piola-Kirchhoff stress), stiffening chains and softening, in one dimension.
+class Strand {
+ public:
+  Strand(const Truth& truth, double rigid_fraction, const Making& making) : effects_(truth.effects) {
+    // The branch is integrated here, so that the relaxed modulus is wanted.
+    Truth relaxed = truth;
+    relaxed.effects.rate_overstress = relaxed.effects.soft_overstress = 0.0;
+    lame_ = homogeneous_lame(relaxed, rigid_fraction, making);
+    const double rigid = std::max(0.0, 2.0 * rigid_fraction - 1.0), soft = std::max(0.0, 1.0 - 2.0 * rigid_fraction);
+    if (effects_.rigid_yield_pa > 0.0 && rigid > 0.0) yield_pa_ = effects_.rigid_yield_pa / rigid;
+    if (effects_.soft_stiffening_limit > 0.0) inverse_limit_ = soft / effects_.soft_stiffening_limit;
+    overstress_ = effects_.rate_overstress > 0.0 ? effects_.rate_overstress : effects_.soft_overstress * soft;
+    relaxation_s_ = effects_.rate_overstress > 0.0 ? effects_.rate_relaxation_s : effects_.soft_relaxation_s;
+    const auto& eta = truth.toughness;
+    const double low = std::log(rigid_fraction < 0.5 ? eta.w_tb_j_per_m3 : eta.w_if_j_per_m3),
+                 high = std::log(rigid_fraction < 0.5 ? eta.w_if_j_per_m3 : eta.w_vw_j_per_m3);
+    threshold_ =
+        std::exp(low + (high - low) * (rigid_fraction < 0.5 ? 2.0 * rigid_fraction : 2.0 * rigid_fraction - 1.0));
+  }
+
+  /// Nominal stress after a further step to `strain` within `dt_s`.
+  double pull(double strain, double dt_s) {
+    const double elastic = std::log1p(strain) - flow_;
+    double kirchhoff = elastic_stress(elastic);
+    if (std::abs(kirchhoff) > yield_pa_) {
+      const double modulus = (elastic_stress(elastic + 1e-6) - kirchhoff) / 1e-6;
+      const double more = (std::abs(kirchhoff) - yield_pa_) / modulus;
+      flow_ += std::copysign(more, kirchhoff);
+      kirchhoff = std::copysign(yield_pa_, kirchhoff);
+    }
+    work_ += 0.5 * (kirchhoff + last_) * (std::log1p(strain) - last_log_);
+    const double stretch = 1.0 + strain, second = kirchhoff / (stretch * stretch);
+    if (overstress_ > 0.0) {
+      const double kept = std::exp(-dt_s / relaxation_s_);
+      branch_ = kept * (branch_ + overstress_ * (second - last_second_));
+    }
+    last_second_ = second;
+    last_ = kirchhoff;
+    last_log_ = std::log1p(strain);
+    integrity_ = std::min(integrity_, left());
+    return integrity_ * stretch * (second + branch_);
+  }
+  /// Energy taken up, of that which parts it.
+  double spent() const { return work_ / threshold_; }
+
+ private:
+  /// Kirchhoff stress of the law at a logarithmic strain with no sideways stress.
+  double elastic_stress(double log_strain) const {
+    constexpr int kHalvings = 60;
+    // The logarithmic strain sideways lies between none and that of constant area.
+    double wide = 0.0, narrow = -log_strain;
+    const auto stiffened = [&](double sideways) {
+      const double chains = std::expm1(2.0 * log_strain) + std::expm1(2.0 * sideways) - 2.0 * (log_strain + sideways);
+      return lame_.mu_pa / (1.0 - std::min(inverse_limit_ * chains, 0.98));
+    };
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (wide + narrow);
+      const double sideways_pa = stiffened(middle) * std::expm1(2.0 * middle) + lame_.lambda_pa * (log_strain + middle);
+      ((sideways_pa > 0.0) == (log_strain > 0.0) ? wide : narrow) = middle;
+    }
+    const double sideways = 0.5 * (wide + narrow);
+    return stiffened(sideways) * std::expm1(2.0 * log_strain) + lame_.lambda_pa * (log_strain + sideways);
+  }
+  double left() const {
+    const double s = std::sqrt(std::max(0.0, work_) / threshold_), v = effects_.progressive_damage,
+                 w = effects_.drawn_out_damage;
+    if (s <= 1.0) return 1.0;
+    if (w > 0.0) return std::pow(1.0 + (s - 1.0) / w, -3.0) / s;
+    return v > 0.0 ? std::max(0.0, (1.0 + v - s) / (s * v)) : 1.0;
+  }
+
+  const HiddenEffects& effects_;
+  material::Lame lame_;
+  double yield_pa_ = 1e30, inverse_limit_ = 0.0, overstress_ = 0.0, relaxation_s_ = 1.0, threshold_ = 1e30;
+  double flow_ = 0.0, branch_ = 0.0, last_second_ = 0.0, last_ = 0.0, last_log_ = 0.0, work_ = 0.0, integrity_ = 1.0;
+};
+
+}  // namespace
+
+double coupon_strain(const Truth& truth, double rigid_fraction, const Making& making, double share) {
+  constexpr double kStep = 2e-5, kMost = 2.0;
+  Strand strand(truth, rigid_fraction, making);
+  double strain = 0.0;
+  while (strain < kMost && strand.spent() < share) {
+    strain += kStep;
+    strand.pull(strain, kStep / making.strain_rate_per_s);
+  }
+  return strain;
+}
+
+tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making,
+                           const std::vector<double>& strains) {
+  constexpr int kSubsteps = 20;
+  Strand strand(truth, rigid_fraction, making);
+  tester::Curve curve{.strain = {strains.front()}, .stress_pa = {0.0}};
+  for (std::size_t point = 1; point < strains.size(); ++point) {
+    const double from = strains[point - 1], step = (strains[point] - from) / kSubsteps;
+    double stress_pa = 0.0;
+    for (int i = 1; i <= kSubsteps; ++i)
+      stress_pa = strand.pull(from + step * i, std::abs(step) / making.strain_rate_per_s);
+    curve.strain.push_back(strains[point]);
+    curve.stress_pa.push_back(stress_pa);
+  }
+  return curve;
+}
+
+}  // namespace nacre::laboratory

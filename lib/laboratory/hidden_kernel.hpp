@@ -1,0 +1,33 @@
+#pragma once
+// The inner loop of the fracture bench for specimens whose material hides something. The laboratory's own formulation,
+// in Green's strain: plastic strain and the viscous strain of the Maxwell branch are subtracted from it.
+
+#include "laboratory/fracture_kernel.hpp"
+
+namespace nacre::laboratory {
+
+/// What a row of elements has beyond ElementRow: constants, and the history of its four quadrature points.
+struct HiddenRow {
+  const float* flow_limit;     ///< Y / (2 mu), infinity where nothing flows
+  const float* inverse_limit;  ///< 1 / J_m
+  const float* eigenstrain;
+  const float* overstress;
+  const float* onset;    ///< energy density at which an element starts to break, J/m^3
+  float* plastic[4][2];  ///< (h11 - h22) / 2 and h12 of the logarithmic plastic strain
+  float* work[4];        ///< of flow, J/m^3
+  float* viscous[4][3];  ///< viscous Green strain, components 11, 22, 12
+  float* integrity;
+};
+
+struct HiddenStep {
+  float relaxed = 0.0f;  ///< 1 - exp(-dt / tau)
+  float eigen_scale = 1.0f;
+  float linear_softening = 0.0f, drawn_out_softening = 0.0f;
+  float tension_only = 0.0f;
+};
+
+/// As advance_elements(), with the hidden law; advances the history.
+int advance_hidden_elements(const ElementRow& row, const ElementStep& step, const HiddenRow& hidden,
+                            const HiddenStep& hidden_step);
+
+}  // namespace nacre::laboratory

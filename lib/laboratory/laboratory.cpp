@@ -1,0 +1,238 @@
+#include "laboratory/laboratory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/csv.hpp"
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "base/result.hpp"
+#include "laboratory/fracture_bench.hpp"
+#include "laboratory/hidden_coupon.hpp"
+#include "laboratory/modulus_bench.hpp"
+#include "laboratory/specimen_raster.hpp"
+#include "material/neo_hookean.hpp"
+#include "tester/fidelity.hpp"
+#include "thesis/constants.hpp"
+
+namespace nacre::laboratory {
+namespace {
+
+using measurement::SpecimenRecord;
+using tester::TestKind;
+
+constexpr int kCurvePoints = 200;
+/// Unnotched coupons are pulled until they have taken up this share of the energy that parts them: six tenths of the
+/// strain at which an elastic one breaks.
+constexpr double kCouponEnergy = 0.36;
+
+Making making_of(const Experiment& experiment, int specimen = 0) {
+  return {.orientation_deg = experiment.conditions.orientation_deg,
+          .thickness_mm = experiment.conditions.thickness_mm,
+          .strain_rate_per_s = experiment.conditions.strain_rate_per_s,
+          .pull_rate_per_s = thesis::kSimulatedStrainRate * tester::loading_rate_scale(experiment.fidelity),
+          .specimen = specimen};
+}
+
+Result<Response> respond_modulus(const Truth& truth, const Experiment& experiment) {
+  if (const pattern::Mixture* mixture = experiment.design.mixture()) {
+    return Response{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(experiment)),
+                    .curve = {},
+                    .remark = {}};
+  }
+  const SpecimenSize size = specimen_size(TestKind::modulus, experiment.fidelity);
+  const Result<double> modulus_pa =
+      pull_elastically(modulus_raster(truth, experiment.design, making_of(experiment), size));
+  if (!modulus_pa) return tl::unexpected(modulus_pa.error());
+  return Response{.modulus_pa = *modulus_pa, .curve = {}, .remark = {}};
+}
+
+Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, int specimen) {
+  const SpecimenSize size = specimen_size(TestKind::toughness, experiment.fidelity, truth.effects);
+  const Making making = making_of(experiment, specimen);
+  const Raster raster = fracture_raster(truth, experiment.design, making, size);
+  return pull_to_separation(
+      raster, {.gamma_per_s = truth.toughness.gamma_per_s,
+               .strain_rate_per_s = making.pull_rate_per_s,
+               .strain_limit = raster.all_soft ? thesis::kSoftStrainLimit.value : thesis::kStrainLimit.value});
+}
+
+Result<Response> respond_toughness(const Truth& truth, const Experiment& experiment) {
+  Response response;
+  const int specimens = truth.effects.strength_scatter > 0.0 ? truth.replicates : 1;
+  for (int specimen = 0; specimen < specimens; ++specimen) {
+    const Result<PulledSpecimen> one = pulled(truth, experiment, specimen);
+    if (!one) return fail("fracture bench: {}", one.error().message);
+    const tester::Curve curve = tester::resampled(one->curve, kCurvePoints);
+    if (specimen > 0) {
+      response.other_curves.push_back(curve);
+      continue;
+    }
+    response.curve = curve;
+    if (!one->separated) response.remark = fmt::format("not separated at strain {:.2f}", one->curve.strain.back());
+  }
+  return response;
+}
+
+/// Whether a coupon's curve is more than the closed form of its elastic law.
+bool hides_a_curve(const HiddenEffects& effects) {
+  return effects.rigid_yield_pa > 0.0 || effects.soft_stiffening_limit > 0.0 || effects.rate_overstress > 0.0 ||
+         effects.soft_overstress > 0.0 || effects.progressive_damage > 0.0 || effects.drawn_out_damage > 0.0;
+}
+
+/// Where a coupon's curve is read: up to most of what it bears, or along the way that was ordered.
+std::vector<double> coupon_strains(const Truth& truth, const Experiment& experiment, double rigid_fraction) {
+  tester::Loading loading = experiment.loading;
+  if (loading.turns.empty()) loading = {{coupon_strain(truth, rigid_fraction, making_of(experiment), kCouponEnergy)}};
+  double way = 0.0, last = 0.0;
+  for (const double turn : loading.turns) way += std::abs(turn - std::exchange(last, turn));
+  return tester::strain_path(loading, way / (kCurvePoints - 1));
+}
+
+Result<Response> respond_tensile(const Truth& truth, const Experiment& experiment) {
+  const pattern::Mixture* mixture = experiment.design.mixture();
+  if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
+  Response response;
+  const std::vector<double> strains = coupon_strains(truth, experiment, mixture->rigid_fraction);
+  if (hides_a_curve(truth.effects)) {
+    response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(experiment), strains);
+    return response;
+  }
+  const material::Lame lame = homogeneous_lame(truth, mixture->rigid_fraction, making_of(experiment));
+  for (const double strain : strains) {
+    response.curve.strain.push_back(strain);
+    response.curve.stress_pa.push_back(material::uniaxial_stress(strain, lame).nominal_stress_pa);
+  }
+  return response;
+}
+
+/// exp(N(0, sd)): a factor with median 1.
+double lognormal(RandomStream& stream, double sd) { return std::exp(sd * stream.normal()); }
+
+/// How this specimen differs from the truth's average one.
+struct Scatter {
+  double modulus = 1.0, stress = 1.0, strain = 1.0;
+};
+
+Scatter scatter_of(const Truth& truth, const std::string& specimen) {
+  const auto stream = [&](const char* what) {
+    return RandomStream(truth.seed, fmt::format("specimen/{}/{}", specimen, what));
+  };
+  RandomStream modulus = stream("modulus"), stress = stream("stress"), strain = stream("strain");
+  // T scatters as stress times strain: the stress carries what the strain leaves of the declared scatter of T.
+  const double rest = truth.noise.toughness * truth.noise.toughness - truth.noise.strain * truth.noise.strain;
+  return {.modulus = lognormal(modulus, truth.noise.modulus),
+          .stress = lognormal(stress, std::sqrt(std::max(0.0, rest))),
+          .strain = lognormal(strain, truth.noise.strain)};
+}
+
+/// Recorded stress over true stress: the load cell, and the cross-section by the calipers.
+double stress_gain(const HiddenEffects& effects, double thickness_mm) {
+  return (1.0 + effects.load_cell_gain) * (thickness_mm / (thickness_mm + effects.thickness_error_mm));
+}
+
+/// A modulus as it is recorded: load train and gain.
+double shown_modulus(const HiddenEffects& effects, double gain, double modulus_pa) {
+  return effects.machine_compliance_per_pa == 0.0 ? gain * modulus_pa
+                                                  : gain / (1.0 / modulus_pa + effects.machine_compliance_per_pa);
+}
+
+/// A specimen's curve as it is recorded: slack, then the load train's stretch added to the specimen's, the gain.
+tester::Curve shown_curve(const HiddenEffects& effects, double gain, const tester::Curve& curve) {
+  tester::Curve shown;
+  if (effects.toe_slack > 0.0) {
+    shown.strain.push_back(0.0);
+    shown.stress_pa.push_back(0.0);
+  }
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    shown.strain.push_back(curve.strain[i] + effects.toe_slack +
+                           effects.machine_compliance_per_pa * curve.stress_pa[i]);
+    shown.stress_pa.push_back(gain * curve.stress_pa[i]);
+  }
+  return shown;
+}
+
+/// How many batches came before: the number at the end of its name, less that of the first one; 0 without a number.
+/// Batches of a game are called by their rounds, which begin at 0; others are counted from 1.
+int batch_step(const std::string& batch) {
+  const std::size_t digits = batch.find_last_not_of("0123456789") + 1;
+  const int first = batch.starts_with("round-") ? 0 : 1;
+  const Result<int> number = integer_from_text(std::string_view(batch).substr(digits));
+  return number ? std::max(0, *number - first) : 0;
+}
+
+/// How far stiffness and stress have drifted where a specimen was printed.
+double drift_of(const HiddenEffects& effects, const SpecimenRecord& record) {
+  double drift = 1.0;
+  if (effects.batch_drift != 0.0) drift *= std::pow(1.0 + effects.batch_drift, batch_step(record.batch));
+  if (effects.order_drift != 0.0) drift *= std::pow(1.0 + effects.order_drift, record.print_order / 100.0);
+  return drift;
+}
+
+/// The curve of replicate `number` among those that were pulled.
+const tester::Curve& curve_of(const Response& response, int number) {
+  const auto which = static_cast<std::size_t>(std::max(0, number - 1)) % (response.other_curves.size() + 1);
+  return which == 0 ? response.curve : response.other_curves[which - 1];
+}
+
+void fill_in(SpecimenRecord& record, const Truth& truth, const Response& response, int number) {
+  Scatter scatter = scatter_of(truth, record.specimen);
+  const double drift = drift_of(truth.effects, record);
+  scatter.modulus *= drift;
+  scatter.stress *= drift;
+  const double gain = stress_gain(truth.effects, record.conditions.thickness_mm);
+  if (record.test == TestKind::modulus) {
+    record.modulus_pa = shown_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
+    return;
+  }
+  const double stress = record.test == TestKind::tensile ? scatter.modulus : scatter.stress;
+  tester::Curve curve = curve_of(response, number);
+  for (double& value : curve.strain) value *= scatter.strain;
+  for (double& value : curve.stress_pa) value *= stress;
+  record.curve = shown_curve(truth.effects, gain, curve);
+  if (record.test == TestKind::toughness) record.toughness_pa = tester::area_under(record.curve);
+}
+
+}  // namespace
+
+Result<Response> respond(const Truth& truth, const Experiment& experiment) {
+  if (experiment.test != TestKind::tensile && !experiment.loading.turns.empty())
+    return fail("loading \"{}\": only unnotched coupons are unloaded here", tester::to_string(experiment.loading));
+  const double orientation = experiment.conditions.orientation_deg;
+  if (orientation != 0.0 && orientation != 90.0) return fail("orientation {} degrees, expected 0 or 90", orientation);
+  switch (experiment.test) {
+    case TestKind::modulus:
+      return respond_modulus(truth, experiment);
+    case TestKind::toughness:
+      return respond_toughness(truth, experiment);
+    case TestKind::tensile:
+      return respond_tensile(truth, experiment);
+  }
+  return fail("an unknown test");
+}
+
+SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment, const Result<Response>& response,
+                               const Replicate& replicate) {
+  SpecimenRecord record;
+  record.specimen = replicate.specimen;
+  record.design = experiment.design;
+  record.test = experiment.test;
+  record.conditions = experiment.conditions;
+  record.batch = replicate.batch;
+  record.print_order = replicate.print_order;
+  record.valid = response.has_value();
+  record.note = response ? response->remark : response.error().message;
+  if (!response) return record;
+  fill_in(record, truth, *response, replicate.number);
+  // No laboratory hands in what no game can use: the specimen failed.
+  if (const auto fault = measurement::why_unusable(record)) {
+    record.valid = false;
+    record.note = fmt::format("{} {}", fault->column, fault->reason);
+  }
+  return record;
+}
+
+}  // namespace nacre::laboratory

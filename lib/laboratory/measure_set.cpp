@@ -1,0 +1,135 @@
+// The laboratory as a batch tool.
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/files.hpp"
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "base/result.hpp"
+#include "laboratory/laboratory.hpp"
+#include "measurement/set_columns.hpp"
+#include "measurement/set_table.hpp"
+
+namespace nacre::laboratory {
+namespace {
+
+using measurement::SpecimenRecord;
+
+constexpr double kTurnedDeg = 90.0;
+
+/// What is to be measured: every design once per test and orientation, in the order given.
+std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campaign) {
+  std::vector<Experiment> experiments;
+  for (const pattern::Design& design : campaign.designs) {
+    for (const tester::TestKind test : campaign.tests) {
+      for (const double orientation_deg : campaign.orientations_deg) {
+        Experiment experiment{.design = design, .test = test, .conditions = {}, .fidelity = truth.fidelity};
+        if (design.layout() != nullptr) experiment.conditions.orientation_deg = orientation_deg;
+        if (std::ranges::find(experiments, experiment) == experiments.end()) experiments.push_back(experiment);
+      }
+    }
+  }
+  return experiments;
+}
+
+/// Simulated time of a question, in arbitrary units: a fracture takes thousands of times longer than a modulus.
+double effort_of(const Experiment& experiment) { return experiment.test == tester::TestKind::modulus ? 1.0 : 1000.0; }
+
+/// Asks all of them, reporting as they come in.
+std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
+                                           const CampaignProgress& progress) {
+  std::vector<std::optional<Result<Response>>> responses(experiments.size());
+  double whole = 0.0, spent = 0.0;
+  for (const Experiment& experiment : experiments) whole += effort_of(experiment);
+  int done = 0;
+  std::mutex mutex;
+  parallel_for(static_cast<int>(experiments.size()), [&](int i) {
+    const auto q = static_cast<std::size_t>(i);
+    responses[q] = respond(truth, experiments[q]);
+    const std::lock_guard lock(mutex);
+    spent += effort_of(experiments[q]);
+    if (progress) progress(spent / whole, ++done, static_cast<int>(experiments.size()));
+  });
+  std::vector<Result<Response>> all;
+  for (auto& response : responses) all.push_back(*std::move(response));
+  return all;
+}
+
+/// A specimen to be recorded: which question it answers, and which replicate it is.
+struct Planned {
+  std::size_t experiment = 0;
+  Replicate replicate;
+};
+
+/// Numbers the specimens of each batch 1, 2, ... in an order drawn from the seed.
+void shuffle_print_order(std::vector<Planned>& plan, std::uint64_t seed) {
+  std::map<std::string, std::vector<std::pair<std::uint64_t, Replicate*>>> batches;
+  for (Planned& planned : plan) {
+    const Replicate& replicate = planned.replicate;
+    RandomStream stream(seed, fmt::format("print/{}/{}", replicate.batch, replicate.specimen));
+    batches[replicate.batch].emplace_back(stream.bits(), &planned.replicate);
+  }
+  for (auto& [batch, specimens] : batches) {
+    std::ranges::sort(specimens, {}, &std::pair<std::uint64_t, Replicate*>::first);
+    int position = 0;
+    for (auto& [draw, replicate] : specimens) replicate->print_order = ++position;
+  }
+}
+
+/// Beside the set's folder, not in it.
+std::filesystem::path truth_file(const std::filesystem::path& folder) {
+  // Not `.` or `SET/..`, which have no name.
+  return without_last_slash(std::filesystem::weakly_canonical(folder)).concat(".truth.toml");
+}
+
+/// A set is not measured over: judgements, and the truth beside it, belong to the specimens that it holds.
+void require_new(const std::filesystem::path& folder) {
+  std::error_code unreadable;
+  if (std::filesystem::exists(folder / measurement::kTableName, unreadable)) {
+    throw InputError::format("{}: holds {} specimens; expected a new folder", folder.string(),
+                             measurement::SetTable(folder).size());
+  }
+  const std::filesystem::path truth = truth_file(folder);
+  if (!std::filesystem::exists(truth, unreadable)) return;
+  throw InputError::format("{}: is the truth of a set that was measured before; expected a new folder", truth.string());
+}
+
+}  // namespace
+
+std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
+  const std::vector<Experiment> experiments = experiments_of(truth, campaign);
+  const std::vector<Result<Response>> responses = responses_to(truth, experiments, progress);
+  std::vector<Planned> plan;
+  for (std::size_t q = 0; q < experiments.size(); ++q) {
+    const Experiment& experiment = experiments[q];
+    const char* turned = experiment.conditions.orientation_deg == kTurnedDeg ? "turned-" : "";
+    for (int k = 1; k <= truth.replicates; ++k) {
+      const std::string name =
+          fmt::format("{}-{}-{}{}", experiment.design.name(), tester::to_string(experiment.test), turned, k);
+      plan.push_back({q, {.specimen = name, .batch = fmt::format("batch-{}", k), .print_order = 0, .number = k}});
+    }
+  }
+  shuffle_print_order(plan, truth.seed);
+  std::vector<SpecimenRecord> records;
+  for (const Planned& each : plan)
+    records.push_back(record_specimen(truth, experiments[each.experiment], responses[each.experiment], each.replicate));
+  return records;
+}
+
+std::vector<SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file,
+                                        const std::filesystem::path& folder, const Campaign& campaign,
+                                        const CampaignProgress& progress) {
+  const Truth truth = read_laboratory(laboratory_file);
+  require_new(folder);
+  std::vector<SpecimenRecord> records = measure(truth, campaign, progress);
+  measurement::write_measurement_set(folder, records);
+  write_sealed(truth_file(folder), truth);
+  return records;
+}
+
+}  // namespace nacre::laboratory

@@ -1,0 +1,234 @@
+// What the exhibits are made of, from the files of a run.
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+
+#include "base/named_table.hpp"
+#include "base/names.hpp"
+#include "game/model.hpp"
+#include "game/reference_tables.hpp"
+#include "game/standings.hpp"
+#include "pattern/pattern_key.hpp"
+#include "report/paper.hpp"
+#include "report/report_data.hpp"
+#include "runtime/journal.hpp"
+#include "sysid/objective.hpp"
+#include "wire/header.hpp"
+
+namespace nacre::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calls `use(channel, payload, is_output)` for every message of a node's journal; nothing when there is none.
+void each_message(const fs::path& run_dir, const std::string& node,
+                  const std::function<void(const std::string&, const std::string&, bool)>& use) {
+  const fs::path journal = run_dir / "nodes" / node / "journal.lcm";
+  if (!fs::exists(journal)) return;
+  runtime::LogReader reader(journal);
+  while (const auto record = reader.next()) {
+    if (record->channel.starts_with(runtime::kOutPrefix)) {
+      use(record->channel.substr(runtime::kOutPrefix.size()), record->data, true);
+    } else if (const auto blanked = wire::blank_header(record->channel, record->data)) {
+      use(record->channel, blanked->payload, false);
+    }
+  }
+}
+
+/// The questions that a node asked the farm, in order, and their answers.
+struct FarmTalk {
+  std::vector<wire::SimulateRequest> requests;
+  std::map<std::string, std::vector<wire::SimulatedDesign>> answers;  ///< whole ones, by request
+};
+
+FarmTalk farm_talk(const fs::path& run_dir, const std::string& node) {
+  FarmTalk talk;
+  wire::ResponseCollector collector;
+  each_message(run_dir, node, [&](const std::string& channel, const std::string& payload, bool is_output) {
+    if (channel == "SIMULATE" && is_output) {
+      if (auto request = wire::read<wire::SimulateRequest>(payload)) talk.requests.push_back(std::move(*request));
+    } else if (channel == "SIMULATED" && !is_output) {
+      auto part = wire::read<wire::SimulateResult>(payload);
+      if (!part) return;
+      const std::string id = part->request_id;
+      if (auto whole = collector.add(std::move(*part))) talk.answers.emplace(id, std::move(*whole));
+    }
+  });
+  return talk;
+}
+
+std::vector<SearchPath> searches_of(const FarmTalk& talk) {
+  std::map<std::pair<int, int>, SearchPath> paths;
+  for (const wire::SimulateRequest& request : talk.requests) {
+    const auto round = number_between("proposal_agent/r", "/s", request.request_id);
+    const auto branch =
+        round ? number_between(fmt::format("proposal_agent/r{}/s", *round), "/", request.request_id) : std::nullopt;
+    if (!branch) continue;
+    const auto answer = talk.answers.find(request.request_id);
+    if (answer == talk.answers.end()) continue;
+    SearchPath& path = paths[{*round, *branch}];
+    path.round = *round;
+    path.branch = *branch;
+    for (const wire::SimulatedDesign& design : answer->second)
+      if (design.failure.empty()) path.samples.push_back({design.modulus_pa, design.toughness_pa});
+  }
+  std::vector<SearchPath> all;
+  for (auto& [place, path] : paths) all.push_back(std::move(path));
+  return all;
+}
+
+using Answers = std::map<int, std::map<std::string, game::DesignValues>>;
+
+/// What the testing machine would make of a simulated design.
+game::DesignValues as_measured(const optimize::Performance& simulated, const tester::Curve& curve,
+                               const material::Extensions& extensions) {
+  const sysid::Prediction shown = sysid::observed(
+      {.modulus_pa = simulated.modulus_pa, .toughness_pa = simulated.toughness_pa, .curve = curve}, extensions);
+  return {shown.modulus_pa, shown.toughness_pa};
+}
+
+/// Whether two sets of eta are the same to a test of this design: of a pure material only its own constants count.
+bool same_toughness_model(const pattern::Design& design, const material::ToughnessParameters& a,
+                          const material::ToughnessParameters& b) {
+  const std::string name = design.name();
+  if (a.gamma_per_s != b.gamma_per_s) return false;
+  if (name == "soft") return a.e_tb_pa == b.e_tb_pa && a.nu_tb == b.nu_tb && a.w_tb_j_per_m3 == b.w_tb_j_per_m3;
+  if (name == "rigid") return a.e_vw_pa == b.e_vw_pa && a.nu_vw == b.nu_vw && a.w_vw_j_per_m3 == b.w_vw_j_per_m3;
+  if (name == "interface") return a.e_if_pa == b.e_if_pa && a.nu_if == b.nu_if && a.w_if_j_per_m3 == b.w_if_j_per_m3;
+  return a == b;
+}
+
+/// What adopted models say of designs under standard conditions, as far as the validation agent ever asked.
+Answers answers_in(const FarmTalk& talk, const std::map<int, material::ParameterSet>& models) {
+  Answers answers;
+  for (const wire::SimulateRequest& request : talk.requests) {
+    const auto answer = talk.answers.find(request.request_id);
+    if (answer == talk.answers.end() || request.conditions != tester::TestConditions{}) continue;
+    for (const auto& [round, model] : models) {
+      const material::ParameterSet own = game::material_side(model);
+      if (own.extensions != request.parameters.extensions) continue;
+      const bool modulus = request.modulus && own.modulus == request.parameters.modulus;
+      for (const wire::SimulatedDesign& design : answer->second) {
+        const bool toughness =
+            request.toughness && same_toughness_model(design.design, own.toughness, request.parameters.toughness);
+        if (!design.failure.empty() || (!modulus && !toughness)) continue;
+        game::DesignValues& values = answers[round][design.design.name()];
+        const game::DesignValues shown =
+            as_measured({design.modulus_pa, design.toughness_pa}, design.curve, model.extensions);
+        if (modulus) values.modulus_pa = shown.modulus_pa;
+        if (toughness) values.toughness_pa = shown.toughness_pa;
+      }
+    }
+  }
+  return answers;
+}
+
+/// The analyser's own questions: what each round's model says of everything measured by then, and of its proposals.
+void add_recorded(const store::RunRecord& run, Answers& answers) {
+  for (const auto& [number, round] : run.rounds) {
+    const material::Extensions extensions = extensions_of(round);
+    const auto add = [&, &known = answers[number]](const std::string& design, const optimize::Performance& simulated,
+                                                   const tester::Curve& curve) {
+      const game::DesignValues shown = as_measured(simulated, curve, extensions);
+      game::DesignValues& values = known[design];
+      if (!values.modulus_pa) values.modulus_pa = shown.modulus_pa;
+      if (!values.toughness_pa) values.toughness_pa = shown.toughness_pa;
+    };
+    for (const auto& [design, simulation] : round.simulated)
+      if (simulation.failure.empty()) add(design, simulation.performance, simulation.curve);
+    for (const store::RecordedProposal& proposal : round.proposals) add(proposal.design, proposal.predicted, {});
+  }
+}
+
+std::map<int, material::ParameterSet> adopted_models(const fs::path& run_dir) {
+  std::map<int, material::ParameterSet> models;
+  each_message(run_dir, "validation_agent",
+               [&](const std::string& channel, const std::string& payload, bool is_output) {
+                 if (channel != "PARAMETERS" || !is_output) return;
+                 if (const auto model = wire::read<wire::AdoptedModel>(payload))
+                   models[model->round] = model->parameters;
+               });
+  return models;
+}
+
+/// The families: of the stage; of the file that a person may have edited; else proposed from what was measured.
+void find_groups(const fs::path& run_dir, PaperSource& source) {
+  for (const store::RecordedFamily& family : source.run.families) {
+    families::Family& group = source.groups.emplace_back();
+    group.name = family.stated.name;
+    for (const game::FamilyDesign& design : family.stated.designs)
+      if (design.is_seed) group.seeds.push_back(design.pattern);
+  }
+  source.groups_from = "the families of the stage after the game";
+  if (!source.groups.empty()) return;
+  const fs::path file = run_dir / "families" / "families.toml";
+  if (fs::exists(file)) {
+    source.groups = families::read_families(file);
+    source.groups_from = "the families of families/families.toml";
+    return;
+  }
+  std::vector<families::Member> measured;
+  for (const MeasuredPattern& each : measured_patterns(source.run, newest_round(source.run).value_or(0)))
+    measured.push_back({each.pattern, each.mean});
+  source.groups = families::proposed_families(families::near_pareto(measured));
+  source.groups_from = "families proposed just now by pattern and properties";
+}
+
+pattern::Pattern pattern_in(const NamedTable& table, std::size_t row) {
+  const auto known = pattern::pattern_from_key(table.text(row, "pattern"));
+  if (!known) table.fail_at(row, "pattern", "expected the key of a pattern");
+  return *known;
+}
+
+std::optional<double> number_in(const NamedTable& table, std::size_t row, const std::string& column) {
+  if (!table.has(column) || trimmed(table.text(row, column)).empty()) return std::nullopt;
+  const auto value = number_from_text(table.text(row, column));
+  if (!value) table.fail_at(row, column, "expected a number, found '" + table.text(row, column) + "'");
+  return *value;
+}
+
+SubfamilyMap read_map(const fs::path& file, const std::string& family) {
+  SubfamilyMap map{.family = family, .seed = file.stem().string(), .points = {}};
+  const NamedTable table(file, {"pattern", "source", "x", "y"});
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    MapPoint& point = map.points.emplace_back();
+    point.pattern = pattern_in(table, row);
+    point.source = table.text(row, "source");
+    point.x = number_in(table, row, "x").value_or(0.0);
+    point.y = number_in(table, row, "y").value_or(0.0);
+    point.x_sampled = number_in(table, row, "x_sampled");
+    point.y_sampled = number_in(table, row, "y_sampled");
+    const auto modulus = number_in(table, row, "modulus_pa"), toughness = number_in(table, row, "toughness_pa");
+    if (modulus && toughness) point.performance = {*modulus, *toughness};
+  }
+  return map;
+}
+
+void read_maps(const fs::path& run_dir, PaperSource& source) {
+  for (const families::Family& group : source.groups) {
+    for (const pattern::Pattern& seed : group.seeds) {
+      const fs::path file = run_dir / "families" / group.name / (seed.key() + ".csv");
+      if (fs::exists(file)) source.maps.push_back(read_map(file, group.name));
+    }
+  }
+}
+
+}  // namespace
+
+PaperSource read_paper_source(const fs::path& run_dir, const std::string& run_id, const fs::path& thesis_folder) {
+  PaperSource source;
+  source.run_id = run_id;
+  source.run = store::read_run_record(run_dir / "run.db");
+  if (const fs::path file = run_dir / "inputs" / "base_materials.csv"; fs::exists(file))
+    source.base_materials = game::read_base_materials(file);
+  if (!thesis_folder.empty()) source.thesis = game::read_thesis_tables(thesis_folder);
+  source.searches = searches_of(farm_talk(run_dir, "proposal_agent"));
+  source.answers = answers_in(farm_talk(run_dir, "validation_agent"), adopted_models(run_dir));
+  add_recorded(source.run, source.answers);
+  find_groups(run_dir, source);
+  read_maps(run_dir, source);
+  return source;
+}
+
+}  // namespace nacre::report

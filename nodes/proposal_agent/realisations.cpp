@@ -1,0 +1,94 @@
+#include "proposal_agent/realisations.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "optimize/pareto.hpp"
+#include "proposal_agent/branch.hpp"
+#include "thesis/constants.hpp"
+
+namespace nacre::proposal_agent {
+namespace {
+
+// About what a calibration leaves open. Smaller moves seldom lead a crack another way, larger ones gain no more
+// (docs/studies/realisations.md).
+constexpr double kMoved = 0.2;
+
+}  // namespace
+
+Realisations::Realisations(std::vector<explore::Evaluated> gamut, const std::vector<pattern::Pattern>& chosen,
+                           int draws, std::uint64_t seed, std::string request_prefix)
+    : gamut_(std::move(gamut)),
+      chosen_(chosen.begin(), chosen.end()),
+      draws_(draws),
+      seed_(seed),
+      prefix_(std::move(request_prefix)) {}
+
+/// The front of all, and the first ranks of those that can be selected.
+std::vector<pattern::Pattern> Realisations::candidates() const {
+  std::set<pattern::Pattern> best;
+  const auto add_ranks = [&](bool with_chosen, int last_rank) {
+    std::vector<const explore::Evaluated*> samples;
+    std::vector<optimize::Performance> performances;
+    for (const explore::Evaluated& sample : gamut_) {
+      if (!with_chosen && chosen_.contains(sample.pattern)) continue;
+      samples.push_back(&sample);
+      performances.push_back(sample.performance);
+    }
+    const std::vector<int> ranks = optimize::non_dominated_ranks(performances);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (ranks[i] <= last_rank) best.insert(samples[i]->pattern);
+    }
+  };
+  add_ranks(true, 1);
+  add_ranks(false, thesis::kBoundaryRanks);
+  return {best.begin(), best.end()};
+}
+
+std::vector<wire::SimulateRequest> Realisations::next(const wire::SimulateRequest& model) {
+  std::vector<pattern::Pattern> wanted = draws_ > 0 ? candidates() : std::vector<pattern::Pattern>();
+  std::erase_if(wanted, [&](const pattern::Pattern& pattern) { return drawn_.contains(pattern); });
+  ++step_;
+  std::vector<wire::SimulateRequest> requests;
+  for (int draw = 0; draw < draws_ && !wanted.empty(); ++draw) {
+    wire::SimulateRequest moved = model;
+    moved.modulus = false;
+    // The same draws for every design and round: designs are compared under the same luck.
+    RandomStream random(seed_, fmt::format("redraw {}", draw));
+    moved.parameters.toughness = material::perturbed(model.parameters.toughness, kMoved, random);
+    for (wire::SimulateRequest& request :
+         requests_about(wanted, moved, fmt::format("{}/redraw{}/d{}", prefix_, step_, draw))) {
+      open_.emplace(request.request_id, draw);
+      requests.push_back(std::move(request));
+    }
+  }
+  simulated_ += draws_ * static_cast<int>(wanted.size());
+  drawn_.insert(wanted.begin(), wanted.end());
+  return requests;
+}
+
+bool Realisations::take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer) {
+  const auto request = open_.find(request_id);
+  for (const wire::SimulatedDesign& each : answer) {
+    if (each.failure.empty()) log_toughness_[each.design.name()][request->second] = std::log(each.toughness_pa);
+  }
+  open_.erase(request);
+  if (open_.empty()) settle();
+  return open_.empty();
+}
+
+void Realisations::settle() {
+  for (explore::Evaluated& sample : gamut_) {
+    const auto further = log_toughness_.find(sample.pattern.key());
+    if (further == log_toughness_.end()) continue;
+    double sum = std::log(sample.performance.toughness_pa);  // in the order of draws, whatever came first
+    for (const auto& [draw, log_toughness] : further->second) sum += log_toughness;
+    sample.performance.toughness_pa = std::exp(sum / (1.0 + static_cast<double>(further->second.size())));
+  }
+  log_toughness_.clear();
+}
+
+}  // namespace nacre::proposal_agent

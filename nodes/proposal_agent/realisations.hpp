@@ -1,0 +1,52 @@
+#pragma once
+// Toughness that is more than luck. The best of many samples are those whose one simulation came out high: their cracks
+// take ways that other parameters, as probable as these, do not leave open. Whatever may be selected is therefore
+// simulated again under parameters moved by what nobody knows of them, and its T is the geometric mean
+// (docs/studies/realisations.md; re-evaluation of elites in noisy optimisation).
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "explore/search.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::proposal_agent {
+
+class Realisations {
+ public:
+  /// @param gamut   what the searches found
+  /// @param chosen  patterns that cannot be selected any more; they are drawn again only on the front itself
+  /// @param draws   further simulations of a candidate; 0: none, and next() asks for nothing
+  Realisations(std::vector<explore::Evaluated> gamut, const std::vector<pattern::Pattern>& chosen, int draws,
+               std::uint64_t seed, std::string request_prefix);
+
+  /// Questions about the candidates (first ranks, thesis 2.3.4) whose T is that of one simulation; empty when there are
+  /// none left. As means fall behind what they were the best of, others take their places.
+  std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model);
+  bool waits_for(const std::string& request_id) const { return open_.contains(request_id); }
+  /// Takes the answer to one of the requests. Returns whether all have been answered (then ask for next()).
+  bool take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer);
+
+  /// The gamut with the means known so far.
+  const std::vector<explore::Evaluated>& gamut() const { return gamut_; }
+  int simulated() const { return simulated_; }
+
+ private:
+  std::vector<pattern::Pattern> candidates() const;
+  void settle();
+
+  std::vector<explore::Evaluated> gamut_;
+  std::set<pattern::Pattern> chosen_, drawn_;
+  int draws_ = 0;
+  std::uint64_t seed_ = 0;
+  std::string prefix_;
+  int step_ = 0;
+  std::map<std::string, int> open_;                             // request -> its draw
+  std::map<std::string, std::map<int, double>> log_toughness_;  // of this step, by design and draw
+  int simulated_ = 0;
+};
+
+}  // namespace nacre::proposal_agent

@@ -1,0 +1,52 @@
+#pragma once
+// A simulate request taken apart into questions, each a request for one design and one test.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tester/tester.hpp"
+#include "wire/convert.hpp"
+
+namespace nacre::simulator_farm {
+
+/// What an answer holds beside the numbers.
+struct Extras {
+  bool curve = false;
+  bool crack = false;
+  bool film = false;
+  bool covers(const Extras& other) const {
+    return (curve || !other.curve) && (crack || !other.crack) && (film || !other.film);
+  }
+  bool fracture() const { return crack || film; }
+  bool operator==(const Extras&) const = default;
+};
+Extras operator|(const Extras& a, const Extras& b);
+
+/// "curve+film": for ids.
+std::string to_string(const Extras& extras);
+
+/// What a request wants of a test.
+Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test);
+
+/// The question as the testers understand it. Effects of the testing machine are left out: the simulator does not know
+/// them.
+tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design);
+
+/// Tests that a request asks for.
+std::vector<tester::TestKind> tests_of(const wire::SimulateRequest& request);
+
+/// The request for one design and test that is a Compute's spec.
+wire::SimulateRequest test_request_of(const wire::SimulateRequest& request, const pattern::Design& design,
+                                      tester::TestKind test, const Extras& extras);
+
+/// Result of a Compute: the answer to one question, and how the design broke when that was asked for and it did not
+/// fail.
+struct TestResponse {
+  wire::SimulatedDesign design;
+  std::optional<wire::Fracture> fracture;
+};
+std::string write_response(const TestResponse& response);
+Result<TestResponse> read_response(const std::string& bytes);
+
+}  // namespace nacre::simulator_farm

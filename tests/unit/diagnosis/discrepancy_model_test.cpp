@@ -1,0 +1,60 @@
+#include "diagnosis/discrepancy_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "diagnosis/candidates.hpp"
+#include "material/extensions.hpp"
+#include "synthetic_set.hpp"
+
+namespace nacre::diagnosis {
+namespace {
+
+std::vector<measurement::SpecimenRecord> specimens() {
+  SyntheticSet set;
+  set.patterns = 8;
+  set.twins = 2;
+  return synthetic_specimens(set, synthetic_truth());
+}
+
+TEST(DiscrepancyTest, ItsVarianceIsThatOfTheNoiseOnAverage) {
+  const Observations observations = observe(specimens(), 0.003, {});
+  const Eigen::MatrixXd noise = observations.covariance();
+  const auto directions = contrast_directions(observations, observations.values);
+  ASSERT_GT(directions.size(), 5u);
+  const Eigen::MatrixXd unit = discrepancy_covariance(observations, directions, noise);
+  double own = 0.0, wanted = 0.0;
+  for (int i = 0; i < observations.size(); ++i)
+    if (observations.rows[i].probe == Probe::mean) own += unit(i, i), wanted += noise(i, i);
+  EXPECT_NEAR(own, wanted, 1e-9 * wanted);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(unit);
+  EXPECT_GT(parts.eigenvalues().minCoeff(), -1e-12);
+}
+
+// A layout and its turned twin are one design: what an unknown cause does to it by itself, it does to both.
+TEST(DiscrepancyTest, TwinsShareWhatADesignHasOfItsOwn) {
+  const Observations observations = observe(specimens(), 0.003, {});
+  const Eigen::MatrixXd unit = discrepancy_covariance(observations, {}, observations.covariance());
+  int twins = 0;
+  for (int i = 0; i < observations.size(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const Row &a = observations.rows[i], &b = observations.rows[j];
+      if (a.probe != Probe::mean || b.probe != Probe::mean) continue;
+      const bool same = observations.group_of(i).design == observations.group_of(j).design;
+      twins += same;
+      if (same)
+        EXPECT_NEAR(unit(i, j), unit(i, i), 1e-12);
+      else
+        EXPECT_EQ(unit(i, j), 0.0);
+    }
+  }
+  EXPECT_EQ(twins, 2);
+}
+
+// What a look-alike of cosine 0.8 leaves is just seen where names begin.
+TEST(DiscrepancyTest, ANameBeginsWhereALookAlikeIsSeen) {
+  EXPECT_NEAR(kNameableSignal * std::sqrt(1.0 - 0.8 * 0.8), kVisibleSignal, 1e-12);
+}
+
+}  // namespace
+}  // namespace nacre::diagnosis
