@@ -1,5 +1,5 @@
 // What the virtual laboratory's numerics leave against the testers at the same truth, without scatter and without
-// effects: the floor of every error budget. Results: docs/studies/numerics-floor.md.
+// effects: the floor of every error budget. Results: docs/studies/discretisation-floor.md.
 
 #include <chrono>
 #include <cmath>
@@ -159,7 +159,7 @@ void run(const Options& options) {
   std::string table = "fidelity,test,pattern,rigid_fraction,laboratory_pa,tester_pa,log_residual\n";
   std::string text = fmt::format(
       "# What remains between virtual laboratory and testers at the same truth, without scatter and effects; natural\n"
-      "# logarithms. Method and figures: docs/studies/numerics-floor.md.\n"
+      "# logarithms. Method and figures: docs/studies/discretisation-floor.md.\n"
       "command = \"numerics_floor --layouts {} --toughness-layouts {} --fidelity {} --seed {}\"\nseed = {}\n",
       options.layouts, options.toughness_layouts, options.fidelity, options.seed, options.seed);
   const auto count = std::min(patterns.size(), static_cast<std::size_t>(options.toughness_layouts));

@@ -1,7 +1,7 @@
 // What the elements of the fracture tester leave of the features that a diagnosis compares
 // (lib/diagnosis/features.hpp): elements of size h against h/2, the layouts and parameter sets of numerics_floor.
 // Finished tests are kept in a table. Result: [FIDELITY.curve] of data/numerics_floor.toml,
-// docs/studies/numerics-floor.md.
+// docs/studies/discretisation-floor.md.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 // What the testers' elements leave of an error: features on elements of size h against h/2 at shared fracture energy,
 // over random and front-like layouts and several parameter sets, after a base refit. Finished fracture tests are kept
 // in a table, so that the study goes on where it stopped. Results: data/numerics_floor.toml,
-// docs/studies/numerics-floor.md.
+// docs/studies/discretisation-floor.md.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // What a game would have proposed with and without redraws, from the same gamut of the same model, and what its virtual
-// laboratory says of both. Games are read that were played without. Results: docs/studies/redraws.md.
+// laboratory says of both. Games are read that were played without. Results: docs/studies/realisations.md.
 
 #include <cmath>
 #include <map>

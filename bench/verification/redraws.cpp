@@ -1,6 +1,6 @@
 // What the toughness of proposed designs gains by being a mean over parameters that are as probable: played games are
 // read, their proposals simulated again, and held against what was measured after them. Results:
-// docs/studies/redraws.md.
+// docs/studies/realisations.md.
 
 #include <algorithm>
 #include <cmath>

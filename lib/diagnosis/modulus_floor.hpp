@@ -8,8 +8,8 @@
 namespace nacre::diagnosis {
 
 /// What the elements of the modulus tester leave of an error in log E (data/numerics_floor.toml,
-/// docs/studies/numerics-floor.md). Not independent between layouts: the truth lies from the tester about where finer
-/// elements lie, by a factor that is not known. That direction is computed for the layouts at hand
+/// docs/studies/discretisation-floor.md). Not independent between layouts: the truth lies from the tester about where
+/// finer elements lie, by a factor that is not known. That direction is computed for the layouts at hand
 /// (FeatureModel::mesh_change); the floor gives the size of the factor and what is left beside it.
 struct ModulusFloor {
   double log_modulus_sd = 0.0;  ///< per layout after a base refit, taken as independent: for a first fit

@@ -10,8 +10,8 @@
 namespace nacre::diagnosis {
 
 /// What the elements of the fracture tester leave of an error in the features of a curve (data/numerics_floor.toml,
-/// table [FIDELITY.curve]; docs/studies/numerics-floor.md). Between layouts i and j, z = (rigid fraction - 0.675) /
-/// 0.1: covariance = shared + z_i z_j rigid + (i = j) layout.
+/// table [FIDELITY.curve]; docs/studies/discretisation-floor.md). Between layouts i and j, z = (rigid fraction -
+/// 0.675) / 0.1: covariance = shared + z_i z_j rigid + (i = j) layout.
 struct FractureNumerics {
   std::vector<Feature> features;          ///< empty: nothing known
   Eigen::MatrixXd shared, rigid, layout;  ///< features x features

@@ -14,7 +14,7 @@ namespace nacre::proposal_agent {
 namespace {
 
 // About what a calibration leaves open. Smaller moves seldom lead a crack another way, larger ones gain no more
-// (docs/studies/redraws.md).
+// (docs/studies/realisations.md).
 constexpr double kMoved = 0.2;
 
 }  // namespace

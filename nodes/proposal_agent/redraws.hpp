@@ -2,7 +2,7 @@
 // Toughness that is more than luck. The best of many samples are those whose one simulation came out high: their cracks
 // take ways that other parameters, as probable as these, do not leave open. Whatever may be selected is therefore
 // simulated again under parameters moved by what nobody knows of them, and its T is the geometric mean
-// (docs/studies/redraws.md; re-evaluation of elites in noisy optimisation).
+// (docs/studies/realisations.md; re-evaluation of elites in noisy optimisation).
 
 #include <cstdint>
 #include <map>

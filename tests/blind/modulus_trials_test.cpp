@@ -29,7 +29,7 @@ TEST(BlindModulusTrials, InterfaceAnisotropyIsFound) {
 }
 
 // What two meshes differ by lines up with droplet mixing: taken as independent between layouts, it made the size 39 %
-// too small (docs/studies/numerics-floor.md).
+// too small (docs/studies/discretisation-floor.md).
 // The set that the first page sends people to.
 TEST(BlindModulusTrials, TheExampleIsDiagnosedAsItsReadmeSays) {
   Trial example;
