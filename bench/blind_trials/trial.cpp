@@ -16,6 +16,8 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "material/extensions.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 

@@ -7,6 +7,7 @@
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "sysid/prediction_store.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::calibration_study {
 namespace {

@@ -19,7 +19,8 @@
 #include "laboratory/laboratory.hpp"
 #include "pattern/random_pattern.hpp"
 #include "study/study_command.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace {
 

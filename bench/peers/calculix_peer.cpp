@@ -24,6 +24,7 @@
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
+#include "tester/modulus.hpp"
 #include "thesis/constants.hpp"
 
 namespace {

@@ -1,3 +1,5 @@
+#include "animation/chart_panel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -19,8 +19,8 @@ std::uint32_t blend(std::uint32_t a, std::uint32_t b, double share);
 /// Colour of a share 0..1 of the scale: violet, red, orange, pale yellow; lightness rises evenly.
 std::uint32_t glow(double share);
 
-/// An element of a material (0 soft, 1 rigid, 2 interface): the material's own colour where nothing is stored, covered
-/// by the glow as the energy level (0..1) rises.
-std::uint32_t element_colour(int material, double energy_level);
+/// An element of a phase (0 soft, 1 rigid, 2 interface): the phase's own colour (pattern/phase_colours.hpp) where no
+/// energy is stored, covered by the glow as the energy level (0..1) rises.
+std::uint32_t element_colour(int phase, double energy_level);
 
 }  // namespace nacre::animation

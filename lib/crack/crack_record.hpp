@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/grid.hpp"
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::crack {
 

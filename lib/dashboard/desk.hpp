@@ -11,6 +11,7 @@
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "material/parameters.hpp"
+#include "measurement/specimen_record.hpp"
 #include "nacre/diagnosis_t.hpp"
 #include "nacre/node_status_t.hpp"
 #include "wire/convert.hpp"

@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/names.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
-#include "measurement/entry.hpp"
+#include "measurement/typed_specimen.hpp"
 #include "pattern/design.hpp"
 #include "pattern/pattern_key.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "base/result.hpp"
 #include "dashboard/desk.hpp"
-#include "measurement/measurement.hpp"
 
 namespace nacre::dashboard {
 

@@ -8,7 +8,6 @@
 
 #include "dashboard/background.hpp"
 #include "dashboard/views.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::dashboard {
 

@@ -3,7 +3,8 @@
 #include <Eigen/Dense>
 #include <filesystem>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+
 
 namespace nacre::diagnosis {
 

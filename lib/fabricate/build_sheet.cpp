@@ -9,6 +9,7 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "fabricate/build_sheet_html.hpp"
 #include "fabricate/preview.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "pattern/coupons.hpp"

@@ -37,9 +37,6 @@ void forget_job(const std::filesystem::path& folder);
 /// The build sheet as JSON (docs/FORMATS.md).
 std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written);
 
-/// The same for people, with a drawing of each tray.
-std::string build_sheet_html(const Job& job, const std::vector<WrittenModel>& written);
-
 /// The table that `nacre import --specimens` reads, one row per specimen, to be filled in at the testing machine.
 std::string specimen_table(const Job& job);
 

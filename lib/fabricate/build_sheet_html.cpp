@@ -1,11 +1,11 @@
-// The build sheet as people read it at the printer and at the testing machine: one self-contained page.
+#include "fabricate/build_sheet_html.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "fabricate/build_sheet.hpp"
 #include "pattern/coupons.hpp"
+#include "pattern/phase_colours.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -17,6 +17,7 @@ table {{ border-collapse: collapse; margin: .5rem 0 1.5rem; }}
 th, td {{ border: 1px solid #c8ccd2; padding: .25rem .6rem; text-align: left; vertical-align: top; }}
 td.n {{ text-align: right; font-variant-numeric: tabular-nums; }}
 code {{ overflow-wrap: anywhere; }}
+.swatch {{ display: inline-block; width: .9em; height: .9em; margin: 0 .3em 0 .8em; vertical-align: -.1em; }}
 svg {{ border: 1px solid #8a919b; background: #fafbfc; margin: 0 1rem 1rem 0; max-width: 100%; }}
 img {{ max-width: 100%; border: 1px solid #c8ccd2; }}
 </style></head><body>
@@ -49,6 +50,10 @@ std::string settings(const Job& job) {
       request.grips == Grips::pattern ? "the pattern" : "rigid", request.seed);
 }
 
+std::string legend_entry(std::uint32_t rgb, const char* name) {
+  return fmt::format("<span class=swatch style=\"background:{}\"></span>{}", pattern::html_colour(rgb), name);
+}
+
 std::string models_table(const Job& job, const std::vector<WrittenModel>& written) {
   std::string rows;
   for (std::size_t i = 0; i < job.models.size(); ++i) {
@@ -64,8 +69,10 @@ std::string models_table(const Job& job, const std::vector<WrittenModel>& writte
         model.wanted.design.rigid_fraction(), rigid_fraction(written[i].count.total),
         test_speed_mm_per_min(model.wanted), escaped(pull_in_words(model.wanted.loading)));
   }
-  return "<h2>Models</h2>\n<p>Pictures (preview.png): soft is black, rigid white, what is not printed "
-         "blue.</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
+  return "<h2>Models</h2>\n<p>Colours of pictures (preview.png) and slices:" +
+         legend_entry(pattern::kRigidRgb, "rigid") + legend_entry(pattern::kSoftRgb, "soft") +
+         legend_entry(pattern::kNotPrintedRgb, "not printed") +
+         "</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
          "<th>slices</th><th>rigid, designed</th><th>rigid, counted in the slices</th><th>test speed, "
          "mm/min</th><th>pull</th></tr>"
          "\n" +

@@ -7,7 +7,7 @@
 
 #include "fabricate/droplet_plan.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::fabricate {

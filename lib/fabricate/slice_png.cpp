@@ -1,4 +1,4 @@
-// libpng, in the corner where its long jumps cannot skip a destructor.
+#include "fabricate/slice_png.hpp"
 
 #include <png.h>
 #include <zlib.h>
@@ -9,14 +9,17 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
-#include "fabricate/slices.hpp"
+#include "pattern/phase_colours.hpp"
 
+// libpng reports errors by long jumps: no function that may jump holds an object with a destructor.
 namespace nacre::fabricate {
 namespace {
 
-// Nothing (support or air) in light blue, soft black, rigid white: told apart in any viewer.
-constexpr std::array<png_color, 3> kPalette = {png_color{170, 200, 235}, png_color{20, 20, 20},
-                                               png_color{245, 245, 245}};
+constexpr png_color colour_of(std::uint32_t rgb) {
+  return {static_cast<png_byte>(rgb >> 16), static_cast<png_byte>(rgb >> 8 & 0xff), static_cast<png_byte>(rgb & 0xff)};
+}
+constexpr std::array kPalette = {colour_of(pattern::kNotPrintedRgb), colour_of(pattern::kSoftRgb),
+                                 colour_of(pattern::kRigidRgb)};
 
 struct Fault {
   std::array<char, 128> text{};

@@ -11,6 +11,7 @@
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "base/result.hpp"
+#include "fabricate/slice_png.hpp"
 
 namespace nacre::fabricate {
 namespace {

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+
 
 namespace nacre::fabricate {
 

@@ -1,3 +1,5 @@
+#include "families/families_file.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 
 #include "base/names.hpp"
 #include "base/toml_file.hpp"
-#include "families/grouping.hpp"
 #include "pattern/pattern_key.hpp"
 
 namespace nacre::families {

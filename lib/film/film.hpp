@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "crack/crack_record.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::film {
 

@@ -12,6 +12,7 @@
 
 #include "game/measurement_book.hpp"
 #include "measurement/consistency.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::game {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "measurement/summary.hpp"
 #include "sysid/calibration.hpp"
 
 namespace nacre::game {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "measurement/conditions.hpp"
+#include "measurement/specimen_checks.hpp"
 
 namespace nacre::game {
 

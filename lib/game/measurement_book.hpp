@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "game/rounds.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::game {
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "measurement/reduction.hpp"
+#include "measurement/summary.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::game {
 namespace {

@@ -7,8 +7,7 @@
 #include <string>
 
 #include "material/parameters.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::game {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "optimize/pareto.hpp"
 
 namespace nacre::game {

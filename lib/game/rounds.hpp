@@ -10,7 +10,7 @@
 #include "game/scenario.hpp"
 #include "pattern/design.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::game {
 

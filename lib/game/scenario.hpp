@@ -9,7 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+
 
 namespace nacre::game {
 

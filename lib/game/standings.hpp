@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+#include "measurement/summary.hpp"
 #include "optimize/pareto.hpp"
 #include "sysid/calibration.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "gpu/device.hpp"
 #include "tester/fracture_watch.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::gpu {
 

@@ -1,5 +1,6 @@
 #pragma once
-// What carries out the steps of a batch of specimens: an accelerator, or this processor in its place. For host code and
+// What carries out the steps of a batch of specimens: an accelerator, or this processor in its place
+// (emulated_device.hpp). For host code and
 // for CUDA's compiler, which does not bear fmt: nothing here includes base/result.hpp.
 
 #include <cstdint>
@@ -46,8 +47,5 @@ class Device {
 struct DeviceLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// This processor, element by element in the order of a device: slow, for tests.
-std::unique_ptr<Device> emulated_device(int places);
 
 }  // namespace nacre::gpu

@@ -1,9 +1,7 @@
-// The device's steps on this processor: every pass over all of its threads before the next one, as a device's barriers
-// have it.
+#include "gpu/emulated_device.hpp"
 
 #include <algorithm>
 
-#include "gpu/device.hpp"
 #include "gpu/step.hpp"
 
 namespace nacre::gpu {

@@ -15,6 +15,7 @@
 #include "laboratory/modulus_bench.hpp"
 #include "laboratory/specimen_raster.hpp"
 #include "material/neo_hookean.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "tester/fidelity.hpp"
 #include "thesis/constants.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "laboratory/truth.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "tester/loading.hpp"
 
 namespace nacre::laboratory {

@@ -14,6 +14,7 @@
 #include "laboratory/laboratory.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_table.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::laboratory {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "material/parameters.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::laboratory {
 

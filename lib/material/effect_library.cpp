@@ -1,8 +1,6 @@
-// The table of effects: names, units, ranges, where each acts and what it is in words.
+#include "material/effect_library.hpp"
 
 #include <array>
-
-#include "material/extensions.hpp"
 
 namespace nacre::material {
 namespace {

@@ -53,9 +53,6 @@ struct Effect {
   std::string_view explanation;
 };
 
-/// All effects that the model can be extended by, in a fixed order.
-std::span<const Effect> effect_library();
-
 /// The effect of that name, or nullptr.
 const Effect* find_effect(std::string_view name);
 /// Whether that effect acts in the testing machine; false where there is none of the name.

@@ -1,4 +1,4 @@
-// The parameter file (TOML): tables [modulus], [toughness] and [extension.NAME].
+#include "material/parameter_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,7 @@
 #include <toml++/toml.h>
 
 #include "base/toml_file.hpp"
-#include "material/extensions.hpp"
-#include "material/parameters.hpp"
+#include "material/effect_library.hpp"
 
 namespace nacre::material {
 namespace {

@@ -67,12 +67,6 @@ ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, R
 /// tester, the geometric middle of Table A.2 for the toughness tester.
 ParameterSet default_parameters();
 
-/// Reads a parameter file (TOML, tables [modulus], [toughness], [extension.NAME]); keys that are absent keep the value
-/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (nu: 0 to 0.5)
-/// throw InputError naming file, line, key and what was expected.
-ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
-std::string to_toml(const ParameterSet& parameters);
-
 /// A sentence when the set lies outside what the testers can compute (E <= 0, nu outside [0, 0.5], W <= 0, unknown
 /// extension, extension parameter outside its range, anything not finite); empty when it is usable.
 std::string parameter_fault(const ParameterSet& parameters);

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+
 
 namespace nacre::measurement {
 

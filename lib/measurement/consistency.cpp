@@ -12,6 +12,8 @@
 #include "base/statistics.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/specimen_checks.hpp"
+#include "measurement/summary.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+
 
 namespace nacre::measurement {
 
@@ -72,22 +73,5 @@ struct UnitDoubt {
   std::string text;
 };
 std::vector<UnitDoubt> doubts_of_units(const std::vector<SpecimenRecord>& specimens);
-
-/// By how much specimens of one batch, operator, machine or date differ from others of the same designs.
-struct HistoryEffect {
-  std::string factor;  ///< `batch`, `operator`, `machine`, `date`; `print_order` for the trend
-  std::string level;   ///< which one; "per 10 specimens" for the trend
-  tester::TestKind test = tester::TestKind::modulus;
-  double relative = 0.0;        ///< exp(mean difference of log) - 1
-  double standard_error = 0.0;  ///< of it
-  int specimens = 0;
-  double chance = 1.0;  ///< of any of the effects being as large where there are none: Student's t, by Bonferroni
-  bool notable() const { return chance < 0.05; }
-};
-
-/// Effects of the specimens' history on modulus and toughness, each against the mean of its own design, so that it does
-/// not matter which designs were in a batch. Means of designs and levels cost the scatter degrees of freedom. Levels
-/// that share no design with others say nothing and are left out.
-std::vector<HistoryEffect> history_effects(const std::vector<SpecimenRecord>& specimens);
 
 }  // namespace nacre::measurement

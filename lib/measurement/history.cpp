@@ -1,4 +1,4 @@
-// What the history of specimens (batch, operator, machine, date, print order) does to their values.
+#include "measurement/history.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/statistics.hpp"
 #include "measurement/conditions.hpp"
-#include "measurement/consistency.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::measurement {
 namespace {

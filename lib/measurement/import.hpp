@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/specimen_record.hpp"
 #include "measurement/tester_export.hpp"
 
 namespace nacre::measurement {
@@ -43,11 +43,5 @@ Import import_exports(const std::vector<std::filesystem::path>& files, const std
 
 /// A sentence where one of the others has the same curve, to the last digit: no two tests do. Else empty.
 std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRecord> others);
-
-/// Writes what came of `sheet` into the measurement set `folder`: a new one, or one that gains specimens. What the set
-/// holds stays: a specimen that it knows by the same test keeps the judgement that the set has of it (`import` then
-/// says that one), a known name with another test is moved to the rejected, or takes the old one's place and its
-/// judgement with `replace`. Throws InputError when the set cannot be read or written.
-void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import, bool replace = false);
 
 }  // namespace nacre::measurement

@@ -1,10 +1,11 @@
+#include "measurement/observe.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 
 #include "material/extensions.hpp"
-#include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -94,7 +95,7 @@ tester::Curve observe_curve(const tester::Curve& curve, const material::Extensio
   return shown;
 }
 
-tester::Curve observe_along(const std::vector<double>& shown_strain, const Pull& pull,
+tester::Curve observe_along(const std::vector<double>& shown_strain, const SpecimenResponse& pull,
                             const material::Extensions& extensions, const PrintContext& context) {
   constexpr double kSmallStrain = 1e-4, kWellKnown = 1e-9;
   constexpr int kMostPasses = 50;

@@ -1,4 +1,4 @@
-// Reads measurement sets. Rows are independent: what is wrong with one is reported and the others are kept.
+#include "measurement/read_set.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,11 +12,10 @@
 #include "base/files.hpp"
 #include "base/names.hpp"
 #include "measurement/consistency.hpp"
-#include "measurement/measurement.hpp"
-#include "measurement/planned_set.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/set_row.hpp"
+#include "measurement/specimen_checks.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -78,53 +77,6 @@ void require_columns(const Heading& heading, const CsvRow& row, const std::strin
                              table, line);
   }
 }
-
-/// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
-void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>& doubts) {
-  constexpr double kNotSeparated = 0.2;
-  if (record.curve.empty()) return;
-  const auto doubt = [&](const std::string& sentence) { doubts.push_back("column curve: " + sentence); };
-  const double peak_pa = std::ranges::max(record.curve.stress_pa), strain = std::ranges::max(record.curve.strain);
-  if (!kUsualPeakPa.hold(peak_pa))
-    doubt(fmt::format("the largest stress is {:.3g}, no usual one; is the unit Pa?", peak_pa));
-  if (strain > kMostUsualStrain)
-    doubt(fmt::format("strain reaches {:.3g}, no usual one; is it a ratio, not per cent?", strain));
-  if (record.test == tester::TestKind::toughness && record.curve.stress_pa.back() > kNotSeparated * peak_pa)
-    doubt(fmt::format("ends at {:.0f} % of its largest stress, expected a pull to separation",
-                      100.0 * record.curve.stress_pa.back() / peak_pa));
-}
-
-}  // namespace
-
-std::vector<std::string> doubts_about(const SpecimenRecord& record) {
-  std::vector<std::string> doubts;
-  constexpr double kAreaTolerance = 0.02;
-  const bool notched = record.test == tester::TestKind::toughness;
-  if (notched && record.toughness_pa && !record.curve.empty()) {
-    const double area = tester::area_under(record.curve);
-    if (std::abs(area - *record.toughness_pa) > kAreaTolerance * *record.toughness_pa) {
-      doubts.push_back(
-          fmt::format("column toughness_pa: {} is {:.1f} % off the area under the curve, {}; expected at "
-                      "most 2 %; the given value is used",
-                      *record.toughness_pa, 100.0 * std::abs(area / *record.toughness_pa - 1.0), area));
-    }
-  }
-  const auto warn_ignored = [&](const char* column) {
-    doubts.push_back(fmt::format("column {}: is not used in a {} test", column, tester::to_string(record.test)));
-  };
-  if (record.modulus_pa && record.test != tester::TestKind::modulus) warn_ignored("modulus_pa");
-  if (record.toughness_pa && !notched) warn_ignored("toughness_pa");
-  const std::optional<double> modulus = modulus_of(record);
-  if (const auto doubt = implausible_value(record)) {
-    doubts.push_back(fmt::format("column {}: {}", doubt->column, doubt->reason));
-  } else if (record.test == tester::TestKind::modulus && modulus && *modulus > kUsualModulusPa.most) {
-    doubts.push_back(fmt::format("column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", *modulus));
-  }
-  collect_curve_doubts(record, doubts);
-  return doubts;
-}
-
-namespace {
 
 /// What a row must say: a test alone, a value of it, or a value that can be true.
 enum class Demand { planned, measured, plausible };
@@ -212,10 +164,6 @@ class SetBuilder {
   std::size_t point_count_ = 0;
   std::map<std::string, std::pair<std::size_t, int>> index_of_;  ///< specimen -> index, line
 };
-
-}  // namespace
-
-namespace {
 
 MeasurementSet read_set(const std::filesystem::path& folder, Demand demand) {
   if (!std::filesystem::is_directory(folder)) {

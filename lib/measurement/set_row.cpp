@@ -8,6 +8,7 @@
 #include "base/files.hpp"
 #include "base/names.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/layout.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/csv.hpp"
-#include "measurement/measurement.hpp"
 #include "measurement/set_columns.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::measurement {
 

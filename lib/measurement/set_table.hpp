@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
 
@@ -40,9 +39,5 @@ class SetTable {
   std::vector<std::string> heading_;
   std::vector<std::vector<std::string>> rows_;
 };
-
-/// Adds specimens to the set in `folder`: their rows, in place of those of the same names, and curves in files of their
-/// own; what else is there stays. Throws InputError when the table cannot be read or something cannot be written.
-void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens);
 
 }  // namespace nacre::measurement

@@ -13,6 +13,7 @@
 #include "base/files.hpp"
 #include "base/names.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "measurement/tester_export.hpp"
 
 namespace nacre::measurement {

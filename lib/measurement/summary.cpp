@@ -1,4 +1,4 @@
-// Replicates: what was measured of one design, whatever the order in which its specimens arrived.
+#include "measurement/summary.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,11 +6,8 @@
 #include <span>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "base/statistics.hpp"
-#include "measurement/measurement.hpp"
-#include "measurement/set_files.hpp"
+#include "measurement/observe.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -129,55 +126,6 @@ std::optional<double> toughness_of(const SpecimenRecord& specimen) {
   if (specimen.toughness_pa) return specimen.toughness_pa;
   if (specimen.curve.empty()) return std::nullopt;
   return tester::area_under(specimen.curve);
-}
-
-std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen) {
-  const auto lacks = [](const char* column, std::string reason) { return RejectedRow{0, column, std::move(reason)}; };
-  if (!specimen.curve.empty() && specimen.curve.size() < kFewestCurveRows)
-    return lacks("curve", fmt::format("has {} rows, expected at least {}", specimen.curve.size(), kFewestCurveRows));
-  switch (specimen.test) {
-    case tester::TestKind::modulus:
-      if (modulus_of(specimen)) return std::nullopt;
-      return lacks("modulus_pa",
-                   "no modulus, expected modulus_pa, or a curve from below 0.05 % strain that rises to 0.25 %");
-    case tester::TestKind::toughness:
-      if (specimen.toughness_pa) return std::nullopt;
-      if (specimen.curve.empty()) return lacks("toughness_pa", "no toughness, expected toughness_pa or a curve");
-      if (tester::area_under(specimen.curve) > 0.0) return std::nullopt;
-      return lacks("curve", "the area under the curve is not positive, expected a stress-strain curve to separation");
-    case tester::TestKind::tensile:
-      if (specimen.curve.empty()) return lacks("curve", "no curve, expected one for a tensile test");
-      if (specimen.design.mixture()) return std::nullopt;
-      return lacks("pattern", std::string(kTensileIsHomogeneous));
-  }
-  return std::nullopt;
-}
-
-std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
-  const auto reason = [](double value, const Limits& usual) {
-    return fmt::format("{} Pa, expected {} to {}; is the unit Pa?", value, usual.least, usual.most);
-  };
-  // A value of the other kind is not used, whatever it is.
-  switch (specimen.test) {
-    case tester::TestKind::modulus: {
-      const std::optional<double> modulus_pa = modulus_of(specimen);
-      if (!modulus_pa || kModulusPa.hold(*modulus_pa)) return std::nullopt;
-      return RejectedRow{0, "modulus_pa", reason(*modulus_pa, kModulusPa)};
-    }
-    case tester::TestKind::toughness: {
-      const std::optional<double> toughness_pa = toughness_of(specimen);
-      if (!toughness_pa || kToughnessPa.hold(*toughness_pa)) return std::nullopt;
-      return RejectedRow{0, "toughness_pa", reason(*toughness_pa, kToughnessPa)};
-    }
-    case tester::TestKind::tensile:
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-std::optional<RejectedRow> why_unusable(const SpecimenRecord& specimen) {
-  auto missing = missing_result(specimen);
-  return missing ? missing : implausible_value(specimen);
 }
 
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {

@@ -1,12 +1,13 @@
-// An import into a measurement set that may exist: what is there stays.
+#include "measurement/write_import.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "measurement/import.hpp"
+#include "measurement/read_set.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_table.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::measurement {
 namespace {

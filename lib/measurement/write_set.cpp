@@ -1,3 +1,5 @@
+#include "measurement/write_set.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -5,7 +7,6 @@
 #include <set>
 
 #include "base/files.hpp"
-#include "measurement/measurement.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/set_table.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "families/grouping.hpp"
 #include "game/thesis_tables.hpp"
+#include "measurement/summary.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre::report {

@@ -6,6 +6,7 @@
 
 #include "base/named_table.hpp"
 #include "base/names.hpp"
+#include "families/families_file.hpp"
 #include "game/model.hpp"
 #include "game/reference_tables.hpp"
 #include "game/standings.hpp"

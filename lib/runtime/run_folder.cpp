@@ -22,7 +22,7 @@
 #include "base/names.hpp"
 #include "base/result.hpp"
 #include "runtime/process.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/header.hpp"
 
 namespace nacre::runtime {

@@ -1,5 +1,7 @@
 #include "store/kept_simulation.hpp"
 
+#include "tester/simulation_key.hpp"
+
 namespace nacre::store {
 namespace {
 

@@ -3,7 +3,8 @@
 
 #include "optimize/pareto.hpp"
 #include "store/simulation_cache.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::store {
 

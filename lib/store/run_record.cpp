@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/result.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "pattern/pattern_key.hpp"
 #include "store/database_care.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "crack/crack_record.hpp"
 #include "explore/search.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "optimize/pareto.hpp"
 #include "wire/convert.hpp"
 

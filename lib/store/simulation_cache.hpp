@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "store/database_care.hpp"
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::store {
 

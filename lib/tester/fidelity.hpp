@@ -1,7 +1,8 @@
 #pragma once
+
+#include "tester/names.hpp"
 // What distinguishes the fidelities: size and loading rate of the specimens. Testers and virtual laboratory share both.
 
-#include "tester/tester.hpp"
 
 namespace nacre::tester {
 

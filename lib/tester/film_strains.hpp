@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
+
 
 namespace nacre::tester {
 

@@ -4,7 +4,7 @@
 
 #include "fem/explicit_solver.hpp"
 #include "tester/fidelity.hpp"
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::tester {
 

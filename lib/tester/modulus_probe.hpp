@@ -5,7 +5,8 @@
 
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/simulation.hpp"
+
 
 namespace nacre::tester {
 

@@ -1,7 +1,8 @@
+#include "tester/names.hpp"
+
 #include <array>
 #include <utility>
 
-#include "tester/tester.hpp"
 
 namespace nacre::tester {
 namespace {

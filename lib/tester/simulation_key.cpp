@@ -1,8 +1,9 @@
+#include "tester/simulation_key.hpp"
+
 #include <algorithm>
 
 #include "base/hash.hpp"
 #include "material/extensions.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::tester {
 namespace {

@@ -1,10 +1,11 @@
+#include "tester/tensile.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "material/mixture.hpp"
 #include "material/pulled_bar.hpp"
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
 #include "tester/usable.hpp"
 
 namespace nacre::tester {

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "tester/tester.hpp"
+#include "tester/simulation.hpp"
+
 
 namespace nacre::tester {
 

@@ -14,11 +14,9 @@
 #include "explore/search.hpp"
 #include "game/family_errors.hpp"
 #include "material/parameters.hpp"
-#include "measurement/measurement.hpp"
 #include "pattern/design.hpp"
 #include "sysid/calibration.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
 #include "wire/codec.hpp"
 
 namespace nacre::wire {

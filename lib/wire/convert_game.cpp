@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/specimen_checks.hpp"
 #include "wire/checks.hpp"
 #include "wire/convert.hpp"
 

@@ -18,7 +18,6 @@
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::cli {
 namespace {

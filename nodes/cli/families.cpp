@@ -8,6 +8,7 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
 #include "family_data.hpp"
 #include "family_work.hpp"

@@ -9,8 +9,6 @@
 #include "explore/search.hpp"
 #include "families/grouping.hpp"
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::cli {

@@ -15,6 +15,7 @@
 #include "family_mechanisms.hpp"
 #include "game/family_errors.hpp"
 #include "game/standings.hpp"
+#include "material/parameter_file.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"

@@ -11,6 +11,7 @@
 #include "laboratory_view.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/history.hpp"
 #include "measurement/set_table.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"

@@ -4,7 +4,9 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "families/families_file.hpp"
 #include "laboratory_view.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"

@@ -21,7 +21,7 @@
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/hash.hpp"
 #include "runtime/journal.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::simulator_farm {
 namespace {

@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+
 
 namespace nacre::simulator_farm {
 

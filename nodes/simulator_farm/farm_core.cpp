@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "simulator_farm/test_request.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::simulator_farm {
 namespace {

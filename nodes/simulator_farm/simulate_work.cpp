@@ -16,7 +16,7 @@
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/test_request.hpp"
 #include "store/kept_simulation.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {

@@ -8,6 +8,7 @@
 #include "base/expected.hpp"
 #include "base/files.hpp"
 #include "families/dense_sampling.hpp"
+#include "families/families_file.hpp"
 #include "pattern/pattern_key.hpp"
 #include "runtime/journal.hpp"
 #include "wire/convert.hpp"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
 #include "sysid/calibration.hpp"
 #include "wire/convert.hpp"
 

@@ -6,6 +6,7 @@
 #include "dashboard/entries.hpp"
 #include "dashboard/guard.hpp"
 #include "dashboard/maps.hpp"
+#include "families/families_file.hpp"
 #include "fuzz.hpp"
 
 namespace nacre::fuzz {

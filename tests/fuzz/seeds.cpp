@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "film/film_file.hpp"
 #include "game/scenario.hpp"
+#include "material/parameter_file.hpp"
 #include "runtime/journal.hpp"
 #include "store/run_database.hpp"
 #include "store/simulation_cache.hpp"

@@ -12,6 +12,7 @@
 #include "base/files.hpp"
 #include "base/statistics.hpp"
 #include "families/dense_sampling.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
 #include "game/standings.hpp"
 #include "in_process_game.hpp"

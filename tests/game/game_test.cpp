@@ -11,6 +11,7 @@
 #include "../instrumented.hpp"
 #include "base/files.hpp"
 #include "in_process_game.hpp"
+#include "material/parameter_file.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "stand_ins.hpp"

@@ -9,8 +9,11 @@
 #include <mutex>
 
 #include "film/film_file.hpp"
+#include "gpu/emulated_device.hpp"
 #include "simulator_farm/gpu_executor.hpp"
 #include "simulator_farm/simulate_work.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::simulator_farm {

@@ -23,6 +23,7 @@
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
 #include "simulator_farm/test_request.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::simulator_farm {

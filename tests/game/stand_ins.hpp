@@ -10,7 +10,6 @@
 #include "game/scenario.hpp"
 #include "in_process_game.hpp"
 #include "runtime/node_core.hpp"
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::game_test {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
+#include "measurement/read_set.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
 

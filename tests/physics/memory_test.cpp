@@ -13,6 +13,7 @@
 #include "../instrumented.hpp"
 #include "fem/explicit_storage.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {

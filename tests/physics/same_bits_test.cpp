@@ -6,6 +6,7 @@
 
 #include "../output_of.hpp"
 #include "specimens.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {

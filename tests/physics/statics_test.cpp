@@ -11,7 +11,7 @@
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {

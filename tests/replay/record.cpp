@@ -11,7 +11,8 @@
 
 #include "base/result.hpp"
 #include "golden_game.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+#include "measurement/summary.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
 

@@ -14,6 +14,8 @@
 #include "base/result.hpp"
 #include "dashboard/server.hpp"
 #include "fake_desk.hpp"
+#include "families/families_file.hpp"
+#include "material/parameter_file.hpp"
 #include "store/run_database.hpp"
 
 namespace nacre::dashboard {

@@ -12,9 +12,13 @@
 
 #include "base/files.hpp"
 #include "fabricate/build_sheet.hpp"
+#include "fabricate/build_sheet_html.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/import.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::fabricate {
 namespace {

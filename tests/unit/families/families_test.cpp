@@ -9,6 +9,7 @@
 #include "families/dense_sampling.hpp"
 #include "families/distances.hpp"
 #include "families/earth_movers.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
 #include "families/interpolation.hpp"
 #include "families/isomap.hpp"

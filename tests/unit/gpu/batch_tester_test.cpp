@@ -11,6 +11,7 @@
 
 #include "../../instrumented.hpp"
 #include "gpu/cuda.hpp"
+#include "gpu/emulated_device.hpp"
 
 namespace nacre::gpu {
 namespace {

@@ -15,11 +15,12 @@
 #include "laboratory/hidden_coupon.hpp"
 #include "laboratory/laboratory.hpp"
 #include "laboratory/modulus_bench.hpp"
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "material/pulled_bar.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::laboratory {
 namespace {

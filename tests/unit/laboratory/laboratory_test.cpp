@@ -9,6 +9,7 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "measurement/read_set.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::laboratory {

@@ -8,6 +8,8 @@
 
 #include "base/random.hpp"
 #include "measurement/conditions.hpp"
+#include "measurement/history.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::measurement {
 namespace {

@@ -12,6 +12,9 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_import.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::measurement {
 namespace {

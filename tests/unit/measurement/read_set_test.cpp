@@ -7,7 +7,10 @@
 #include <fstream>
 
 #include "base/files.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/specimen_checks.hpp"
+#include "measurement/summary.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::measurement {
 namespace {

@@ -9,6 +9,8 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "measurement/import.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_import.hpp"
 
 namespace nacre::measurement {
 namespace {

@@ -1,15 +1,16 @@
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "material/mixture.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::tester {
 namespace {

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
+
 
 namespace nacre::tester {
 namespace {

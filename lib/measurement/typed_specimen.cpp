@@ -1,9 +1,10 @@
-#include "measurement/entry.hpp"
+#include "measurement/typed_specimen.hpp"
 
 #include <algorithm>
 
 #include "measurement/set_files.hpp"
 #include "measurement/set_row.hpp"
+#include "measurement/specimen_checks.hpp"
 
 namespace nacre::measurement {
 namespace {

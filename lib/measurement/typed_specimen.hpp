@@ -5,7 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+
 
 namespace nacre::measurement {
 
