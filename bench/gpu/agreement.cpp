@@ -45,16 +45,16 @@ double slope_pa(const tester::Curve& curve) {
 }
 
 /// How one pattern came out.
-struct Row {
+struct PatternAgreement {
   double slope = 0.0;                     ///< relative difference of the initial slopes
   double curve = 0.0;                     ///< up to the first failure
   bool same_first = false;                ///< the same element fails first
   double log_t = 0.0, log_t_moved = 0.0;  ///< against the processor's own
 };
 
-Row row_of(const tester::ToughnessResult& device, const tester::ToughnessResult& own,
-           const tester::ToughnessResult& moved) {
-  Row row;
+PatternAgreement row_of(const tester::ToughnessResult& device, const tester::ToughnessResult& own,
+                        const tester::ToughnessResult& moved) {
+  PatternAgreement row;
   row.slope = slope_pa(device.curve) / slope_pa(own.curve) - 1.0;
   row.curve = tester::largest_difference(own.curve, device.curve,
                                          own.breaks.empty() ? own.failure_strain : own.breaks.front().strain);
@@ -65,10 +65,10 @@ Row row_of(const tester::ToughnessResult& device, const tester::ToughnessResult&
   return row;
 }
 
-void print_summary(const std::vector<Row>& rows) {
+void print_summary(const std::vector<PatternAgreement>& rows) {
   const auto column = [&](auto value) {
     std::vector<double> values;
-    for (const Row& row : rows) values.push_back(value(row));
+    for (const PatternAgreement& row : rows) values.push_back(value(row));
     return values;
   };
   const auto largest = [&](auto value) {
@@ -76,15 +76,17 @@ void print_summary(const std::vector<Row>& rows) {
     for (const double each : column(value)) most = std::max(most, std::abs(each));
     return most;
   };
-  const auto same = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.same_first; });
+  const auto same = std::count_if(rows.begin(), rows.end(), [](const PatternAgreement& row) { return row.same_first; });
   fmt::print(
       "{} patterns: initial slopes within {:.2g}, curves up to the first failure within {:.2g}, {} begin at the same "
       "element\n",
-      rows.size(), largest([](const Row& r) { return r.slope; }), largest([](const Row& r) { return r.curve; }), same);
-  for (const auto& [name, value] :
-       {std::pair{"device", &Row::log_t}, std::pair{"processor, parameters moved", &Row::log_t_moved}}) {
+      rows.size(), largest([](const PatternAgreement& r) { return r.slope; }),
+      largest([](const PatternAgreement& r) { return r.curve; }), same);
+  for (const auto& [name, value] : {std::pair{"device", &PatternAgreement::log_t},
+                                    std::pair{"processor, parameters moved", &PatternAgreement::log_t_moved}}) {
     std::vector<double> sizes;
-    for (const double each : column([&](const Row& r) { return r.*value; })) sizes.push_back(std::abs(each));
+    for (const double each : column([&](const PatternAgreement& r) { return r.*value; }))
+      sizes.push_back(std::abs(each));
     fmt::print("log T, {} against processor: root mean square {:.4f}, median {:.4f}, ninth decile {:.4f}\n", name,
                root_mean_square(sizes), quantile(sizes, 0.5), quantile(sizes, 0.9));
   }
@@ -106,7 +108,7 @@ void run_agreement(const Options& options) {
   BatchTimes times;
   const auto on_device = pull_all(std::move(device), places, tests, times);
   fmt::print("device: {:.1f} s, preparing {:.1f} s; now the processor\n", times.pulling_s, times.preparing_s);
-  std::vector<Row> rows(patterns.size());
+  std::vector<PatternAgreement> rows(patterns.size());
   parallel_for(options.count, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     rows[at] = row_of(on_device[at].value(), tester::run_fracture_test<float>(tests[at]).value(),

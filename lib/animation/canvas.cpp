@@ -93,7 +93,7 @@ double Canvas::text_width(const std::string& text, const TextStyle& style) {
 
 void Canvas::text(CanvasPoint at, const std::string& text, const TextStyle& style) {
   const double width = text_width(text, style);
-  const double back = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::centre ? 0.5 * width : width;
+  const double back = style.anchor == TextAnchor::left ? 0.0 : style.anchor == TextAnchor::centre ? 0.5 * width : width;
   cairo_save(context_.get());
   colour(style.rgb);
   cairo_move_to(context_.get(), at.x, at.y);

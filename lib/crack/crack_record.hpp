@@ -19,7 +19,7 @@ inline constexpr int kSmallestCrackElements = 4;
 inline constexpr double kStandingCost = 4.0;
 
 /// The cheapest way from the notch to the failed element farthest from it, through failed elements where there are any.
-struct Path {
+struct CrackPath {
   std::vector<int> elements;         ///< from the notch on, each touching the next
   double length_m = 0.0;             ///< between the centres, plus half an element at either end
   double straight_length_m = 0.0;    ///< of the straight crack across the same columns, perpendicular to the pull
@@ -29,26 +29,26 @@ struct Path {
 
   /// Path length over straight length, >= 1.
   double ratio() const { return length_m / straight_length_m; }
-  bool operator==(const Path&) const = default;
+  bool operator==(const CrackPath&) const = default;
 };
 
 /// What is known of the crack of one specimen.
-struct Record {
+struct CrackRecord {
   int columns = 0, rows = 0;         ///< of the specimen; element = row * columns + column, row 0 at the bottom
   std::vector<tester::Break> order;  ///< failed elements in the order of failing
-  std::optional<Path> path;          ///< nothing when no element failed
+  std::optional<CrackPath> path;     ///< nothing when no element failed
   int branches = 0;                  ///< ways off the path of kShortestBranchElements or more
   int separate_cracks = 0;           ///< groups of kSmallestCrackElements or more that do not touch the path's crack
-  bool operator==(const Record&) const = default;
+  bool operator==(const CrackRecord&) const = default;
 };
 
 /// The record of a crack in the notched specimen as it was before the test; of the grid only shape, size of the
 /// elements and phases are used. The elements of `order` are not empty in the grid, none stands in it twice. Mirroring
 /// grid and order mirrors the record, except where ways are equally long and failed in the same steps. Cost: some
 /// milliseconds at full fidelity.
-Record crack_record(const fem::Grid& notched, std::vector<tester::Break> order);
+CrackRecord crack_record(const fem::Grid& notched, std::vector<tester::Break> order);
 
 /// The same for the toughness test of a simulation (unrefined). `order` comes from its ToughnessResult.
-Record record_of(const tester::Simulation& simulation, std::vector<tester::Break> order);
+CrackRecord record_of(const tester::Simulation& simulation, std::vector<tester::Break> order);
 
 }  // namespace nacre::crack

@@ -8,8 +8,8 @@
 namespace nacre::crack {
 namespace {
 
-using Entry = std::pair<double, int>;  // cost, element: of equal costs the lower element first
-using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+using QueuedElement = std::pair<double, int>;  // cost, element: of equal costs the lower element first
+using Queue = std::priority_queue<QueuedElement, std::vector<QueuedElement>, std::greater<>>;
 
 void spread(const fem::Grid& grid, Queue& queue, const ElementCost& cost, const std::function<bool(int)>& arrived,
             Distances& distances) {

@@ -31,9 +31,9 @@ inline constexpr int kShortestGuidedRun = 6;
 /// below its beginning; branching, at the tip of each branch; bridging, in the middle of each ligament that stands in
 /// the path; arrest, where the tip waits in front of soft material, while it waits; guidance, in the middle of each
 /// guided stretch. By kind, along the path. None without a path. The strains are those of record.order.
-std::vector<Mark> marks_of(const fem::Grid& notched, const Record& record);
+std::vector<Mark> marks_of(const fem::Grid& notched, const CrackRecord& record);
 
 /// The tip of each branch of a record, longest first: record.branches of them.
-std::vector<int> branch_tips(const fem::Grid& notched, const Record& record);
+std::vector<int> branch_tips(const fem::Grid& notched, const CrackRecord& record);
 
 }  // namespace nacre::crack

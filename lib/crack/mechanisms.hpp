@@ -34,9 +34,9 @@ std::array<double, 5> values_of(const Mechanisms& mechanisms);
 
 /// From the record of a crack and the specimen's phases as they were before the test (notch empty). All zero without a
 /// path.
-Mechanisms mechanisms_of(const fem::Grid& notched, const Record& record);
+Mechanisms mechanisms_of(const fem::Grid& notched, const CrackRecord& record);
 
 /// The same for the toughness test of a simulation (unrefined).
-Mechanisms mechanisms_of(const tester::Simulation& simulation, const Record& record);
+Mechanisms mechanisms_of(const tester::Simulation& simulation, const CrackRecord& record);
 
 }  // namespace nacre::crack

@@ -85,7 +85,8 @@ class Desk {
   virtual std::optional<std::string> against(const Approval& approval) = 0;
   /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is
   /// called.
-  virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;
+  virtual void keep_grouping(const std::filesystem::path& folder,
+                             const std::vector<families::SeedFamily>& families) = 0;
 };
 
 }  // namespace nacre::dashboard

@@ -49,8 +49,8 @@ Json stage_json(const store::RecordedFamily& family) {
 
 }  // namespace
 
-std::vector<families::Member> measured_members(const store::RunRecord& run) {
-  std::vector<families::Member> members;
+std::vector<families::MeasuredPattern> measured_members(const store::RunRecord& run) {
+  std::vector<families::MeasuredPattern> members;
   for (const auto& each : store::measured_patterns(run, store::newest_round(run).value_or(0)))
     members.push_back({each.pattern, each.mean});
   return members;
@@ -59,7 +59,7 @@ std::vector<families::Member> measured_members(const store::RunRecord& run) {
 Json families_json(const store::RunRecord& run, const Grouping& grouping) {
   Json stage = Json::array(), groups = Json::array(), near = Json::array();
   for (const store::RecordedFamily& family : run.families) stage.push_back(stage_json(family));
-  for (const families::Family& group : grouping.families) {
+  for (const families::SeedFamily& group : grouping.families) {
     Json seeds = Json::array();
     for (const pattern::Pattern& seed : group.seeds) seeds.push_back(seed.key());
     groups.push_back({{"name", group.name}, {"seeds", seeds}});

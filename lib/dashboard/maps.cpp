@@ -162,10 +162,10 @@ Result<PatternMap> FamilyFolder::map(const std::string& id) const {
   }
 }
 
-Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int rank) const {
+Grouping FamilyFolder::grouping(std::span<const families::MeasuredPattern> measured, int rank) const {
   Grouping grouping{.families = {}, .near_pareto = {}, .from = "proposal", .problem = ""};
-  const std::vector<families::Member> near = families::near_pareto(measured, rank);
-  for (const families::Member& member : near) grouping.near_pareto.push_back(member.pattern);
+  const std::vector<families::MeasuredPattern> near = families::near_pareto(measured, rank);
+  for (const families::MeasuredPattern& member : near) grouping.near_pareto.push_back(member.pattern);
   if (!near.empty()) grouping.families = families::proposed_families(near);
   std::error_code unreadable;
   const std::filesystem::path file = folder_ / "families.toml";
@@ -208,7 +208,7 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
     amounts.push_back(*amount);
   }
   if (sources.empty()) return fail("weights: expected one above 0");
-  const auto pattern = families::barycentre(sources, amounts, families::Cut::amount);
+  const auto pattern = families::barycentre(sources, amounts, families::BarycentreCut::amount);
   if (!pattern)
     return Json{{"pattern", nullptr}, {"violation", "there is no soft material to move between these patterns"}};
   return Json{{"pattern", pattern->key()},

@@ -31,14 +31,14 @@ Json design_json(const store::RunRecord& run, const pattern::Design& design);
 
 /// Which measured designs belong together, and who says so.
 struct Grouping {
-  std::vector<families::Family> families;
+  std::vector<families::SeedFamily> families;
   std::vector<pattern::Pattern> near_pareto;  ///< what a person may choose from
   std::string from;                           ///< `file` (families.toml) or `proposal`
   std::string problem;                        ///< why the file is not taken; empty when it is, or when there is none
 };
 
 /// The patterns that the run has measured in both tests.
-std::vector<families::Member> measured_members(const store::RunRecord& run);
+std::vector<families::MeasuredPattern> measured_members(const store::RunRecord& run);
 
 /// Families of the stage after the game with designs, errors of both models and whether they over-fit; and the
 /// grouping.

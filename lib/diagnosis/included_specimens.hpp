@@ -5,7 +5,6 @@
 
 #include "measurement/specimen_record.hpp"
 
-
 namespace nacre::diagnosis {
 
 /// What takes part in a diagnosis, and what is to be said of the rest.

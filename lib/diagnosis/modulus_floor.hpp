@@ -5,7 +5,6 @@
 
 #include "tester/names.hpp"
 
-
 namespace nacre::diagnosis {
 
 /// What the elements of the modulus tester leave of an error in log E (data/discretisation_floor.toml,

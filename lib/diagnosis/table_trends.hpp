@@ -8,7 +8,6 @@
 
 #include "measurement/specimen_record.hpp"
 
-
 namespace nacre::diagnosis {
 
 /// Rank correlation of log(measured / predicted) with one numeric column.

@@ -38,7 +38,7 @@ std::pair<double, double> fraction_by_layer(const StackCount& count) {
   return {least, most};
 }
 
-Json test_json(const Model& model) {
+Json test_json(const PrintModel& model) {
   const SpecimenGeometry geometry = geometry_of(model.plan.kind);
   Json test{{"width_mm", geometry.test_width_mm},
             {"gauge_mm", geometry.gauge_mm},
@@ -50,7 +50,7 @@ Json test_json(const Model& model) {
   return test;
 }
 
-Json model_json(const Model& model, const WrittenModel& written) {
+Json model_json(const PrintModel& model, const WrittenModel& written) {
   const auto [least, most] = fraction_by_layer(written.count);
   return {{"name", model.name},
           {"slices", slices_of(written)},
@@ -73,8 +73,8 @@ Json model_json(const Model& model, const WrittenModel& written) {
           {"testing", test_json(model)}};
 }
 
-Json specimen_json(const Job& job, const Placed& specimen) {
-  const Model& model = job.models[specimen.model];
+Json specimen_json(const Job& job, const PlacedSpecimen& specimen) {
+  const PrintModel& model = job.models[specimen.model];
   return {{"label", specimen.label},
           {"model", model.name},
           {"design", model.wanted.design.name()},
@@ -92,7 +92,7 @@ Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
   const Printer& printer = request.printer;
   Json models = Json::array(), specimens = Json::array();
   for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written[i]));
-  for (const Placed& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
+  for (const PlacedSpecimen& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
   return {
       {"job", request.name},
       {"seed", request.seed},
@@ -100,7 +100,7 @@ Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
        {{"dpi", {printer.dpi_x, printer.dpi_y, printer.dpi_z}}, {"tray_mm", {printer.tray_x_mm, printer.tray_y_mm}}}},
       {"palette", {"none", "soft", "rigid"}},
       {"interface", request.interface == Interface::engineered ? "engineered" : "sharp"},
-      {"grips", request.grips == Grips::pattern ? "pattern" : "rigid"},
+      {"grips", request.grips == GripMaterial::pattern ? "pattern" : "rigid"},
       {"cut", request.notch.print_cut ? "printed" : "to be milled"},
       {"trays", job.trays},
       {"models", models},
@@ -118,9 +118,9 @@ Json plan_of(Json sheet) {
 }
 
 /// One row under measurement::kJobHeading.
-std::string specimen_row(const Job& job, const Placed& specimen) {
-  const Model& model = job.models[specimen.model];
-  const Wanted& wanted = model.wanted;
+std::string specimen_row(const Job& job, const PlacedSpecimen& specimen) {
+  const PrintModel& model = job.models[specimen.model];
+  const WantedSpecimens& wanted = model.wanted;
   const SpecimenGeometry geometry = geometry_of(model.plan.kind);
   return fmt::format("{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7:.6g},{8},{9},{10},{11},{12},,,,,\n", specimen.label,
                      csv_cell(wanted.design.name()), tester::to_string(wanted.test), geometry.test_width_mm,
@@ -205,7 +205,7 @@ void forget_job(const std::filesystem::path& folder) {
 
 std::string specimen_table(const Job& job) {
   std::string table = fmt::format("{}\n", measurement::kJobHeading);
-  for (const Placed& specimen : job.specimens) table += specimen_row(job, specimen);
+  for (const PlacedSpecimen& specimen : job.specimens) table += specimen_row(job, specimen);
   return table;
 }
 
@@ -215,7 +215,7 @@ std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path&
     if (progress)
       progress((static_cast<double>(written.size()) + share_of_model) / static_cast<double>(job.models.size()), what);
   };
-  for (const Model& model : job.models) {
+  for (const PrintModel& model : job.models) {
     const DropletPlan plan(model.plan, job.request.printer);
     WrittenModel stack{.folder = job.models.size() == 1 ? "" : model.name, .count = {}};
     const std::filesystem::path place = folder / stack.folder;

@@ -47,7 +47,7 @@ std::string settings(const Job& job) {
       "{}.</p>\n",
       job.specimens.size(), job.models.size(), job.trays, printer.tray_x_mm, printer.tray_y_mm, printer.dpi_x,
       printer.dpi_y, printer.dpi_z, request.interface == Interface::engineered ? "engineered" : "sharp",
-      request.grips == Grips::pattern ? "the pattern" : "rigid", request.seed);
+      request.grips == GripMaterial::pattern ? "the pattern" : "rigid", request.seed);
 }
 
 std::string legend_entry(std::uint32_t rgb, const char* name) {
@@ -57,7 +57,7 @@ std::string legend_entry(std::uint32_t rgb, const char* name) {
 std::string models_table(const Job& job, const std::vector<WrittenModel>& written) {
   std::string rows;
   for (std::size_t i = 0; i < job.models.size(); ++i) {
-    const Model& model = job.models[i];
+    const PrintModel& model = job.models[i];
     const std::string folder = written[i].folder.empty() ? "" : written[i].folder + "/";
     rows += fmt::format(
         "<tr><td><a href=\"{0}preview.png\">{1}</a></td><td><code>{2}</code></td><td>{3}</td><td class=n>{4}</td>"
@@ -89,9 +89,9 @@ std::string tray_drawing(const Job& job, int tray) {
   std::string drawing =
       fmt::format("<svg width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"0 0 {} {}\">\n", printer.tray_x_mm * kPointsPerMm,
                   printer.tray_y_mm * kPointsPerMm, printer.tray_x_mm, printer.tray_y_mm);
-  for (const Placed& specimen : job.specimens) {
+  for (const PlacedSpecimen& specimen : job.specimens) {
     if (specimen.tray != tray) continue;
-    const Model& model = job.models[specimen.model];
+    const PrintModel& model = job.models[specimen.model];
     const double top_mm = printer.tray_y_mm - specimen.y_mm - model.size_y_mm;  // the front is drawn at the bottom
     drawing += fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" stroke=\"#555\" "
@@ -113,8 +113,8 @@ std::string trays(const Job& job) {
 
 std::string specimens_table(const Job& job) {
   std::string rows;
-  for (const Placed& specimen : job.specimens) {
-    const Model& model = job.models[specimen.model];
+  for (const PlacedSpecimen& specimen : job.specimens) {
+    const PrintModel& model = job.models[specimen.model];
     rows += fmt::format(
         "<tr><td class=n>{}</td><td><b>{}</b></td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
         "<td class=n>{:.1f}</td><td class=n>{:.1f}</td></tr>\n",

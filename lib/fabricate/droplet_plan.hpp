@@ -23,7 +23,7 @@ enum class Interface {
 };
 
 /// What the gripped ends of a pattern's specimen are made of.
-enum class Grips { pattern, rigid };
+enum class GripMaterial { pattern, rigid };
 
 /// The areas into which pixels are divided (2.2.3, Figure 2-3): inside one pixel, or an interface area of type 1
 /// (neighbours along the printer's x), 2 (along y) or 3 (around a corner).
@@ -36,7 +36,7 @@ struct SpecimenPlan {
   double orientation_deg = 0.0;  ///< 0: pulled along the printer's y; 90: turned counter-clockwise, along x
   double thickness_mm = 3.2;
   Interface interface = Interface::engineered;
-  Grips grips = Grips::pattern;
+  GripMaterial grips = GripMaterial::pattern;
   NotchOptions notch = {};
   std::uint64_t seed = 1;  ///< of homogeneous mixtures
 };

@@ -13,7 +13,7 @@
 namespace nacre::fabricate {
 
 /// Specimens that somebody wants tested in one way.
-struct Wanted {
+struct WantedSpecimens {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::toughness;
   double orientation_deg = 0.0;
@@ -27,25 +27,25 @@ struct Wanted {
 
 struct JobRequest {
   std::string name;  ///< of the batch; labels begin with it. 1 to 40 of A-Z, a-z, 0-9, . _ -
-  std::vector<Wanted> wanted = {};
+  std::vector<WantedSpecimens> wanted = {};
   Printer printer = {};
   Interface interface = Interface::engineered;
-  Grips grips = Grips::pattern;
+  GripMaterial grips = GripMaterial::pattern;
   NotchOptions notch = {};
   double gap_mm = 5.0;  ///< between specimens, and to the edge of the tray
   std::uint64_t seed = 1;
 };
 
 /// One stack of slices, printed as often as there are replicates.
-struct Model {
-  Wanted wanted;
+struct PrintModel {
+  WantedSpecimens wanted;
   SpecimenPlan plan;
   std::string name;  ///< unique in the job, usable as a folder
   double size_x_mm = 0.0, size_y_mm = 0.0, size_z_mm = 0.0;
 };
 
 /// One specimen on a tray; x to the right, y away from the front left corner, as the printer counts.
-struct Placed {
+struct PlacedSpecimen {
   std::string label;  ///< `BATCH-NN`, what to write on it and what its measurement is called
   std::size_t model = 0;
   int replicate = 1;
@@ -56,8 +56,8 @@ struct Placed {
 
 struct Job {
   JobRequest request;
-  std::vector<Model> models;
-  std::vector<Placed> specimens;  ///< in print order
+  std::vector<PrintModel> models;
+  std::vector<PlacedSpecimen> specimens;  ///< in print order
   int trays = 0;
   /// Batch of a tray: the job's name, numbered when there are several trays.
   std::string batch(int tray) const;
@@ -73,6 +73,6 @@ Job plan_job(const JobRequest& request);
 std::string pull_in_words(const tester::Loading& loading);
 
 /// Speed of the grips in mm/min that strains the specimen at its rate.
-double test_speed_mm_per_min(const Wanted& wanted);
+double test_speed_mm_per_min(const WantedSpecimens& wanted);
 
 }  // namespace nacre::fabricate

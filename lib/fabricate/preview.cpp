@@ -51,8 +51,8 @@ Channels mean_colour(const DropletPlan& plan, const Slice& slice, const SliceRec
   return sum;
 }
 
-void draw(animation::Picture& picture, const DropletPlan& plan, const Slice& slice, const SliceRectangle& part, int left, int top,
-          double points_per_mm) {
+void draw(animation::Picture& picture, const DropletPlan& plan, const Slice& slice, const SliceRectangle& part,
+          int left, int top, double points_per_mm) {
   const int width = static_cast<int>(part.width_mm * points_per_mm);
   const int height = static_cast<int>(part.height_mm * points_per_mm);
   const double point_mm = 1.0 / points_per_mm;

@@ -21,12 +21,12 @@ constexpr png_color colour_of(std::uint32_t rgb) {
 constexpr std::array kPalette = {colour_of(pattern::kNotPrintedRgb), colour_of(pattern::kSoftRgb),
                                  colour_of(pattern::kRigidRgb)};
 
-struct Fault {
+struct PngFault {
   std::array<char, 128> text{};
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  auto* fault = static_cast<Fault*>(png_get_error_ptr(png));
+  auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
   std::strncpy(fault->text.data(), message, fault->text.size() - 1);
   png_longjmp(png, 1);
 }
@@ -60,20 +60,20 @@ bool encode(png_structp png, png_infop info, const Slice& slice, const Printer& 
 }
 
 /// What is still to be read of a file.
-struct Source {
+struct PngSource {
   const char* at;
   std::size_t left;
 };
 
 void take(png_structp png, png_bytep bytes, std::size_t count) {
-  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
   if (count > source->left) png_error(png, "the file ends early");
   std::memcpy(bytes, source->at, count);
   source->at += count;
   source->left -= count;
 }
 
-bool decode_head(png_structp png, png_infop info, Source* source, Slice* slice) {
+bool decode_head(png_structp png, png_infop info, PngSource* source, Slice* slice) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, source, take);
   png_read_info(png, info);
@@ -95,7 +95,7 @@ bool decode_rows(png_structp png, Slice* slice) {
 }  // namespace
 
 std::string to_png(const Slice& slice, const Printer& printer, bool is_noise) {
-  Fault fault;
+  PngFault fault;
   std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png_create_info_struct(png);
@@ -108,8 +108,8 @@ std::string to_png(const Slice& slice, const Printer& printer, bool is_noise) {
 Slice read_slice(const std::filesystem::path& path) {
   constexpr int kLongestSide = 1 << 17;
   const std::string file = read_file(path);
-  Source source{file.data(), file.size()};
-  Fault fault;
+  PngSource source{file.data(), file.size()};
+  PngFault fault;
   Slice slice;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png_create_info_struct(png);

@@ -6,7 +6,6 @@
 
 #include "tester/names.hpp"
 
-
 namespace nacre::fabricate {
 
 enum class SpecimenKind {

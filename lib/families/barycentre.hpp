@@ -8,7 +8,7 @@
 namespace nacre::families {
 
 /// How the barycentre's earth becomes soft pixels. Both give back a source that has all the weight.
-enum class Cut {
+enum class BarycentreCut {
   /// Cells at least as high as the weighted mean of the sources' cell heights (the thesis' plain mean does not give
   /// sources
   /// back). For patterns of nearly equal amounts; between others it leaves too little soft, down to almost nothing.
@@ -24,6 +24,6 @@ enum class Cut {
 /// source has no soft pixel of its own while another has: there is no earth to move then. Some milliseconds (Clp, dual
 /// simplex).
 std::optional<pattern::Pattern> barycentre(std::span<const pattern::Pattern> sources, std::span<const double> weights,
-                                           Cut cut = Cut::height);
+                                           BarycentreCut cut = BarycentreCut::height);
 
 }  // namespace nacre::families

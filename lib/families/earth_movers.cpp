@@ -19,12 +19,12 @@ using pattern::Pattern;
 
 constexpr double kCostUnit = 1e-6;  // pixels: costs are integers, so that transport is exact
 
-struct Cell {
+struct QuarterCell {
   int row = 0, column = 0;
 };
 
-std::array<Cell, kFreePixels> cells() {
-  std::array<Cell, kFreePixels> result{};
+std::array<QuarterCell, kFreePixels> cells() {
+  std::array<QuarterCell, kFreePixels> result{};
   for (int row = 0, index = 0; row < kQuarter; ++row)
     for (int column = row; column < kQuarter; ++column) result[index++] = {row, column};
   return result;
@@ -84,8 +84,8 @@ std::int64_t cheapest_transport(const std::vector<Surplus>& sources, const std::
 int quarter_cells(int index) { return Pattern::orbit_size(index) / 4; }
 
 double free_pixel_distance(int a, int b) {
-  static const std::array<Cell, kFreePixels> kCells = cells();
-  const Cell from = kCells[a], to = kCells[b];
+  static const std::array<QuarterCell, kFreePixels> kCells = cells();
+  const QuarterCell from = kCells[a], to = kCells[b];
   return std::min(std::hypot(from.row - to.row, from.column - to.column),
                   std::hypot(from.row - to.column, from.column - to.row));
 }

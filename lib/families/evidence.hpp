@@ -7,7 +7,7 @@
 namespace nacre::families {
 
 /// One column of numbers over the patterns of a family.
-struct Column {
+struct FeatureColumn {
   std::string name;
   std::vector<double> values;
 };
@@ -25,7 +25,8 @@ struct Association {
 /// Associations of every feature with `outcome`, strongest partial correlation first; ranks of the controls are
 /// regressed out of both sides, the p value comes from `permutations` of the outcome's remainder. Columns of equal
 /// length, at least five rows more than controls; throws InputError otherwise.
-std::vector<Association> associations(const std::vector<Column>& features, const Column& outcome,
-                                      const std::vector<Column>& controls, std::uint64_t seed, int permutations = 2000);
+std::vector<Association> associations(const std::vector<FeatureColumn>& features, const FeatureColumn& outcome,
+                                      const std::vector<FeatureColumn>& controls, std::uint64_t seed,
+                                      int permutations = 2000);
 
 }  // namespace nacre::families

@@ -24,8 +24,8 @@ pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
   return *seed;
 }
 
-Family family_of(const toml::table& table, const std::string& source) {
-  Family family{.name = table["name"].value_or(std::string()), .seeds = {}};
+SeedFamily family_of(const toml::table& table, const std::string& source) {
+  SeedFamily family{.name = table["name"].value_or(std::string()), .seeds = {}};
   if (!is_family_name(family.name))
     refuse(source, table,
            fmt::format("a family is expected to have a name of at most {} letters, digits, - and _, not digits alone",
@@ -42,11 +42,11 @@ bool is_family_name(std::string_view name) {
   return is_plain_name(name, kLongestFamilyName) && name.find_first_not_of("0123456789") != std::string_view::npos;
 }
 
-std::string to_toml(const std::vector<Family>& families) {
+std::string to_toml(const std::vector<SeedFamily>& families) {
   std::string text =
       "# Families of near-Pareto designs. Move seeds, rename or merge families as you see them; `nacre families` reads "
       "this file.\n";
-  for (const Family& family : families) {
+  for (const SeedFamily& family : families) {
     text += fmt::format("\n[[family]]\nname = \"{}\"\nseeds = [", family.name);
     for (std::size_t i = 0; i < family.seeds.size(); ++i)
       text += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", family.seeds[i].key());
@@ -55,11 +55,11 @@ std::string to_toml(const std::vector<Family>& families) {
   return text;
 }
 
-std::vector<Family> parse_families(std::string_view text, const std::string& source) {
+std::vector<SeedFamily> parse_families(std::string_view text, const std::string& source) {
   const toml::table document = read_toml(text, source);
   const toml::array* tables = document["family"].as_array();
   if (tables == nullptr) throw InputError::format("{}: expected [[family]] tables", source);
-  std::vector<Family> families;
+  std::vector<SeedFamily> families;
   std::set<std::string> names;
   std::set<pattern::Pattern> seeds;
   for (const toml::node& node : *tables) {
@@ -74,7 +74,7 @@ std::vector<Family> parse_families(std::string_view text, const std::string& sou
   return families;
 }
 
-std::vector<Family> read_families(const std::filesystem::path& file) {
+std::vector<SeedFamily> read_families(const std::filesystem::path& file) {
   return parse_families(read_file(file), file.string());
 }
 

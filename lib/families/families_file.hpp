@@ -16,11 +16,11 @@ inline constexpr std::size_t kLongestFamilyName = 64;  ///< bytes
 bool is_family_name(std::string_view name);
 
 /// families.toml: `[[family]] name, seeds = ["key", ...]`.
-std::string to_toml(const std::vector<Family>& families);
+std::string to_toml(const std::vector<SeedFamily>& families);
 /// Reads it back. Throws InputError naming file, line and what was expected: a name (letters, digits, - and _; each
 /// once) and at least one pattern key; a pattern belongs to one family.
-std::vector<Family> read_families(const std::filesystem::path& file);
+std::vector<SeedFamily> read_families(const std::filesystem::path& file);
 /// The same from text; `source` names the place in errors.
-std::vector<Family> parse_families(std::string_view text, const std::string& source);
+std::vector<SeedFamily> parse_families(std::string_view text, const std::string& source);
 
 }  // namespace nacre::families

@@ -15,28 +15,28 @@
 namespace nacre::families {
 
 /// A measured design.
-struct Member {
+struct MeasuredPattern {
   pattern::Pattern pattern;
   optimize::Performance performance;
 };
 
 /// Designs that resemble one another.
-struct Family {
+struct SeedFamily {
   std::string name;
   std::vector<pattern::Pattern> seeds;
-  bool operator==(const Family&) const = default;
+  bool operator==(const SeedFamily&) const = default;
 };
 
 /// How much a measured design counts in the family's own calibration (thesis 2.4.1): 1 for its seeds, 0.1 for others.
-double calibration_weight(const Family& family, const pattern::Pattern& measured);
+double calibration_weight(const SeedFamily& family, const pattern::Pattern& measured);
 
 /// The designs of rank <= maximum_rank, in the order given.
-std::vector<Member> near_pareto(std::span<const Member> measured, int maximum_rank = 2);
+std::vector<MeasuredPattern> near_pareto(std::span<const MeasuredPattern> measured, int maximum_rank = 2);
 
 /// Groups designs by average linkage. The distance of two designs is that of their patterns (earth mover's) plus that
 /// of their properties (relative to the range), each over its mean. The number of families, 1 to `largest_count`, is
 /// the one whose mean silhouette is largest; one family when none exceeds 0.25, where groups are no more than chance.
 /// Families are named `family-1`, ... by falling modulus of their stiffest member.
-std::vector<Family> proposed_families(std::span<const Member> designs, int largest_count = 6);
+std::vector<SeedFamily> proposed_families(std::span<const MeasuredPattern> designs, int largest_count = 6);
 
 }  // namespace nacre::families

@@ -20,13 +20,13 @@ inline constexpr double kEnergyDecades = 3.2;
 inline constexpr double kDisplacementStep = 0.125;
 
 /// One moment.
-struct Frame {
+struct FilmFrame {
   double strain = 0.0;
   double stress_pa = 0.0;
   int broken = 0;                               ///< so many elements of the crack's order have failed
   std::vector<std::uint8_t> energy_level;       ///< per element, 0 .. kEnergyLevels - 1
   std::vector<std::int16_t> displacement_step;  ///< x of all nodes, then y; beyond the uniform stretch, see Film
-  bool operator==(const Frame&) const = default;
+  bool operator==(const FilmFrame&) const = default;
 };
 
 struct Film {
@@ -38,18 +38,18 @@ struct Film {
   std::string end;                     ///< why the test ended
   tester::Curve curve;                 ///< resampled to at most 256 points
   std::vector<std::uint8_t> material;  ///< per element before the test: 0 soft, 1 rigid, 2 interface, 3 void
-  crack::Record crack;
+  crack::CrackRecord crack;
   double largest_energy_j_per_m3 = 0.0;
   double displacement_step_m = 0.0;
-  std::vector<Frame> frames;
+  std::vector<FilmFrame> frames;
   bool operator==(const Film&) const = default;
 
   int node_count() const { return (columns + 1) * (rows + 1); }
   /// Energy density that a level stands for, J/m^3: largest * 10^(decades * (level / (levels - 1) - 1)); 0 for level 0.
   double energy_j_per_m3(int level) const;
   /// Displacement of a node in a frame, m: steps times the step, and along y the uniform stretch strain * height.
-  double displacement_x_m(const Frame& frame, int node) const;
-  double displacement_y_m(const Frame& frame, int node) const;
+  double displacement_x_m(const FilmFrame& frame, int node) const;
+  double displacement_y_m(const FilmFrame& frame, int node) const;
 };
 
 /// The film of a toughness test that was run with frames (Numerics::frame_count >= 2).

@@ -25,7 +25,7 @@ bool is_proposed(const LaboratoryFacts& facts, const StatedApproval& decision) {
 bool waits_for_an_answer(const LaboratoryFacts& facts, const pattern::Design& design) {
   return !are_both_ordered(facts.orders, design) &&
          std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
-           return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedApproval& each) {
+           return proposed.design == design && std::ranges::none_of(facts.approvals, [&](const StatedApproval& each) {
                     return each.proposal_round == proposed.round && each.design == design;
                   });
          });
@@ -79,11 +79,11 @@ std::vector<int> printed_for(std::span<const Order> orders, std::span<const Prin
   return counts;
 }
 
-std::optional<StatedApproval> decision_against(const LaboratoryFacts& facts, const StatedApproval& decision) {
-  const auto first = std::find_if(facts.decisions.begin(), facts.decisions.end(), [&](const StatedApproval& each) {
+std::optional<StatedApproval> approval_against(const LaboratoryFacts& facts, const StatedApproval& decision) {
+  const auto first = std::find_if(facts.approvals.begin(), facts.approvals.end(), [&](const StatedApproval& each) {
     return each.proposal_round == decision.proposal_round && each.design == decision.design;
   });
-  if (first == facts.decisions.end() || first->approved == decision.approved) return std::nullopt;
+  if (first == facts.approvals.end() || first->approved == decision.approved) return std::nullopt;
   return *first;
 }
 
@@ -99,7 +99,7 @@ std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedAp
   }
   if (!asks_for_approvals) return "this game does not ask for approvals: what is proposed is ordered";
   if (!is_proposed(facts, decision)) return fmt::format("{} is not in proposal {}", name, decision.proposal_round);
-  const auto first = decision_against(facts, decision);
+  const auto first = approval_against(facts, decision);
   if (!first) return std::nullopt;
   return fmt::format("{} was {} before by {}: that stands", name, first->approved ? "approved" : "rejected", first->by);
 }
@@ -152,7 +152,7 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
     state.stage = stage_of(state, all_complete[name]);
   }
   std::map<std::string, bool> decided;
-  for (const StatedApproval& decision : facts.decisions) {
+  for (const StatedApproval& decision : facts.approvals) {
     // What the validation agent passes over decides nothing: a proposal that is not there, a design of one's own that
     // is proposed and waits.
     const auto known = states.find(decision.design.name());

@@ -81,7 +81,7 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts);
 
 /// The decision that counts in place of this one: the first on the same design of the same proposal, when it says the
 /// opposite. Nothing where this one may count.
-std::optional<StatedApproval> decision_against(const LaboratoryFacts& facts, const StatedApproval& decision);
+std::optional<StatedApproval> approval_against(const LaboratoryFacts& facts, const StatedApproval& decision);
 
 /// Why a decision would change nothing, as a sentence; nothing where it counts. `asks_for_approvals`: the game does.
 std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& decision,

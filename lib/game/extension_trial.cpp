@@ -87,9 +87,9 @@ double least_without_one(std::span<const OutOfSampleError> errors, double least)
 
 }  // namespace
 
-void TrialErrors::add(int round, const std::vector<measurement::Replicates>& measured,
-                      const std::map<std::string, sysid::Prediction>& adopted,
-                      const std::map<std::string, sysid::Prediction>& extended) {
+void ExtensionTrialErrors::add(int round, const std::vector<measurement::Replicates>& measured,
+                               const std::map<std::string, sysid::Prediction>& adopted,
+                               const std::map<std::string, sysid::Prediction>& extended) {
   for (const measurement::Replicates& each : measured) {
     const std::string name = each.design.name();
     const auto by_adopted = adopted.find(name), by_extended = extended.find(name);
@@ -100,8 +100,8 @@ void TrialErrors::add(int round, const std::vector<measurement::Replicates>& mea
   }
 }
 
-TrialStanding standing_of(std::span<const OutOfSampleError> errors, double least) {
-  TrialStanding standing;
+ExtensionTrialStanding standing_of(std::span<const OutOfSampleError> errors, double least) {
+  ExtensionTrialStanding standing;
   standing.designs = static_cast<int>(errors.size());
   if (errors.empty()) return standing;
   for (const OutOfSampleError& each : errors) {
@@ -113,9 +113,9 @@ TrialStanding standing_of(std::span<const OutOfSampleError> errors, double least
   return standing;
 }
 
-bool gain_is_established(const TrialErrors& errors) {
-  const TrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
-                      toughness = standing_of(errors.toughness, kLeastToughnessError);
+bool gain_is_established(const ExtensionTrialErrors& errors) {
+  const ExtensionTrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
+                               toughness = standing_of(errors.toughness, kLeastToughnessError);
   return modulus.designs >= kFewestDesigns && modulus.for_extended >= kDecisiveBayesFactor &&
          toughness.for_adopted < kDecisiveBayesFactor &&
          least_without_one(errors.modulus, kLeastModulusError) >= kStraddling;

@@ -22,7 +22,7 @@ struct OutOfSampleError {
 };
 
 /// Errors of E and of T, one entry per design that both models had foretold.
-struct TrialErrors {
+struct ExtensionTrialErrors {
   std::vector<OutOfSampleError> modulus, toughness;
   /// Adds the designs of `measured` for which both have a prediction (by canonical design name, as the testing machine
   /// would show it).
@@ -32,7 +32,7 @@ struct TrialErrors {
 };
 
 /// How two models foretold one quantity.
-struct TrialStanding {
+struct ExtensionTrialStanding {
   int designs = 0;
   double adopted = 0.0, extended = 0.0;          ///< mean absolute errors
   double for_extended = 0.0, for_adopted = 0.0;  ///< evidence: decadic logarithm of the odds against the mean forecast
@@ -42,7 +42,7 @@ struct TrialStanding {
 /// models that are equally far off straddle the truth, and then their mean does better than either. An error is
 /// Student's t with 4 degrees of freedom about an offset of its round, both with the scatter that the model's own
 /// errors show, at least `least`: what scatter and numerics leave anyway; one in twenty may be anything.
-TrialStanding standing_of(std::span<const OutOfSampleError> errors, double least);
+ExtensionTrialStanding standing_of(std::span<const OutOfSampleError> errors, double least);
 
 /// What scatter and numerics leave of log E and of log T.
 inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
@@ -50,6 +50,6 @@ inline constexpr double kLeastModulusError = 0.01, kLeastToughnessError = 0.1;
 /// Odds of 20 to 1 that E is foretold better, which no single design brings about while all others speak against it,
 /// and not the same odds that T is foretold worse. At least three designs. How many games adopt an extension that is no
 /// better: docs/decisions/0015.
-bool gain_is_established(const TrialErrors& errors);
+bool gain_is_established(const ExtensionTrialErrors& errors);
 
 }  // namespace nacre::game

@@ -109,9 +109,10 @@ std::vector<Order> person_orders(const Scenario& scenario, int round, const Desi
   return orders;
 }
 
-std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments) {
+std::vector<Order> discrimination_orders(const Scenario& scenario, int round,
+                                         std::span<const DiscriminationTest> experiments) {
   std::vector<Order> orders;
-  for (const Experiment& experiment : experiments) {
+  for (const DiscriminationTest& experiment : experiments) {
     if (static_cast<int>(orders.size()) >= scenario.diagnosis.discrimination_orders) break;
     const auto same_question = [&](const Order& order) {
       return order.design == experiment.design && order.test == experiment.test &&
@@ -134,14 +135,14 @@ std::vector<Order> discrimination_orders(const Scenario& scenario, int round, st
   return orders;
 }
 
-std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates) {
+std::vector<DiscriminationTest> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates) {
   std::vector<pattern::Pattern> ordered(patterns.begin(), patterns.end());
   std::sort(ordered.begin(), ordered.end(), [](const pattern::Pattern& a, const pattern::Pattern& b) {
     const int length_a = interface_length(a);
     const int length_b = interface_length(b);
     return length_a != length_b ? length_a > length_b : a < b;
   });
-  std::vector<Experiment> experiments;
+  std::vector<DiscriminationTest> experiments;
   for (const pattern::Pattern& each : ordered) {
     experiments.push_back(
         {.design = each, .test = TestKind::modulus, .conditions = {.orientation_deg = 90.0}, .replicates = replicates});

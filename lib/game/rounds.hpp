@@ -32,7 +32,7 @@ struct Order {
 };
 
 /// A test that would tell rival causes apart (diagnosis), before it is given an order number.
-struct Experiment {
+struct DiscriminationTest {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
@@ -58,11 +58,12 @@ std::vector<Order> family_orders(const Scenario& scenario, int round, std::span<
 std::vector<Order> person_orders(const Scenario& scenario, int round, const pattern::Design& design);
 
 /// At most diagnosis.discrimination_orders of the experiments; a question asked twice is ordered once.
-std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments);
+std::vector<Order> discrimination_orders(const Scenario& scenario, int round,
+                                         std::span<const DiscriminationTest> experiments);
 
 /// The experiments of round 1, when there is no diagnosis yet: modulus tests of the patterns with the longest
 /// interface, printed turned by 90 degrees, which shows whether the printer's axes matter.
-std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates);
+std::vector<DiscriminationTest> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates);
 
 /// Whether a specimen tested under `tested` answers an order for `ordered`: same orientation, rate within a quarter,
 /// thickness within a tenth (a person's callipers never show 3.2 exactly).

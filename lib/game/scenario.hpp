@@ -11,7 +11,6 @@
 
 #include "tester/names.hpp"
 
-
 namespace nacre::game {
 
 struct ProposalSettings {
@@ -45,11 +44,11 @@ struct FarmSettings {
   bool operator==(const FarmSettings&) const = default;
 };
 
-struct DiagnosisSettings {
+struct DiagnosisStageSettings {
   bool enabled = true;
   int discrimination_orders = 2;  ///< extra tests a round that separate rival causes
   int bootstraps = 2000;
-  bool operator==(const DiagnosisSettings&) const = default;
+  bool operator==(const DiagnosisStageSettings&) const = default;
 };
 
 struct LaboratorySettings {
@@ -93,7 +92,7 @@ struct Scenario {
   FarmSettings farm;
   ProposalSettings proposal;
   ValidationSettings validation;
-  DiagnosisSettings diagnosis;
+  DiagnosisStageSettings diagnosis;
   FamilySettings families;
   LaboratorySettings laboratory;
   /// Nodes that take part, in start order.

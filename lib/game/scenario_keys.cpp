@@ -285,12 +285,12 @@ std::vector<ScenarioKey> make_remaining_keys() {
   constexpr auto laboratory = &Scenario::laboratory;
   return {
       flag("diagnosis", "enabled", "ask each round what the simulation gets wrong and why",
-           at(diagnosis, &DiagnosisSettings::enabled)),
+           at(diagnosis, &DiagnosisStageSettings::enabled)),
       whole_number<int>("diagnosis", "discrimination_orders",
                         "extra tests a round, each with its replicates, that tell rival causes apart", 0, 20,
-                        at(diagnosis, &DiagnosisSettings::discrimination_orders)),
+                        at(diagnosis, &DiagnosisStageSettings::discrimination_orders)),
       whole_number<int>("diagnosis", "bootstraps", "resamplings behind the decision threshold", 1000, 1'000'000,
-                        at(diagnosis, &DiagnosisSettings::bootstraps)),
+                        at(diagnosis, &DiagnosisStageSettings::bootstraps)),
       flag("laboratory", "virtual_lab", "true: the virtual laboratory measures; false: a person does (nacre inject)",
            at(laboratory, &LaboratorySettings::virtual_lab)),
       file_name("laboratory", "file", "LAB.toml of the virtual laboratory; \"\": its truth is drawn from the seed",

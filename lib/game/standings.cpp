@@ -146,9 +146,9 @@ std::vector<measurement::Replicates> patterns_with_both(const std::vector<measur
   return set;
 }
 
-Predicted predicted_among(const std::vector<measurement::Replicates>& measured,
-                          const std::map<std::string, sysid::Prediction>& predictions) {
-  Predicted predicted;
+PredictedDesigns predicted_among(const std::vector<measurement::Replicates>& measured,
+                                 const std::map<std::string, sysid::Prediction>& predictions) {
+  PredictedDesigns predicted;
   for (const measurement::Replicates& each : under_standard_conditions(measured)) {
     const auto prediction = predictions.find(each.design.name());
     if (prediction == predictions.end()) continue;

@@ -63,13 +63,13 @@ std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design)
 std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Designs with the predictions that were made before they were measured, one each.
-struct Predicted {
+struct PredictedDesigns {
   std::vector<measurement::Replicates> measured;
   std::vector<sysid::Prediction> predicted;
 };
 /// Those of `measured` that `predictions` foretold, in their order. Predictions are of standard conditions, by
 /// canonical design name.
-Predicted predicted_among(const std::vector<measurement::Replicates>& measured,
-                          const std::map<std::string, sysid::Prediction>& predictions);
+PredictedDesigns predicted_among(const std::vector<measurement::Replicates>& measured,
+                                 const std::map<std::string, sysid::Prediction>& predictions);
 
 }  // namespace nacre::game

@@ -5,7 +5,6 @@
 
 #include "measurement/specimen_record.hpp"
 
-
 namespace nacre::measurement {
 
 /// How far rate and thickness may be from those that were ordered, relative to these.

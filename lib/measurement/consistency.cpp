@@ -222,7 +222,7 @@ ReplicateGroup review_group(const Members& members, const ConsistencySettings& s
   return group;
 }
 
-using Groups = std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members>;
+using ReplicateMembers = std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members>;
 
 /// Under nominal conditions, by name, each once.
 std::vector<SpecimenRecord> nominal_by_name(const std::vector<SpecimenRecord>& specimens) {
@@ -234,8 +234,8 @@ std::vector<SpecimenRecord> nominal_by_name(const std::vector<SpecimenRecord>& s
   return nominal;
 }
 
-Groups groups_of(const std::vector<SpecimenRecord>& nominal) {
-  Groups groups;
+ReplicateMembers groups_of(const std::vector<SpecimenRecord>& nominal) {
+  ReplicateMembers groups;
   for (const SpecimenRecord& specimen : nominal) {
     const tester::TestConditions& c = specimen.conditions;
     groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm}].push_back(

@@ -8,7 +8,6 @@
 
 #include "measurement/specimen_record.hpp"
 
-
 namespace nacre::measurement {
 
 /// When a replicate is out of line. The scatters are what replicates of printed parts differ by as a matter of course

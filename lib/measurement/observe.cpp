@@ -11,10 +11,10 @@ namespace nacre::measurement {
 namespace {
 
 /// The machine as the extensions describe it, and how far the print has drifted in one context.
-struct Machine {
+struct TestingMachine {
   double compliance_per_pa = 0.0, slack = 0.0, gain = 1.0, drift = 1.0;
 
-  Machine(const material::Extensions& extensions, const PrintContext& context)
+  TestingMachine(const material::Extensions& extensions, const PrintContext& context)
       : compliance_per_pa(material::extension_value(extensions, "machine_compliance")),
         slack(material::extension_value(extensions, "toe_slack")),
         gain(1.0 + material::extension_value(extensions, "load_cell_gain")) {
@@ -64,26 +64,26 @@ std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& spec
 }
 
 double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context) {
-  const Machine machine(extensions, context);
+  const TestingMachine machine(extensions, context);
   if (machine.shows_the_truth()) return modulus_pa;
   const double printed_pa = machine.drift * modulus_pa;
   return machine.gain * printed_pa / (1.0 + machine.compliance_per_pa * printed_pa);
 }
 
 double observe_toughness(double toughness_pa, const material::Extensions& extensions, const PrintContext& context) {
-  const Machine machine(extensions, context);
+  const TestingMachine machine(extensions, context);
   return machine.gain * machine.drift * toughness_pa;
 }
 
 double modulus_behind(double shown_pa, const material::Extensions& extensions) {
-  const Machine machine(extensions, {});
+  const TestingMachine machine(extensions, {});
   const double left = machine.gain - machine.compliance_per_pa * shown_pa;
   return left > 0.0 ? shown_pa / left : std::numeric_limits<double>::infinity();
 }
 
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
                             const PrintContext& context) {
-  const Machine machine(extensions, context);
+  const TestingMachine machine(extensions, context);
   if (machine.shows_the_truth()) return curve;
   tester::Curve shown;
   if (machine.slack > 0.0) shown = {.strain = {0.0}, .stress_pa = {0.0}};
@@ -99,7 +99,7 @@ tester::Curve observe_along(const std::vector<double>& shown_strain, const Speci
                             const material::Extensions& extensions, const PrintContext& context) {
   constexpr double kSmallStrain = 1e-4, kWellKnown = 1e-9;
   constexpr int kMostPasses = 50;
-  const Machine machine(extensions, context);
+  const TestingMachine machine(extensions, context);
   if (machine.shows_the_truth()) return pull(shown_strain);
   std::vector<double> own;
   for (const double strain : shown_strain) own.push_back(std::max(0.0, strain - machine.slack));

@@ -27,7 +27,7 @@ std::string unknown_column(const std::string& table, const CsvCell& cell, const 
 }
 
 /// The name under which an unknown column is kept: a second `x` is `x~2`, for both hold something.
-std::string name_of_its_own(const Heading& heading, const std::string& name) {
+std::string name_of_its_own(const SetHeading& heading, const std::string& name) {
   const auto is_taken = [&](const std::string& wanted) {
     return std::ranges::any_of(heading.others, [&](const auto& other) { return other.second == wanted; });
   };
@@ -36,9 +36,9 @@ std::string name_of_its_own(const Heading& heading, const std::string& name) {
   return kept;
 }
 
-Heading read_heading(const CsvRow& row, const std::string& table, std::vector<std::string>& warnings) {
+SetHeading read_heading(const CsvRow& row, const std::string& table, std::vector<std::string>& warnings) {
   if (!row.fault.empty()) throw InputError::format("{}:{}:{}: {}", table, row.fault_line, row.fault_column, row.fault);
-  Heading heading;
+  SetHeading heading;
   heading.position.fill(kAbsent);
   heading.cell_count = row.cells.size();
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -60,9 +60,9 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
   return heading;
 }
 
-void require_columns(const Heading& heading, const CsvRow& row, const std::string& table, bool planned) {
+void require_columns(const SetHeading& heading, const CsvRow& row, const std::string& table, bool planned) {
   const int line = row.line;
-  for (const Column required : {kSpecimen, kPattern, kTest}) {
+  for (const SetColumn required : {kSpecimen, kPattern, kTest}) {
     if (heading.position[required] == kAbsent) {
       throw InputError::format(
           "{}:{}: column `{}` is missing, expected a heading with at least specimen, pattern, test and "
@@ -71,7 +71,7 @@ void require_columns(const Heading& heading, const CsvRow& row, const std::strin
     }
   }
   if (planned) return;
-  const auto absent = [&](Column column) { return heading.position[column] == kAbsent; };
+  const auto absent = [&](SetColumn column) { return heading.position[column] == kAbsent; };
   if (absent(kModulus) && absent(kToughness) && absent(kCurve)) {
     throw InputError::format("{}:{}: no measured value, expected one of the columns modulus_pa, toughness_pa, curve",
                              table, line);
@@ -95,7 +95,7 @@ class SetBuilder {
     do {
       if (!reader.next(row)) throw InputError::format("{}: is empty, expected a heading and rows", table_);
     } while (row.blank());
-    const Heading heading = read_heading(row, table_, set_.warnings);
+    const SetHeading heading = read_heading(row, table_, set_.warnings);
     require_columns(heading, row, table_, demand_ == Demand::planned);
     while (reader.next(row)) {
       if (!row.blank()) add(heading, row);
@@ -107,7 +107,7 @@ class SetBuilder {
   }
 
  private:
-  void add(const Heading& heading, const CsvRow& row) {
+  void add(const SetHeading& heading, const CsvRow& row) {
     if (point_count_ > kMostSetPoints) {
       throw InputError::format("{}:{}: the curves have more than {} points together, expected at most that many",
                                table_, row.line, kMostSetPoints);

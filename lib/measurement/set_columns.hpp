@@ -8,7 +8,7 @@ namespace nacre::measurement {
 inline constexpr std::string_view kTableName = "measurements.csv";
 
 /// Columns of measurements.csv (docs/FORMATS.md), in the order in which they are written.
-enum Column {
+enum SetColumn {
   kSpecimen,
   kPattern,
   kTest,

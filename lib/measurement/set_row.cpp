@@ -18,7 +18,7 @@ namespace {
 /// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
 class RowParser {
  public:
-  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned,
+  RowParser(const std::filesystem::path& folder, const SetHeading& heading, const CsvRow& row, bool planned,
             const CurveSource& curves)
       : folder_(folder), heading_(heading), row_(row), planned_(planned), curves_(curves) {}
 
@@ -52,7 +52,7 @@ class RowParser {
   void reject(std::string column, int line, std::string reason) {
     if (!fault_) fault_ = RejectedRow{line, std::move(column), std::move(reason)};
   }
-  void reject(Column column, const std::string& reason) {
+  void reject(SetColumn column, const std::string& reason) {
     const std::size_t position = heading_.position[column];
     const bool there = position < row_.cells.size();
     const std::string place =
@@ -85,12 +85,12 @@ class RowParser {
     return "";
   }
 
-  std::string text(Column column) const {
+  std::string text(SetColumn column) const {
     const std::size_t position = heading_.position[column];
     return position < row_.cells.size() ? std::string(trimmed(row_.cells[position].text)) : "";
   }
 
-  std::optional<double> positive_number(Column column, const char* expected, const Limits& limits) {
+  std::optional<double> positive_number(SetColumn column, const char* expected, const Limits& limits) {
     const std::string cell = text(column);
     if (cell.empty()) return std::nullopt;
     const Result<double> value = number_from_text(cell);
@@ -209,11 +209,11 @@ class RowParser {
     const std::optional<RejectedRow> missing = missing_result(record);
     if (!missing) return;
     const auto column = std::ranges::find(kColumns, missing->column);
-    reject(static_cast<Column>(column - std::begin(kColumns)), missing->reason);
+    reject(static_cast<SetColumn>(column - std::begin(kColumns)), missing->reason);
   }
 
   const std::filesystem::path& folder_;
-  const Heading& heading_;
+  const SetHeading& heading_;
   const CsvRow& row_;
   bool planned_;
   const CurveSource& curves_;
@@ -222,7 +222,7 @@ class RowParser {
 
 }  // namespace
 
-tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
+tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const SetHeading& heading,
                                                     const CsvRow& row, bool planned, const CurveSource& curves) {
   return RowParser(folder, heading, row, planned, curves).parse();
 }

@@ -17,7 +17,7 @@ namespace nacre::measurement {
 inline constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
 
 /// The heading: where the known columns stand, and which others there are.
-struct Heading {
+struct SetHeading {
   std::array<std::size_t, kColumnCount> position;
   std::vector<std::pair<std::size_t, std::string>> others;
   std::size_t cell_count = 0;
@@ -28,7 +28,7 @@ using CurveSource = std::function<Result<tester::Curve>(const std::string& name)
 
 /// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`, curves too unless
 /// `curves` has them. `planned`: a row needs no measured value.
-tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
+tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const SetHeading& heading,
                                                     const CsvRow& row, bool planned = false,
                                                     const CurveSource& curves = {});
 

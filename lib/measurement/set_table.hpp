@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-
 namespace nacre::measurement {
 
 /// The table of a set. Rows, also those that cannot be used, and cells stay as their author wrote them.

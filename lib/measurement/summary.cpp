@@ -12,9 +12,9 @@
 namespace nacre::measurement {
 namespace {
 
-using GroupKey = std::tuple<std::string, double, double, double>;
+using ReplicateKey = std::tuple<std::string, double, double, double>;
 
-GroupKey group_of(const SpecimenRecord& specimen) {
+ReplicateKey group_of(const SpecimenRecord& specimen) {
   const tester::TestConditions& conditions = specimen.conditions;
   return {specimen.design.name(), conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm};
 }
@@ -129,7 +129,7 @@ std::optional<double> toughness_of(const SpecimenRecord& specimen) {
 }
 
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {
-  std::map<GroupKey, std::vector<const SpecimenRecord*>> groups;
+  std::map<ReplicateKey, std::vector<const SpecimenRecord*>> groups;
   BatchSteps batch_steps;
   const std::vector<PrintContext> contexts = print_contexts(specimens);
   for (std::size_t i = 0; i < specimens.size(); ++i) batch_steps.emplace(&specimens[i], contexts[i].batch_step);

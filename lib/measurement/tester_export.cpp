@@ -24,7 +24,7 @@ using Cells = std::vector<std::string>;
 std::size_t place_of(Quantity quantity) { return static_cast<std::size_t>(quantity); }
 
 /// Where the wanted columns of a block stand, and the factor to s, mm, N.
-struct Layout {
+struct ColumnLayout {
   std::vector<ColumnName> names;
   std::array<std::size_t, 3> column{};  ///< by Quantity; names.size() when absent
   std::array<double, 3> factor{1.0, 1.0, 1.0};
@@ -32,8 +32,8 @@ struct Layout {
 };
 
 /// A heading row has names for extension and force; numbers are not names.
-Layout layout_of(const Cells& cells, const ColumnChoice& choice) {
-  Layout layout;
+ColumnLayout layout_of(const Cells& cells, const ColumnChoice& choice) {
+  ColumnLayout layout;
   for (const std::string& cell : cells)
     layout.names.push_back(looks_like_number(cell) ? ColumnName{cell, {}, 0, {}, {}} : recognise_column(cell));
   layout.column[0] = best_column(layout.names, Quantity::time);
@@ -79,7 +79,7 @@ class ExportReader {
     for (const char delimiter : {'\t', ';', ',', '|'}) {
       const std::size_t end = found ? *found + 1 : std::min(lines_.size(), kMostHeaderLines);
       for (std::size_t i = 0; i < end; ++i) {
-        const Layout layout = layout_of(cells_of(lines_[i], delimiter), choice_);
+        const ColumnLayout layout = layout_of(cells_of(lines_[i], delimiter), choice_);
         if (!layout.has(Quantity::extension) || !layout.has(Quantity::force)) continue;
         if (found && i == *found && layout.names.size() <= most_names) break;
         found = i;
@@ -96,7 +96,7 @@ class ExportReader {
     for (const char delimiter : {'\t', ';', ',', '|'}) {
       for (std::size_t i = 0; i < std::min(lines_.size(), kMostHeaderLines); ++i) {
         const Cells here = cells_of(lines_[i], delimiter);
-        const Layout layout = layout_of(here, choice_);
+        const ColumnLayout layout = layout_of(here, choice_);
         if (here.size() < 2 || layout.has(Quantity::extension) == layout.has(Quantity::force)) continue;
         const Quantity missing = layout.has(Quantity::force) ? Quantity::extension : Quantity::force;
         const std::string& asked = missing == Quantity::extension ? choice_.extension : choice_.force;
@@ -117,7 +117,7 @@ class ExportReader {
   }
 
   /// A factor for each column from the heading or the row of units below it; true when that row was there.
-  bool read_units(Layout& layout, std::size_t heading, std::size_t below, std::vector<std::string>& warnings) {
+  bool read_units(ColumnLayout& layout, std::size_t heading, std::size_t below, std::vector<std::string>& warnings) {
     const Cells units = below < lines_.size() ? cells(below) : Cells{};
     const bool is_numbers =
         std::any_of(units.begin(), units.end(), [](const auto& cell) { return looks_like_number(cell); });
@@ -149,7 +149,7 @@ class ExportReader {
 
   /// Reads the block whose heading stands at `heading`; returns where to go on.
   std::size_t read_block(std::size_t heading) {
-    Layout layout = layout_of(cells(heading), choice_);
+    ColumnLayout layout = layout_of(cells(heading), choice_);
     std::vector<std::string> warnings;
     std::size_t next = heading + 1;
     while (next < lines_.size() && is_blank(next)) ++next;
@@ -159,12 +159,12 @@ class ExportReader {
   }
 
   bool is_heading(std::size_t index) const {
-    const Layout layout = layout_of(cells(index), choice_);
+    const ColumnLayout layout = layout_of(cells(index), choice_);
     return layout.has(Quantity::extension) && layout.has(Quantity::force);
   }
 
   /// A row of data has a number in both needed columns, or in one of them when it is damaged.
-  int numbers_in(const Cells& row, const Layout& layout) const {
+  int numbers_in(const Cells& row, const ColumnLayout& layout) const {
     int numbers = 0;
     for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
       const std::size_t column = layout.column[place_of(quantity)];
@@ -173,7 +173,7 @@ class ExportReader {
     return numbers;
   }
 
-  std::string damage_of(const Cells& row, const Layout& layout, std::string& column_name) const {
+  std::string damage_of(const Cells& row, const ColumnLayout& layout, std::string& column_name) const {
     for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
       const std::size_t column = layout.column[place_of(quantity)];
       column_name = layout.names[column].shown;
@@ -187,7 +187,7 @@ class ExportReader {
 
   /// The rows of numbers up to the next heading or the end. A row of words ends a block, but in the middle of the
   /// numbers it is damage; what follows an empty line (a table of results) is not.
-  std::size_t read_rows(const Layout& layout, std::size_t begin, const std::vector<std::string>& warnings) {
+  std::size_t read_rows(const ColumnLayout& layout, std::size_t begin, const std::vector<std::string>& warnings) {
     std::vector<std::pair<std::size_t, Cells>> rows;
     std::optional<std::size_t> doubtful;
     std::size_t next = begin;
@@ -236,7 +236,7 @@ class ExportReader {
     return next;
   }
 
-  std::optional<DecimalMark> decimal_mark(const Layout& layout,
+  std::optional<DecimalMark> decimal_mark(const ColumnLayout& layout,
                                           const std::vector<std::pair<std::size_t, Cells>>& rows) {
     std::array<std::optional<std::size_t>, 2> first_seen;
     for (const auto& [index, row] : rows) {
@@ -260,13 +260,13 @@ class ExportReader {
   }
 
   /// A row that was torn at its decimal commas has numbers beyond the heading's last column.
-  bool is_torn(const Cells& row, const Layout& layout) const {
+  bool is_torn(const Cells& row, const ColumnLayout& layout) const {
     return delimiter_ == ',' && row.size() > layout.names.size() &&
            std::any_of(row.begin() + static_cast<std::ptrdiff_t>(layout.names.size()), row.end(),
                        [](const auto& cell) { return looks_like_number(cell); });
   }
 
-  void name_extension(const Layout& layout, TesterRecord& record) const {
+  void name_extension(const ColumnLayout& layout, TesterRecord& record) const {
     const std::size_t taken = layout.column[place_of(Quantity::extension)];
     record.extension_column = layout.names[taken].shown;
     record.gauge = layout.names[taken].gauge;
@@ -276,7 +276,7 @@ class ExportReader {
     }
   }
 
-  void take_rows(const Layout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
+  void take_rows(const ColumnLayout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
                  const std::vector<std::string>& warnings) {
     for (const auto& [index, row] : rows) {
       if (!is_torn(row, layout)) continue;
@@ -351,7 +351,7 @@ class ExportReader {
     std::size_t first = 0;
     while (is_blank(first)) ++first;
     const bool has_time = cells(first).size() == 3;
-    Layout layout;
+    ColumnLayout layout;
     for (const char* name : {"time", "extension", "force"}) {
       if (has_time || std::string_view(name) != "time") layout.names.push_back(recognise_column(name));
     }

@@ -19,7 +19,7 @@ RejectedRow rejected(std::string column, std::string reason) { return {1, std::m
 
 tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<std::string, std::string>& fields,
                                                                std::string_view curve_csv) {
-  Heading heading;
+  SetHeading heading;
   heading.position.fill(kAbsent);
   CsvRow row;
   row.line = 1;

@@ -7,7 +7,6 @@
 
 #include "measurement/specimen_record.hpp"
 
-
 namespace nacre::measurement {
 
 /// The specimen of one row of a measurement set: `fields` by the names of its columns (docs/FORMATS.md), missing ones

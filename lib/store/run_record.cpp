@@ -129,7 +129,7 @@ void each_crack(SQLite::Database& db, const char* table, const char* number, con
       number, table);
   each_row(db, cracks.c_str(), [&](SQLite::Statement& q) {
     RecordedCrack recorded{.crack = {}, .broken = q.getColumn(5).getInt(), .film = q.getColumn(2).getString()};
-    crack::Record& record = recorded.crack;
+    crack::CrackRecord& record = recorded.crack;
     record.columns = q.getColumn(3).getInt();
     record.rows = q.getColumn(4).getInt();
     record.branches = q.getColumn(6).getInt();
@@ -137,7 +137,7 @@ void each_crack(SQLite::Database& db, const char* table, const char* number, con
     for (const std::int32_t element : elements(q.getColumn(9))) record.order.push_back({element, 0.0});
     if (!q.getColumn(10).isNull()) {
       const std::vector<std::int32_t> path = elements(q.getColumn(8));
-      record.path = crack::Path{
+      record.path = crack::CrackPath{
           .elements = {path.begin(), path.end()},
           .length_m = q.getColumn(10).getDouble(),
           .straight_length_m = q.getColumn(11).getDouble(),

@@ -46,7 +46,7 @@ struct RecordedSimulation {
 
 /// How a model lets a design break.
 struct RecordedCrack {
-  crack::Record crack;  ///< order without strains
+  crack::CrackRecord crack;  ///< order without strains
   int broken = 0;
   std::string film;  ///< file in RUN/films; empty when there is none
 };

@@ -3,7 +3,6 @@
 #include "tester/names.hpp"
 // What distinguishes the fidelities: size and loading rate of the specimens. Testers and virtual laboratory share both.
 
-
 namespace nacre::tester {
 
 /// Units (repeated tiles of 20 x 20 pixels) of a specimen along x and y.

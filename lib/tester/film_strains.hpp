@@ -4,7 +4,6 @@
 
 #include "tester/toughness.hpp"
 
-
 namespace nacre::tester {
 
 /// Strains of a film's `count` >= 2 frames, increasing from 0 to the end of the test: a quarter of them equally spaced,

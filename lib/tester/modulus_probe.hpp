@@ -7,7 +7,6 @@
 
 #include "tester/simulation.hpp"
 
-
 namespace nacre::tester {
 
 class ModulusProbe {

@@ -4,7 +4,6 @@
 
 #include "tester/simulation.hpp"
 
-
 namespace nacre::tester {
 
 /// A sentence when the question cannot be simulated (parameters that the test needs out of range, orientation neither 0

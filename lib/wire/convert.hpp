@@ -87,9 +87,9 @@ struct Fracture {
   std::string request_id;
   int design_index = 0;  ///< among the request's designs
   pattern::Design design;
-  crack::Record crack;  ///< of its order, a message keeps the first kMaximumBreaks
-  int broken = 0;       ///< elements that failed
-  std::string film;     ///< file in RUN/films; empty when none was asked for, or none shows this fracture
+  crack::CrackRecord crack;  ///< of its order, a message keeps the first kMaximumBreaks
+  int broken = 0;            ///< elements that failed
+  std::string film;          ///< file in RUN/films; empty when none was asked for, or none shows this fracture
   bool operator==(const Fracture&) const = default;
 };
 

@@ -59,7 +59,7 @@ FamilyData family_data(const FamilyOptions& options) {
   return data;
 }
 
-const StagedFamily* staged(const families::Family& family, const FamilyData& data) {
+const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data) {
   for (const StagedFamily& each : data.staged) {
     std::vector<pattern::Pattern> seeds;
     for (const game::FamilyDesign& design : each.stated.designs)

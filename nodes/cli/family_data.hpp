@@ -49,6 +49,6 @@ struct FamilyData {
 FamilyData family_data(const FamilyOptions& options);
 
 /// The stage's word on this family, when its seeds are the same.
-const StagedFamily* staged(const families::Family& family, const FamilyData& data);
+const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data);
 
 }  // namespace nacre::cli

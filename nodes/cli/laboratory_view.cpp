@@ -92,7 +92,7 @@ void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
   const auto approval = wire::decode_safe<approval_t>(payload);
   if (!approval) return;
   if (const auto design = pattern::design_from_name(approval->design))
-    facts.decisions.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
+    facts.approvals.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
 }
 
 }  // namespace

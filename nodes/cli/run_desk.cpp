@@ -56,7 +56,7 @@ std::optional<material::ParameterSet> RunDesk::family_model(const std::string& f
   return parameters;
 }
 
-void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) {
+void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) {
   make_folder(folder.string());
   write_file_atomically(folder / "families.toml", families::to_toml(families));
 }

@@ -9,7 +9,6 @@
 
 #include "tester/names.hpp"
 
-
 namespace nacre::simulator_farm {
 
 /// How long simulations take on one core of the cluster, by test and fidelity: a guess until tasks have said better.

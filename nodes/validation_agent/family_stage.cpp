@@ -33,8 +33,8 @@ const measurement::Replicates* measured_of(const std::vector<measurement::Replic
   return found == measured.end() ? nullptr : &*found;
 }
 
-std::vector<families::Member> members_of(const std::vector<measurement::Replicates>& measured) {
-  std::vector<families::Member> members;
+std::vector<families::MeasuredPattern> members_of(const std::vector<measurement::Replicates>& measured) {
+  std::vector<families::MeasuredPattern> members;
   for (const measurement::Replicates& each : measured)
     members.push_back({pattern_of(each), {each.modulus_pa, each.toughness_pa}});
   return members;
@@ -92,9 +92,9 @@ void FamilyStage::accept_work(const runtime::WorkDone& work, runtime::Outputs& o
     const auto near = families::near_pareto(members_of(beginning_.measured), scenario_.families.rank);
     std::erase_if(beginning_.measured, [&](const measurement::Replicates& each) {
       const pattern::Pattern pattern = pattern_of(each);
-      return std::ranges::count(near, pattern, &families::Member::pattern) == 0 &&
-             std::ranges::none_of(groups_,
-                                  [&](const families::Family& f) { return std::ranges::count(f.seeds, pattern) > 0; });
+      return std::ranges::count(near, pattern, &families::MeasuredPattern::pattern) == 0 &&
+             std::ranges::none_of(
+                 groups_, [&](const families::SeedFamily& f) { return std::ranges::count(f.seeds, pattern) > 0; });
     });
     begin_family(outputs);
   } else if (step_ == Step::sampling && work.id == label("sample")) {
@@ -132,7 +132,7 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
     has_chosen_ = true;
     return;
   }
-  const families::Family& group = groups_[families_.size()];
+  const families::SeedFamily& group = groups_[families_.size()];
   wire::Family& family = families_.emplace_back();
   family.round = beginning_.round;
   family.fidelity = scenario_.fidelity;
@@ -177,7 +177,7 @@ void FamilyStage::calibrate_on(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::sample(runtime::Outputs& outputs) {
-  const families::Family& group = groups_[families_.size() - 1];
+  const families::SeedFamily& group = groups_[families_.size() - 1];
   step_ = Step::sampling;
   outputs.computes.push_back(
       {.id = label("sample"),

@@ -68,7 +68,7 @@ class FamilyStage {
   Step step_ = Step::grouping;
   bool has_chosen_ = false;
 
-  std::vector<families::Family> groups_;
+  std::vector<families::SeedFamily> groups_;
   std::vector<wire::Family> families_;  // one per group, the last one in work
 
   // Of the family in work.

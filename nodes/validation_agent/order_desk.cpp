@@ -40,7 +40,7 @@ bool OrderDesk::refused(const pattern::Design& design) const {
 }
 
 std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::Design> designs,
-                                               std::vector<game::Experiment> experiments) {
+                                               std::vector<game::DiscriminationTest> experiments) {
   round_ = round;
   decided_under_ = round - 1;
   std::vector<game::Order> orders;
@@ -53,7 +53,7 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
   }
   add(orders_for(approved_of(designs)));
   add(take_own(designs, orders));
-  std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
+  std::erase_if(experiments, [&](const game::DiscriminationTest& each) { return refused(each.design); });
   if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
   return place(std::move(orders));
 }

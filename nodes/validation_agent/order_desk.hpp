@@ -31,7 +31,7 @@ class OrderDesk {
   /// Opens a round: `designs` proposed for it, `experiments` that the diagnosis wants. Returns the orders that can go
   /// out at once.
   std::vector<game::Order> open_round(int round, std::vector<pattern::Design> designs,
-                                      std::vector<game::Experiment> experiments);
+                                      std::vector<game::DiscriminationTest> experiments);
 
   /// Opens the round of the family stage: designs chosen of families, which a person decides on under the number of
   /// this round, and what persons added meanwhile. Returns the orders that can go out at once.

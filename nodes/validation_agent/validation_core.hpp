@@ -65,8 +65,8 @@ class ValidationCore : public runtime::NodeCore {
     std::map<std::string, sysid::Prediction>
         predicted;  ///< what it expects of the designs of this round, through the testing machine
     std::map<std::string, sysid::Prediction>
-        adopted;               ///< and the adopted model of those that separate the two, beside the proposals
-    game::TrialErrors errors;  ///< of all rounds since it was first named
+        adopted;                        ///< and the adopted model of those that separate the two, beside the proposals
+    game::ExtensionTrialErrors errors;  ///< of all rounds since it was first named
   };
 
   // Inputs (validation_core.cpp).
@@ -85,7 +85,7 @@ class ValidationCore : public runtime::NodeCore {
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);
   /// That the last diagnosis wants; none once the model holds what it names: they would tell it from the base.
-  std::vector<game::Experiment> experiments() const;
+  std::vector<game::DiscriminationTest> experiments() const;
   std::vector<pattern::Design> separating_designs() const;
   std::vector<measurement::Replicates> predicted_designs() const;
   void predict();

@@ -42,8 +42,8 @@ void ValidationCore::begin_unfitted() {
   publish_model();
 }
 
-std::vector<game::Experiment> ValidationCore::experiments() const {
-  std::vector<game::Experiment> experiments;
+std::vector<game::DiscriminationTest> ValidationCore::experiments() const {
+  std::vector<game::DiscriminationTest> experiments;
   if (!diagnosis_ || model_holds(*diagnosis_)) return experiments;
   for (const next_experiment_t& next : diagnosis_->next_experiments) {
     const auto design = pattern::design_from_name(next.design);
@@ -101,7 +101,7 @@ void ValidationCore::predict_held_out() {
     if (!calibrated_designs_.contains(each.design.name()))
       proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
   }
-  game::Predicted predicted = game::predicted_among(calibration_set_, proposed);
+  game::PredictedDesigns predicted = game::predicted_among(calibration_set_, proposed);
   held_out_set_ = std::move(predicted.measured);
   proposed_ = std::move(predicted.predicted);
   if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(proposed_);

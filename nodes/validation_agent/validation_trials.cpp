@@ -69,7 +69,7 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
 void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   const std::string name = fmt::format("{}", fmt::join(trial_->effects, " with "));
   const bool adopted_before = model_holds(*diagnosis_);
-  const game::TrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
+  const game::ExtensionTrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
   if (adopted_before || game::gain_is_established(trial_->errors)) {
     take_over(result);
     trial_.reset();
@@ -108,7 +108,7 @@ std::vector<std::size_t> numbers(std::size_t first, std::size_t end) {
 /// upright and new to both.
 std::vector<pattern::Design> ValidationCore::separating_designs() const {
   std::vector<pattern::Design> designs;
-  for (const game::Experiment& each : experiments()) {
+  for (const game::DiscriminationTest& each : experiments()) {
     const bool is_plain = each.test == tester::TestKind::modulus && each.design.layout() != nullptr &&
                           measurement::same_conditions(each.conditions, {});
     const std::string name = each.design.name();

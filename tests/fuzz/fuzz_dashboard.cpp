@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto decision = dashboard::decision_from_json(request.body)) fuzz::expect(decision->round >= -1);
   (void)dashboard::wish_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
-    for (const families::Family& family : *grouping)
+    for (const families::SeedFamily& family : *grouping)
       fuzz::expect(families::is_family_name(family.name) && !family.seeds.empty());
   if (request.path == "/api/simulate") return 0;  // would break specimens for minutes
   const dashboard::Response response = fuzz::page().handle(request);

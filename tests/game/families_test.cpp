@@ -227,7 +227,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   }
 }
 
-std::vector<families::Member> three_measured() {
+std::vector<families::MeasuredPattern> three_measured() {
   return {{pattern::Pattern(0x577fffe9fffdef), {1.5e9, 4e5}},
           {pattern::Pattern(0x3ffc9b4ad4d2d9), {1.1e9, 5e5}},
           {pattern::Pattern((std::uint64_t{1} << 55) - 1), {2.6e9, 1e5}}};
@@ -243,7 +243,7 @@ TEST(FamilyGrouping, APersonsFileIsTakenAndAFaultyOnePassedOver) {
   EXPECT_EQ(families::read_families(file), proposed.families) << "the proposal is there to be edited";
   EXPECT_EQ(group(spec), group(spec)) << "a restart finds what the first attempt wrote and says the same";
 
-  const std::vector<families::Family> own = {{"mine", {three_measured()[1].pattern}}};
+  const std::vector<families::SeedFamily> own = {{"mine", {three_measured()[1].pattern}}};
   write_file_atomically(file, families::to_toml(own));
   EXPECT_EQ(validation_agent::grouping_from(group(spec)).families, own);
 

@@ -393,7 +393,7 @@ TEST(OwnDesigns, WhatOpensTheGameIsNotOrderedOnceMore) {
 TEST(OwnDesigns, AnExperimentOnOneDoesNotStandForIt) {
   validation_agent::OrderDesk desk(small_scenario());
   const pattern::Design coupon = pattern::Mixture{0.7};
-  const game::Experiment experiment{.design = coupon, .test = tester::TestKind::tensile, .replicates = 1};
+  const game::DiscriminationTest experiment{.design = coupon, .test = tester::TestKind::tensile, .replicates = 1};
   ASSERT_EQ(std::ranges::count(desk.open_round(2, {}, {experiment}), coupon, &game::Order::design), 1);
   const auto orders = desk.add_own(coupon, true);
   ASSERT_TRUE(orders) << orders.error().message;

@@ -270,7 +270,7 @@ TEST(DropletPlan, TheBarHasTheOutlineOfAstmD638TypeOne) {
 
 TEST(DropletPlan, RigidGripsLeaveTheGaugeAlone) {
   const Slice plain = DropletPlan({.design = kPublished}, {}).slice(0);
-  const Slice gripped = DropletPlan({.design = kPublished, .grips = Grips::rigid}, {}).slice(0);
+  const Slice gripped = DropletPlan({.design = kPublished, .grips = GripMaterial::rigid}, {}).slice(0);
   for (int row = 0; row < plain.rows; ++row) {
     const double along_mm = (row + 0.5) * 25.4 / 600;
     const bool grip = along_mm < 25.0 || along_mm > 79.0;

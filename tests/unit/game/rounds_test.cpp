@@ -50,10 +50,10 @@ TEST(Rounds, DiscriminationOrdersAreLimitedAndHaveIdsOfTheirOwn) {
   Scenario scenario;
   scenario.diagnosis.discrimination_orders = 2;
   const pattern::Design design = pattern::Pattern(7);
-  const Experiment turned{.design = design, .conditions = {.orientation_deg = 90.0}, .replicates = 3};
-  Experiment fast = turned;
+  const DiscriminationTest turned{.design = design, .conditions = {.orientation_deg = 90.0}, .replicates = 3};
+  DiscriminationTest fast = turned;
   fast.conditions.strain_rate_per_s *= 10.0;
-  Experiment third;
+  DiscriminationTest third;
   third.design = pattern::Pattern(9);
   const auto orders = discrimination_orders(scenario, 2, std::vector{turned, turned, fast, third});
   ASSERT_EQ(orders.size(), 2u) << "a repeated question is ordered once, the third falls under the limit";

@@ -3,7 +3,6 @@
 
 #include "tester/names.hpp"
 
-
 namespace nacre::tester {
 namespace {
 

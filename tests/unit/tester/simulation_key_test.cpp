@@ -4,7 +4,6 @@
 
 #include "tester/simulation_key.hpp"
 
-
 namespace nacre::tester {
 namespace {
 

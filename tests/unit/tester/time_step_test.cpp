@@ -2,7 +2,6 @@
 
 #include "tester/toughness.hpp"
 
-
 namespace nacre::tester {
 namespace {
 
