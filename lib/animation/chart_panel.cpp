@@ -89,7 +89,7 @@ void draw_curve(Canvas& canvas, const film::Film& film, const ChartAxes& axes, c
   canvas.disc(passed.back(), 4.6, kAccent);
 }
 
-/// Energy taken up so far: the area under the curve.
+/// Energy absorbed so far: the area under the curve.
 double absorbed_pa(const film::Film& film, const film::FilmFrame& frame) {
   tester::Curve passed;
   for (std::size_t i = 0; i < film.curve.size() && film.curve.strain[i] < frame.strain; ++i) {
@@ -106,7 +106,7 @@ void draw_figures(Canvas& canvas, const film::Film& film, const film::FilmFrame&
       {{"strain", fmt::format("{:.2f} %", 100.0 * frame.strain)},
        {"stress", fmt::format("{:.2f} MPa", 1e-6 * std::max(0.0, frame.stress_pa))},
        {"failed elements", fmt::format("{}", frame.broken)},
-       {"energy taken up", fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * absorbed_pa(film, frame))}}};
+       {"energy absorbed", fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * absorbed_pa(film, frame))}}};
   double y = 418.0;
   for (const auto& [name, value] : now) {
     canvas.text({kLeft - 44.0, y}, name, {.size = 13.0, .rgb = kFaint});

@@ -45,7 +45,7 @@ std::vector<CanvasPoint> node_positions(const film::Film& film, const film::Film
   return positions;
 }
 
-/// Per element: whether it stands (0), failed before the frame before (1) or since (2), or was never there (1).
+/// Per element: intact (0), failed before the frame before or empty from the start (1), or failed since (2).
 std::vector<int> ages(const film::Film& film, int frame) {
   std::vector<int> age(film.material.size(), 0);
   for (std::size_t e = 0; e < age.size(); ++e) age[e] = film.material[e] == kVoid ? 1 : 0;
@@ -102,12 +102,12 @@ fem::Grid grid_of(const film::Film& film) {
   return grid;
 }
 
-/// Letters beside the crack where a mechanism shows at this moment, and what they mean.
+/// Letters next to the crack where a mechanism acts at this moment, and their meaning.
 void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placement& placement) {
   const film::FilmFrame& frame = film.frames[index];
   const std::vector<crack::Mark> marks = crack::marks_of(grid_of(film), film.crack);
   const std::vector<CanvasPoint> node = node_positions(film, frame, placement);
-  constexpr double kAside = 14.0;  // the crack itself stays in sight
+  constexpr double kAside = 14.0;  // so that the crack itself stays visible
   constexpr int kMostOfAKind = 5;  // more would cover the specimen; branches come longest first
   std::array<int, crack::kMarkKinds> shown{};
   for (const crack::Mark& mark : marks) {

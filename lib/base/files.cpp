@@ -25,7 +25,7 @@ struct FileDescriptor {
   }
 };
 
-/// The file that a chain of links names, there or not; `path` itself where it is no link.
+/// The file that a chain of links names, existing or not; `path` itself where it is no link.
 std::filesystem::path behind_links(std::filesystem::path path) {
   constexpr int kLongestChain = 40;
   std::error_code no_link;
@@ -40,7 +40,7 @@ std::filesystem::path behind_links(std::filesystem::path path) {
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
-  std::error_code unreadable;  // what a folder's name cannot be either is said below
+  std::error_code unreadable;  // a name that cannot be a folder's fails to open below
   if (std::filesystem::is_directory(path, unreadable))
     throw InputError::format("{}: is a folder, expected a file", path.string());
   const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};

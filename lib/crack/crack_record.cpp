@@ -13,10 +13,10 @@
 namespace nacre::crack {
 namespace {
 
-/// Among equally long ways the one that failed first is the path. Far below the difference of any two lengths.
+/// Of equally long paths the one that failed first is taken. Far below the difference of any two lengths.
 constexpr double kLatenessCost = 1e-6;
 
-/// What became of every element.
+/// State of every element after the test.
 struct FailureField {
   const fem::Grid& grid;
   std::vector<double> lateness;  ///< 0..1 in the order of failing; below 0 where nothing failed
@@ -36,7 +36,7 @@ FailureField field_of(const fem::Grid& grid, const std::vector<tester::Break>& o
   return field;
 }
 
-/// Where the path begins: in the notch, or without one at the failed elements farthest left.
+/// Start of the path: the notch, or without one the failed elements farthest left.
 std::vector<int> origins(const FailureField& field, const std::vector<tester::Break>& order) {
   std::vector<int> elements;
   for (int e = 0; e < field.grid.element_count(); ++e)
@@ -49,12 +49,12 @@ std::vector<int> origins(const FailureField& field, const std::vector<tester::Br
   return elements;
 }
 
-/// The cheapest way from `from` to the failed element farthest right, without the elements of the notch.
+/// The shortest path from `from` to the failed element farthest right, without the elements of the notch.
 std::vector<int> cheapest_way(const FailureField& field, const std::vector<int>& from,
                               const std::vector<tester::Break>& order) {
   const auto cost = [&](int e) {
     if (field.empty(e)) return 1.0;
-    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[e] : kStandingCost;
+    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[e] : kIntactCost;
   };
   int right = 0;
   for (const tester::Break& broken : order) right = std::max(right, field.column(broken.element));
@@ -90,8 +90,8 @@ CrackPath measured(const FailureField& field, std::vector<int> way) {
   return path;
 }
 
-/// The longest branches are taken off one after the other: each begins where the cracks are farthest from all that has
-/// been taken. Also gives the failed elements that the path's crack does not reach.
+/// The longest branches are removed one after the other: each begins where the cracks are farthest from everything
+/// removed so far. Also gives the failed elements that the path's crack does not reach.
 std::vector<int> tips_of_branches(const FailureField& field, const std::vector<int>& path,
                                   const std::vector<tester::Break>& order, std::vector<int>& unreached) {
   const double shortest = kShortestBranchElements;

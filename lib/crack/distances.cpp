@@ -16,7 +16,7 @@ void spread(const fem::Grid& grid, Queue& queue, const ElementCost& cost, const 
   while (!queue.empty()) {
     const auto [distance, element] = queue.top();
     queue.pop();
-    if (distance > distances.cost[element]) continue;  // a shorter way was found meanwhile
+    if (distance > distances.cost[element]) continue;  // a shorter path was found meanwhile
     if (arrived && arrived(element)) {
       distances.arrived = element;
       return;

@@ -11,7 +11,7 @@ namespace {
 
 fem::Phase phase_of(const fem::Grid& grid, int element) { return grid.phase[element]; }
 
-/// The tip passes an element of the path when that and all failed ones before it have failed. What it waited for is the
+/// The tip passes an element of the path when that and all failed ones before it have failed. It was arrested by the
 /// element that failed last, soft or not.
 double soft_arrest(const fem::Grid& grid, const CrackRecord& record) {
   std::map<int, double> strain_of;
@@ -46,11 +46,11 @@ double weak_share(const fem::Grid& grid) {
 }  // namespace
 
 std::array<Mechanism, 5> mechanism_names() {
-  return {{{"deflection", "the crack's path is longer than the straight way"},
-           {"branching", "the crack splits, or others open beside it"},
-           {"bridging", "ligaments stand across the crack when the test ends"},
+  return {{{"deflection", "the crack's path is longer than a straight crack"},
+           {"branching", "the crack splits, or separate cracks open"},
+           {"bridging", "intact ligaments bridge the crack when the test ends"},
            {"soft_arrest", "the tip waits in front of soft material"},
-           {"guidance", "the path seeks soft material and interfaces"}}};
+           {"guidance", "the path prefers soft material and interfaces"}}};
 }
 
 std::array<double, 5> values_of(const Mechanisms& m) {

@@ -107,7 +107,7 @@ Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
       {"specimens", specimens}};
 }
 
-/// A sheet without what was counted in the files.
+/// A sheet without the figures that were counted in the files.
 Json plan_of(Json sheet) {
   for (Json& model : sheet.at("models")) {
     for (const char* counted :
@@ -140,8 +140,8 @@ void take_away_when_empty(const std::filesystem::path& folder) {
   if (std::filesystem::is_empty(folder, failure) && !failure) take_away(folder);
 }
 
-/// Where a model of the job in `folder` was written; nothing where its name is no name of a folder in there, or the
-/// folder is a link: what lies behind it is not the job's.
+/// The folder of a model of the job in `folder`; nothing where its name is not that of a folder there, or the folder is
+/// a link: the files behind it do not belong to the job.
 std::optional<std::filesystem::path> place_of(const Json& model, const std::filesystem::path& folder) {
   const auto slices = model.at("slices").get<std::string>();
   if (slices == "slices") return folder;
@@ -153,7 +153,7 @@ std::optional<std::filesystem::path> place_of(const Json& model, const std::file
 
 /// The slices and the preview of one model.
 void forget_model(const Json& model, const std::filesystem::path& folder) {
-  constexpr int kMostSlices = 100'000;  // whatever a damaged sheet says
+  constexpr int kMostSlices = 100'000;  // limits the effect of a damaged sheet
   const auto place = place_of(model, folder);
   if (!place) return;
   const std::filesystem::path slices = *place / "slices";
@@ -166,7 +166,7 @@ void forget_model(const Json& model, const std::filesystem::path& folder) {
   if (*place != folder) take_away_when_empty(*place);
 }
 
-/// What the build sheet in `folder` lists; nothing without a sheet that can be read.
+/// Removes what the build sheet in `folder` lists; does nothing without a readable sheet.
 void forget_models(const std::filesystem::path& folder) {
   std::error_code unreadable;
   if (!std::filesystem::exists(folder / kSheetName, unreadable)) return;
@@ -174,7 +174,7 @@ void forget_models(const std::filesystem::path& folder) {
     const Json sheet = Json::parse(read_file(folder / kSheetName));
     for (const Json& model : sheet.at("models")) forget_model(model, folder);
   } catch (const Json::exception&) {
-    return;  // somebody else's file
+    return;  // a file of something else
   }
 }
 

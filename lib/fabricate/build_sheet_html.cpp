@@ -138,10 +138,11 @@ std::string instructions(const Job& job) {
       "date, operator and machine.</li>\n"
       "<li>Pull at the speed above. Toughness: grips 54 mm apart, to complete separation. Modulus and tensile (ASTM "
       "D638 type I): grips 115 mm apart; <code>gauge_mm</code> is the extensometer's gauge (50), or {:.1f} where only "
-      "the travel of the grips is recorded. Where <i>pull</i> above names strains, from one to the next at that speed, "
-      "in one record with the ways back.</li>\n"
+      "the travel of the grips is recorded. Where <i>pull</i> above names strains, go from one to the next at that "
+      "speed "
+      "and record unloading too, in one file.</li>\n"
       "<li>Export time, extension and force of each test as CSV, name the files in the column <code>file</code>, note "
-      "under <code>path</code> how the crack ran (any word, the same word for the same course), then "
+      "under <code>path</code> the path of the crack (any word, the same word for the same path), then "
       "<code>nacre import *.csv --specimens specimens.csv --out SET</code>.</li>\n</ol>\n",
       cut ? "" : ", then mill a triangular cut of 60 degrees, 7.8 mm deep, on the notch's axis",
       bar_effective_gauge_mm());

@@ -17,7 +17,7 @@ namespace {
 
 void check_name(const std::string& name) {
   if (!is_plain_name(name, 40, "."))
-    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ - (--batch names it)", name);
+    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ - (option --batch)", name);
 }
 
 /// A design as part of a folder's name: keys of coupons, which are long, by their first digits of a hash.

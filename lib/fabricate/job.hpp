@@ -1,5 +1,5 @@
 #pragma once
-// A print job: what is printed, how often, where on which tray, in which random order.
+// A print job: the specimens, their number, their places on trays and their random order.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace nacre::fabricate {
 
-/// Specimens that somebody wants tested in one way.
+/// Specimens to be printed for one kind of test.
 struct WantedSpecimens {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::toughness;
@@ -21,7 +21,7 @@ struct WantedSpecimens {
   double strain_rate_per_s = thesis::kTestStrainRate;
   tester::Loading loading = {};                ///< how a coupon is pulled
   int replicates = thesis::kModulusSpecimens;  ///< at least four are tested, three consistent ones count (2.2.2)
-  std::string order_id = {};                   ///< of the game; empty when nobody ordered them
+  std::string order_id = {};                   ///< of the game; empty when they were not ordered
   std::string reason = {};
 };
 
@@ -46,7 +46,7 @@ struct PrintModel {
 
 /// One specimen on a tray; x to the right, y away from the front left corner, as the printer counts.
 struct PlacedSpecimen {
-  std::string label;  ///< `BATCH-NN`, what to write on it and what its measurement is called
+  std::string label;  ///< `BATCH-NN`, on the specimen and as the name of its measurement
   std::size_t model = 0;
   int replicate = 1;
   int print_order = 0;  ///< from 1, over all trays
@@ -69,7 +69,7 @@ struct Job {
 /// name, replicates outside 1 to 100, or a specimen larger than the tray.
 Job plan_job(const JobRequest& request);
 
-/// How a specimen is pulled, for people: `monotonic`, `to 2 % strain, back to 0.5 %, on to 2.2 %`.
+/// The loading programme in words: `monotonic`, `to 2 % strain, back to 0.5 %, on to 2.2 %`.
 std::string pull_in_words(const tester::Loading& loading);
 
 /// Speed of the grips in mm/min that strains the specimen at its rate.

@@ -59,7 +59,7 @@ bool encode(png_structp png, png_infop info, const Slice& slice, const Printer& 
   return true;
 }
 
-/// What is still to be read of a file.
+/// The unread rest of a file.
 struct PngSource {
   const char* at;
   std::size_t left;
@@ -124,7 +124,7 @@ Slice read_slice(const std::filesystem::path& path) {
   }
   png_destroy_read_struct(&png, &info, nullptr);
   if (!read)
-    throw InputError::format("{}: no readable slice: {}; expected an indexed PNG", path.string(), fault.text.data());
+    throw InputError::format("{}: not a readable slice: {}; expected an indexed PNG", path.string(), fault.text.data());
   for (const Droplet droplet : slice.droplets) {
     if (droplet > Droplet::rigid) {
       throw InputError::format("{}: index {} in the picture, expected 0 none, 1 soft or 2 rigid", path.string(),

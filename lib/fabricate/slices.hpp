@@ -13,7 +13,7 @@ namespace nacre::fabricate {
 /// `0000.png`, `0001.png`, ... from the tray upwards.
 std::string slice_name(int layer);
 
-/// Droplets counted back from files.
+/// Droplets counted in the files.
 struct StackCount {
   int layers = 0;
   int columns = 0;

@@ -54,7 +54,7 @@ class Programme {
       }
       if (k == 0) first_flows_ = static_cast<int>(costs_.size());
     }
-    // The earth that arrives is the same for all: source k's at each pixel equals the first one's.
+    // All sources end in the same histogram: source k's earth at each pixel equals the first one's.
     for (std::size_t k = 1; k < sources.size(); ++k) {
       for (int to = 0; to < kFreePixels; ++to) {
         right_.push_back(0.0);

@@ -12,12 +12,12 @@ struct FeatureColumn {
   std::vector<double> values;
 };
 
-/// How a feature goes with an outcome over a family. Evidence, not cause: patterns were not drawn to vary this feature
-/// alone.
+/// Association of a feature with an outcome over a family. Correlation, not cause: patterns were not drawn to vary this
+/// feature alone.
 struct Association {
   std::string feature;
-  double spearman = 0.0;  ///< rank correlation as it is
-  double partial = 0.0;   ///< with the ranks of the controls taken out of both
+  double spearman = 0.0;  ///< rank correlation
+  double partial = 0.0;   ///< partial rank correlation: the ranks of the controls are regressed out of both
   double p_family_wise =
       1.0;  ///< chance that the strongest partial correlation of all features is as large when none is real
 };

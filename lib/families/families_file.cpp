@@ -18,7 +18,7 @@ namespace {
 
 pattern::Pattern seed_of(const toml::node& node, const std::string& source) {
   const std::optional<std::string> key = node.value<std::string>();
-  if (!key) refuse(source, node, "a seed is expected to be a pattern key, 14 hexadecimal digits in quotes");
+  if (!key) refuse(source, node, "expected as seed a pattern key, 14 hexadecimal digits in quotes");
   const Result<pattern::Pattern> seed = pattern::pattern_from_key(*key);
   if (!seed) refuse(source, node, fmt::format("seed '{}': {}", *key, seed.error().message));
   return *seed;
@@ -28,10 +28,9 @@ SeedFamily family_of(const toml::table& table, const std::string& source) {
   SeedFamily family{.name = table["name"].value_or(std::string()), .seeds = {}};
   if (!is_family_name(family.name))
     refuse(source, table,
-           fmt::format("a family is expected to have a name of at most {} letters, digits, - and _, not digits alone",
-                       kLongestFamilyName));
+           fmt::format("expected a name of at most {} letters, digits, - and _, not digits alone", kLongestFamilyName));
   const toml::array* seeds = table["seeds"].as_array();
-  if (seeds == nullptr || seeds->empty()) refuse(source, table, "a family is expected to have seeds = [\"key\", ...]");
+  if (seeds == nullptr || seeds->empty()) refuse(source, table, "expected seeds = [\"key\", ...] in the family");
   for (const toml::node& seed : *seeds) family.seeds.push_back(seed_of(seed, source));
   return family;
 }
@@ -66,10 +65,10 @@ std::vector<SeedFamily> parse_families(std::string_view text, const std::string&
     if (!node.is_table()) refuse(source, node, "expected a [[family]] table");
     families.push_back(family_of(*node.as_table(), source));
     if (!names.insert(families.back().name).second)
-      refuse(source, node, fmt::format("family '{}' stands here for the second time", families.back().name));
+      refuse(source, node, fmt::format("family '{}' is listed a second time", families.back().name));
     for (const pattern::Pattern& seed : families.back().seeds)
       if (!seeds.insert(seed).second)
-        refuse(source, node, fmt::format("seed '{}' stands here for the second time", seed.key()));
+        refuse(source, node, fmt::format("seed '{}' is listed a second time", seed.key()));
   }
   return families;
 }

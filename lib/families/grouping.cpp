@@ -15,8 +15,8 @@ using DesignGroups = std::vector<std::vector<std::size_t>>;
 
 constexpr double kLeastSilhouette = 0.25;
 
-/// Multiplies by what makes the mean of all finite pairs 1; pairs that are all zero stay. A pattern without soft
-/// pixels, infinitely far from the others, is as far as any two of them: it must not outweigh what parts those.
+/// Scales the mean of all finite pairs to 1; pairs that are all zero stay. A pattern without soft pixels, infinitely
+/// far from the others, is set as far as any two of them, so that it does not outweigh their differences.
 void normalise(DistanceMatrix& distances) {
   const double far = largest_finite(distances);
   double sum = 0.0, pairs = 0.0;

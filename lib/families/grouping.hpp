@@ -14,20 +14,20 @@
 
 namespace nacre::families {
 
-/// A measured design.
+/// A measured pattern.
 struct MeasuredPattern {
   pattern::Pattern pattern;
   optimize::Performance performance;
 };
 
-/// Designs that resemble one another.
+/// Similar designs, from which a family grows.
 struct SeedFamily {
   std::string name;
   std::vector<pattern::Pattern> seeds;
   bool operator==(const SeedFamily&) const = default;
 };
 
-/// How much a measured design counts in the family's own calibration (thesis 2.4.1): 1 for its seeds, 0.1 for others.
+/// Weight of a measured design in the family's own calibration (thesis 2.4.1): 1 for its seeds, 0.1 for others.
 double calibration_weight(const SeedFamily& family, const pattern::Pattern& measured);
 
 /// The designs of rank <= maximum_rank, in the order given.
@@ -35,7 +35,7 @@ std::vector<MeasuredPattern> near_pareto(std::span<const MeasuredPattern> measur
 
 /// Groups designs by average linkage. The distance of two designs is that of their patterns (earth mover's) plus that
 /// of their properties (relative to the range), each over its mean. The number of families, 1 to `largest_count`, is
-/// the one whose mean silhouette is largest; one family when none exceeds 0.25, where groups are no more than chance.
+/// the one whose mean silhouette is largest; one family when none exceeds 0.25, below which groups are chance.
 /// Families are named `family-1`, ... by falling modulus of their stiffest member.
 std::vector<SeedFamily> proposed_families(std::span<const MeasuredPattern> designs, int largest_count = 6);
 

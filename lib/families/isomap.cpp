@@ -114,7 +114,7 @@ struct LeadingAxes {
   Eigen::MatrixX2d vectors;
 };
 
-/// The two leading eigenpairs by Lanczos' method; nothing when it loses its way, as it does where the rank is one.
+/// The two leading eigenpairs by Lanczos' method; nothing when it breaks down, as it does where the rank is one.
 std::optional<LeadingAxes> leading_axes(const Eigen::MatrixXd& matrix) {
   Spectra::DenseSymMatProd<double> operation(matrix);
   Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(operation, 2, kLanczosVectors);

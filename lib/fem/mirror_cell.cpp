@@ -16,7 +16,7 @@ namespace {
 /// Displacements or forces: 2 per node, as StaticSolution has them.
 using NodalField = std::vector<double>;
 
-/// What hangs on the elements' sizes alone. Elements point into it: it stays where it is.
+/// Depends on the elements' sizes alone. Elements point into it: its address must not change.
 class CellPlan {
  public:
   explicit CellPlan(std::span<const double> sizes)
@@ -43,7 +43,7 @@ class CellPlan {
   double length() const { return length_; }
   const std::vector<const UnitStiffness*>& shapes() const { return shapes_; }
   const std::vector<double>& areas() const { return areas_; }
-  /// Where the sides move as prescribed: along their normal.
+  /// The prescribed displacements of the sides: along their normal.
   const std::vector<char>& held() const { return held_; }
   FrontalCholesky& factorisation() { return *factorisation_; }
 

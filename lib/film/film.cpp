@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kCurvePoints = 256;
 constexpr std::uint8_t kVoid = 3;
-/// A value follows only when it is off by more than this share of a step: waves below that would flicker and cost half
-/// the file.
+/// A value is updated only when it is off by more than this share of a step: smaller waves would flicker and take half
+/// of the file.
 constexpr double kEnergyBand = 0.75, kDisplacementBand = 1.0;
 
 double largest_energy(const std::vector<tester::FractureFrame>& frames) {
@@ -43,7 +43,7 @@ std::vector<std::uint8_t> energy_levels(const tester::FractureFrame& frame, cons
   return levels;
 }
 
-/// Nodes that touch an element which stands. The others drift about and are nowhere seen.
+/// Nodes of intact elements. The others drift freely and are not drawn.
 std::vector<bool> held_nodes(const tester::FractureFrame& frame) {
   std::vector<bool> held(static_cast<std::size_t>((frame.columns + 1) * (frame.rows + 1)), false);
   for (int row = 0; row < frame.rows; ++row)

@@ -139,7 +139,7 @@ std::string header_fault(const Film& film) {
   stresses.insert(stresses.end(), {film.toughness_pa, film.peak_stress_pa});
   for (const double value : stresses)
     if (!(std::abs(value) <= kLargestStress))
-      return fmt::format("a toughness or stress of {} Pa, expected at most {} either way", value, kLargestStress);
+      return fmt::format("a toughness or stress of {} Pa, expected at most {} in magnitude", value, kLargestStress);
   if (film.curve.strain.size() != film.curve.stress_pa.size()) return "strain and stress of the curve differ in length";
   for (const FilmFrame& frame : film.frames)
     if (frame.broken > static_cast<int>(film.crack.order.size()))
@@ -181,13 +181,13 @@ std::string encode(const Film& film) {
 
 Result<Film> decode(std::string_view bytes) {
   if (bytes.size() < kFixedBytes || !bytes.starts_with(kMagic))
-    return fail("no fracture film: it does not begin with {}", kMagic);
+    return fail("not a fracture film: it does not begin with {}", kMagic);
   std::uint32_t numbers[2];
   std::memcpy(numbers, bytes.data() + kMagic.size(), sizeof numbers);
   if (numbers[0] != kVersion) return fail("fracture film of version {}, expected {}", numbers[0], kVersion);
   if (numbers[1] > bytes.size() - kFixedBytes) return fail("the header is cut off");
   const json header = json::parse(bytes.substr(kFixedBytes, numbers[1]), nullptr, false);
-  if (header.is_discarded()) return fail("the header is no JSON");
+  if (header.is_discarded()) return fail("the header is not JSON");
   return read_film_parts(header, bytes.substr(kFixedBytes + numbers[1]));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The measured tables that a game starts from: the base materials of round 0 and, where a scenario names one, the
+// The measured tables that a game starts from: the base materials of round 0 and, where a scenario names it, the
 // homogeneous benchmark line. CSV, columns by name.
 
 #include <filesystem>

@@ -114,11 +114,11 @@ std::vector<Order> discrimination_orders(const Scenario& scenario, int round,
   std::vector<Order> orders;
   for (const DiscriminationTest& experiment : experiments) {
     if (static_cast<int>(orders.size()) >= scenario.diagnosis.discrimination_orders) break;
-    const auto same_question = [&](const Order& order) {
+    const auto same_test = [&](const Order& order) {
       return order.design == experiment.design && order.test == experiment.test &&
-             order.loading == experiment.loading && answers(experiment.conditions, order.conditions);
+             order.loading == experiment.loading && fulfils(experiment.conditions, order.conditions);
     };
-    if (std::any_of(orders.begin(), orders.end(), same_question)) continue;
+    if (std::any_of(orders.begin(), orders.end(), same_test)) continue;
     // The number keeps the id apart from a proposal's and from the same design's at another rate or thickness.
     orders.push_back({.id = fmt::format("{}/discrimination-{}",
                                         order_id(round, experiment.design, experiment.test, experiment.conditions),
@@ -150,14 +150,14 @@ std::vector<DiscriminationTest> rotated_twins(std::span<const pattern::Pattern> 
   return experiments;
 }
 
-bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
+bool fulfils(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
   return measurement::same_conditions(tested, ordered);
 }
 
 bool are_both_ordered(std::span<const Order> orders, const pattern::Design& design) {
   const auto is_ordered = [&](tester::TestKind test) {
     return std::ranges::any_of(orders, [&](const Order& order) {
-      return order.design == design && order.test == test && answers(order.conditions, {});
+      return order.design == design && order.test == test && fulfils(order.conditions, {});
     });
   };
   return is_ordered(tester::TestKind::modulus) && is_ordered(tester::TestKind::toughness);

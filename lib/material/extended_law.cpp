@@ -8,8 +8,8 @@
 namespace nacre::material {
 namespace {
 
-/// Share of J_m from which chains stretch on at this stiffness: a law without end would have no state for a coupon that
-/// was pulled farther than some J_m allows.
+/// Share of J_m from which chains stretch on at this stiffness: a singular law would have no state for a coupon that is
+/// pulled farther than some J_m allows.
 constexpr double kFullChains = 0.98;
 
 /// SymmetricTensor tensors by components 11, 22, 12.
@@ -44,7 +44,7 @@ Elastic elastic_state(const Eigen::Matrix2d& h, const SymmetricTensor& plastic) 
   return e;
 }
 
-/// Flow: scales the deviator back to Y / (2 mu) and returns the energy that went.
+/// Flow: scales the deviator back to Y / (2 mu) and returns the dissipated energy.
 double flow(const ExtendedLaw& law, Elastic& e) {
   const double limit = law.yield_pa / (2.0 * law.lame.mu_pa);
   if (!(e.deviator > limit)) return 0.0;
@@ -62,7 +62,7 @@ double flow(const ExtendedLaw& law, Elastic& e) {
 /// mu times the part of I - 2 l that a principal stretch of square 1 + x holds, where it is shorter than at rest.
 double shortened(double x) { return x < 0.0 ? x - std::log1p(x) : 0.0; }
 
-/// The part of the energy density that shortened principal stretches and lost area hold.
+/// The compressive part of the energy density: of shortened principal stretches and lost area.
 double compressive_energy(const Lame& lame, const Elastic& e) {
   const double principal = shortened(e.half - e.deviator) + shortened(e.half + e.deviator);
   return 0.5 * (lame.mu_pa * principal + (e.log_j < 0.0 ? lame.lambda_pa * e.log_j * e.log_j : 0.0));
@@ -81,7 +81,7 @@ double relax(const ExtendedLaw& law, const SymmetricTensor& s, double dt_s, Poin
   return square / (4.0 * law.lame.mu_pa * law.overstress);
 }
 
-/// What softening leaves at failure energy `energy`.
+/// Integrity, the share of stress left by softening, at failure energy `energy`.
 double integrity_at(const ExtendedLaw& law, double energy) {
   const double s = std::sqrt(std::max(0.0, energy / law.threshold_j_per_m3)), last = 1.0 + law.softening;
   if (s <= 1.0) return 1.0;

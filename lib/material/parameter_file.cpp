@@ -12,7 +12,7 @@
 namespace nacre::material {
 namespace {
 
-/// Where a fault stands in the file.
+/// Errors that name the place in the file.
 struct FilePlace {
   std::string file;
   [[nodiscard]] InputError error(const toml::node& node, std::string_view key, std::string_view expected) const {

@@ -59,8 +59,8 @@ struct ParameterSet {
   bool operator==(const ParameterSet&) const = default;
 };
 
-/// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5): a draw of what
-/// nobody knows better.
+/// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5): a draw from the
+/// uncertainty of the parameters.
 ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random);
 
 /// Built-in defaults (the content of data/defaults.toml): the measured base materials of Table 3.4 for the modulus

@@ -21,10 +21,10 @@ struct TestingMachine {
     const double per_step = material::extension_value(extensions, "batch_drift");
     if (per_step != 0.0) drift = std::exp(context.batch_step * std::log1p(per_step));
   }
-  bool shows_the_truth() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
+  bool is_ideal() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
 };
 
-/// Less where `a` comes first: digits by their number, the rest letter by letter.
+/// Natural order: digits by their number, the rest letter by letter.
 bool natural_less(const std::string& a, const std::string& b) {
   const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   std::size_t i = 0, j = 0;
@@ -65,7 +65,7 @@ std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& spec
 
 double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context) {
   const TestingMachine machine(extensions, context);
-  if (machine.shows_the_truth()) return modulus_pa;
+  if (machine.is_ideal()) return modulus_pa;
   const double printed_pa = machine.drift * modulus_pa;
   return machine.gain * printed_pa / (1.0 + machine.compliance_per_pa * printed_pa);
 }
@@ -84,7 +84,7 @@ double modulus_behind(double shown_pa, const material::Extensions& extensions) {
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
                             const PrintContext& context) {
   const TestingMachine machine(extensions, context);
-  if (machine.shows_the_truth()) return curve;
+  if (machine.is_ideal()) return curve;
   tester::Curve shown;
   if (machine.slack > 0.0) shown = {.strain = {0.0}, .stress_pa = {0.0}};
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -100,7 +100,7 @@ tester::Curve observe_along(const std::vector<double>& shown_strain, const Speci
   constexpr double kSmallStrain = 1e-4, kWellKnown = 1e-9;
   constexpr int kMostPasses = 50;
   const TestingMachine machine(extensions, context);
-  if (machine.shows_the_truth()) return pull(shown_strain);
+  if (machine.is_ideal()) return pull(shown_strain);
   std::vector<double> own;
   for (const double strain : shown_strain) own.push_back(std::max(0.0, strain - machine.slack));
   // A Newton step with the stiffness at the start: at once for a linear specimen, in a few passes for one that flows.

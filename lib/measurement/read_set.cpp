@@ -26,7 +26,7 @@ std::string unknown_column(const std::string& table, const CsvCell& cell, const 
   return fmt::format("{}:{}:{}: unknown column `{}` is kept but not used{}", table, cell.line, cell.column, name, hint);
 }
 
-/// The name under which an unknown column is kept: a second `x` is `x~2`, for both hold something.
+/// The name under which an unknown column is kept: a second `x` is `x~2`, so that neither is lost.
 std::string name_of_its_own(const SetHeading& heading, const std::string& name) {
   const auto is_taken = [&](const std::string& wanted) {
     return std::ranges::any_of(heading.others, [&](const auto& other) { return other.second == wanted; });
@@ -48,7 +48,7 @@ SetHeading read_heading(const CsvRow& row, const std::string& table, std::vector
     if (known != kColumns.end()) {
       std::size_t& position = heading.position[std::size_t(known - kColumns.begin())];
       if (position != kAbsent)
-        throw InputError::format("{}:{}: column `{}` stands twice, expected once", table, row.line, name);
+        throw InputError::format("{}:{}: column `{}` occurs twice, expected once", table, row.line, name);
       position = i;
       continue;
     }
@@ -78,7 +78,7 @@ void require_columns(const SetHeading& heading, const CsvRow& row, const std::st
   }
 }
 
-/// What a row must say: a test alone, a value of it, or a value that can be true.
+/// What a row must hold: a test alone, a measured value, or a plausible one.
 enum class Demand { planned, measured, plausible };
 
 /// Reads rows one after another into a set, and keeps specimen names unique.
@@ -139,9 +139,9 @@ class SetBuilder {
       set_.warnings.push_back(
           fmt::format("{}: specimen `{}` repeats line {} and is ignored", place, record->specimen, first_line));
     } else {
-      set_.rejected.push_back({row.line, "specimen",
-                               fmt::format("`{}` stands in line {} with other content, expected a unique name",
-                                           record->specimen, first_line)});
+      set_.rejected.push_back(
+          {row.line, "specimen",
+           fmt::format("`{}` is in line {} with other content, expected a unique name", record->specimen, first_line)});
     }
   }
 
@@ -167,7 +167,7 @@ class SetBuilder {
 
 MeasurementSet read_set(const std::filesystem::path& folder, Demand demand) {
   if (!std::filesystem::is_directory(folder)) {
-    throw InputError::format("{}: is no folder, expected a measurement set: a folder with {}", folder.string(),
+    throw InputError::format("{}: is not a folder, expected a measurement set: a folder with {}", folder.string(),
                              kTableName);
   }
   const Result<std::filesystem::path> table = file_inside(folder, kTableName);

@@ -12,11 +12,11 @@ constexpr double kWindow = 0.2, kHighestStart = 0.6, kHighestEnd = 0.8, kStartSt
 constexpr double kLongestWindow = 0.02;  // strain: a soft coupon locks within a fifth of its peak stress
 constexpr double kStartStepStrain = 0.1 * kLongestWindow;
 constexpr double kStraight = 0.01;  // share by which the halves of a straight part may differ in slope
-constexpr double kVague = 0.2;      // standard error over slope of what slack may be
-// Standard errors up to which a bend is taken for noise. A toe that is missed lowers the modulus, a straight part that
-// is missed costs points alone; noise that cuts windows short would choose among their slopes.
+constexpr double kVague = 0.2;      // standard error over slope above which a part may be slack
+// Standard errors up to which a bend is taken for noise. A missed toe lowers the modulus, a missed straight part costs
+// only points; if noise shortened windows, it would select among their slopes.
 constexpr double kErrorsOfToe = 0.5, kErrorsOfBend = 1.0, kErrorsWhileVague = 2.5;
-constexpr double kWidened = 1.25;           // how much longer a window becomes at once
+constexpr double kWidened = 1.25;           // factor by which a window is widened at once
 constexpr double kSeparated = 0.02;         // of the peak stress
 constexpr double kMostGivenBack = 0.05;     // of the largest strain: noise and recoil of the grips
 constexpr std::size_t kMostStretches = 20;  // of a record, each with a rate of its own
@@ -27,16 +27,16 @@ struct FittedLine {
   double zero = 0.0;
 };
 
-/// The part of a curve on the way to its peak that is loaded for the first time, loops of unloading left out.
+/// First loading: the part of a curve before its peak without loops of unloading.
 struct FirstLoading {
   std::vector<std::size_t> index;  ///< of the curve
   std::vector<double> strain, stress_pa;
-  std::vector<double> risen_pa;  ///< the stress that never falls which is nearest by least squares
+  std::vector<double> risen_pa;  ///< isotonic regression of the stress: the nearest that never falls
   std::size_t size() const { return index.size(); }
   double peak_pa() const { return risen_pa.back(); }
 };
 
-/// Pools neighbours that fall. A level that noise crosses to and fro is then reached once, neither early nor late.
+/// Isotonic regression by pooling adjacent violators: a level that noise crosses repeatedly is then reached once.
 std::vector<double> nearest_rising(const std::vector<double>& values) {
   struct PooledBlock {
     double sum;
@@ -100,7 +100,7 @@ FittedLine fit(const FirstLoading& path, SlopeWindow window) { return fit(path.s
 /// of that.
 struct Bend {
   double steeper = 0.0, error = 0.0;
-  /// What is left of it beyond so many errors.
+  /// Its part beyond so many standard errors.
   double beyond(double errors) const {
     return std::copysign(std::max(0.0, std::abs(steeper) - errors * error), steeper);
   }
@@ -113,7 +113,7 @@ Bend bend_of(const FirstLoading& path, SlopeWindow window) {
   return {(second.slope - first.slope) / slope, std::hypot(first.slope_error, second.slope_error) / slope};
 }
 
-/// Windows that begin somewhere on the way up.
+/// Windows on first loading.
 class Windows {
  public:
   explicit Windows(const FirstLoading& path)
@@ -164,7 +164,7 @@ class Windows {
 };
 
 /// The first window beyond the toe: its second half is not steeper than its first, and it rises by more than noise.
-/// Where there is none, the first of those that grow steeper least. Nothing where the curve does not rise.
+/// Without such a window, the one that steepens least. Nothing where the curve does not rise.
 std::optional<SlopeWindow> first_plateau(const FirstLoading& path) {
   const Windows windows(path);
   std::optional<SlopeWindow> straightest;
@@ -196,18 +196,19 @@ double largest_strain(const tester::Curve& curve, std::size_t end) {
   return *std::max_element(curve.strain.begin(), curve.strain.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-/// Whether the specimen gave its strain back on the way to the low stress at `end`: it was unloaded, not torn apart.
+/// Whether the strain returned before the low stress at `end`: the specimen was unloaded, not separated.
 bool is_unloaded(const tester::Curve& curve, std::size_t end) {
   return curve.strain[end] < (1.0 - kMostGivenBack) * largest_strain(curve, end);
 }
 
-/// Where strain counts from. A line that meets zero stress before the record began tells of a preload, which the first
-/// stress shows, or of a curve that bends, which shifts nothing.
+/// Origin of strain. A line that meets zero stress before the record began means a preload, as the first stress tells,
+/// or a bent curve, which shifts nothing.
 double toe_of(const tester::Curve& curve, const LinearPart& part) {
   return std::max(part.zero_strain, std::min(0.0, -curve.stress_pa.front() / part.slope_pa));
 }
 
-/// The curve with strain counted from `toe_strain`; what a toe recorded before the linear part gives way to its line.
+/// The curve with strain counted from `toe_strain`; the toe before the linear part is replaced by the extrapolated
+/// line.
 tester::Curve compensated(const tester::Curve& curve, const LinearPart& part, double toe_strain) {
   const std::size_t begin = toe_strain > 0.0 ? part.first : 0;
   tester::Curve shifted;
@@ -244,9 +245,9 @@ Result<LinearPart> linear_part(const tester::Curve& curve) {
   if (peak_pa <= 0.0) return fail("the force never becomes positive, expected tension to count as positive");
   const FirstLoading path = first_loading(curve, peak);
   if (path.size() < kFewestPoints)
-    return fail("only {} points on the way to the peak, expected a curve that rises", path.size());
+    return fail("only {} points before the peak, expected a curve that rises", path.size());
   const std::optional<SlopeWindow> part = first_plateau(path);
-  if (!part) return fail("no straight part on the way to the peak, expected a curve that rises");
+  if (!part) return fail("no straight part before the peak, expected a curve that rises");
   const FittedLine line = fit(path, *part);
   return LinearPart{line.slope, line.slope_error, line.zero, path.index[part->first], path.index[part->last]};
 }
@@ -282,7 +283,7 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
 std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve) {
   const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -
                                              curve.stress_pa.begin());
-  std::vector<double> times, strains;  // where the clock ticks: rows between two ticks have no time of their own
+  std::vector<double> times, strains;  // at the ticks of the clock: rows between two ticks have the same time
   for (std::size_t i = 0; i < std::min(time_s.size(), peak + 1); ++i) {
     if (!times.empty() && time_s[i] <= times.back()) continue;
     times.push_back(time_s[i]);

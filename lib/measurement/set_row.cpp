@@ -7,6 +7,7 @@
 
 #include "base/files.hpp"
 #include "base/names.hpp"
+#include "measurement/limits.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "pattern/coupons.hpp"
@@ -15,7 +16,7 @@
 namespace nacre::measurement {
 namespace {
 
-/// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
+/// Turns one row into a record. The first fault is kept as the row's fault, the rest is then skipped.
 class RowParser {
  public:
   RowParser(const std::filesystem::path& folder, const SetHeading& heading, const CsvRow& row, bool planned,
@@ -108,7 +109,7 @@ class RowParser {
 
   tester::TestKind test_kind() {
     const Result<tester::TestKind> kind = tester::test_kind_from_string(text(kTest));
-    if (!kind) reject(kTest, fmt::format("`{}` is no test, expected modulus, toughness or tensile", text(kTest)));
+    if (!kind) reject(kTest, fmt::format("`{}` is not a test, expected modulus, toughness or tensile", text(kTest)));
     return kind.value_or(tester::TestKind::modulus);
   }
 
@@ -203,9 +204,9 @@ class RowParser {
     }
   }
 
-  /// The notched specimen says nothing of the modulus, and a modulus test nothing of the toughness.
+  /// A notched specimen does not determine the modulus, nor a modulus test the toughness.
   void check_consistency(const SpecimenRecord& record) {
-    if (fault_ || planned_ || !record.valid) return;  // what failed need not have said anything
+    if (fault_ || planned_ || !record.valid) return;  // a failed test need not have a result
     const std::optional<RejectedRow> missing = missing_result(record);
     if (!missing) return;
     const auto column = std::ranges::find(kColumns, missing->column);

@@ -19,9 +19,9 @@ void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>
   const auto doubt = [&](const std::string& sentence) { doubts.push_back("column curve: " + sentence); };
   const double peak_pa = std::ranges::max(record.curve.stress_pa), strain = std::ranges::max(record.curve.strain);
   if (!kUsualPeakPa.hold(peak_pa))
-    doubt(fmt::format("the largest stress is {:.3g}, no usual one; is the unit Pa?", peak_pa));
+    doubt(fmt::format("the largest stress, {:.3g}, is unusual; is the unit Pa?", peak_pa));
   if (strain > kMostUsualStrain)
-    doubt(fmt::format("strain reaches {:.3g}, no usual one; is it a ratio, not per cent?", strain));
+    doubt(fmt::format("strain reaches {:.3g}, which is unusual; is it a ratio, not per cent?", strain));
   if (record.test == tester::TestKind::toughness && record.curve.stress_pa.back() > kNotSeparated * peak_pa)
     doubt(fmt::format("ends at {:.0f} % of its largest stress, expected a pull to separation",
                       100.0 * record.curve.stress_pa.back() / peak_pa));
@@ -86,7 +86,7 @@ std::vector<std::string> doubts_about(const SpecimenRecord& record) {
     const double area = tester::area_under(record.curve);
     if (std::abs(area - *record.toughness_pa) > kAreaTolerance * *record.toughness_pa) {
       doubts.push_back(
-          fmt::format("column toughness_pa: {} is {:.1f} % off the area under the curve, {}; expected at "
+          fmt::format("column toughness_pa: {} differs by {:.1f} % from the area under the curve, {}; expected at "
                       "most 2 %; the given value is used",
                       *record.toughness_pa, 100.0 * std::abs(area / *record.toughness_pa - 1.0), area));
     }
@@ -100,7 +100,7 @@ std::vector<std::string> doubts_about(const SpecimenRecord& record) {
   if (const auto doubt = implausible_value(record)) {
     doubts.push_back(fmt::format("column {}: {}", doubt->column, doubt->reason));
   } else if (record.test == tester::TestKind::modulus && modulus && *modulus > kUsualModulusPa.most) {
-    doubts.push_back(fmt::format("column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", *modulus));
+    doubts.push_back(fmt::format("column modulus_pa: {} Pa is unusual; is the unit Pa?", *modulus));
   }
   collect_curve_doubts(record, doubts);
   return doubts;

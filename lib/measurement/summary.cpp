@@ -21,7 +21,7 @@ ReplicateKey group_of(const SpecimenRecord& specimen) {
 
 double mean_of(std::span<const double> values) { return values.empty() ? 0.0 : mean(values); }
 
-/// The thesis' representative curve (2.2.2), chosen as that of the specimen nearest to the mean toughness.
+/// The representative curve of the thesis (2.2.2): that of the specimen nearest to the mean toughness.
 tester::Curve representative(std::span<const SpecimenRecord* const> specimens, double mean_toughness_pa) {
   const SpecimenRecord* nearest = nullptr;
   double smallest = 0.0;
@@ -66,8 +66,8 @@ Replicates summarise_group(std::span<const SpecimenRecord* const> specimens, con
   return group;
 }
 
-// The interval of ISO 527, and how far the first points of a coarse curve may lie apart: beyond, a chord says more of
-// yielding than of the modulus.
+// The interval of ISO 527, and the largest distance between the first points of a coarse curve: beyond it, a chord
+// depends more on yielding than on the modulus.
 constexpr double kFirstStrain = 0.0005, kLastStrain = 0.0025, kLongestChord = 0.05;
 
 /// Slope between stresses interpolated at the two ends of the interval, for curves with few points in it.
@@ -86,8 +86,8 @@ std::optional<double> slope_of_chord(const tester::Curve& curve) {
   return rise_pa / (kLastStrain - kFirstStrain);
 }
 
-/// How many points lie before the strain leaves the interval, or falls for good: what comes back into it later is
-/// unloaded or broken.
+/// Number of points before the strain leaves the interval or falls for good: later points in it are of unloading or of
+/// a broken specimen.
 std::size_t points_of_loading(const std::vector<double>& strain) {
   const auto beyond = std::find_if(strain.begin(), strain.end(), [](double e) { return e > kLastStrain; });
   if (beyond != strain.end()) return static_cast<std::size_t>(beyond - strain.begin());

@@ -64,8 +64,8 @@ struct NamedQuantity {
   int rank;
 };
 
-/// In English, German, French, Spanish, Italian. An extensometer sees a part of the specimen: it is taken only where it
-/// is asked for, or stands alone.
+/// In English, German, French, Spanish, Italian. An extensometer measures a part of the specimen: it is taken only
+/// where it is asked for, or is the only one.
 constexpr std::array kWords = {
     NamedQuantity{Quantity::extension, "extension", 0},
     NamedQuantity{Quantity::extension, "standard travel", 1},
@@ -120,13 +120,13 @@ constexpr std::array kWords = {
     NamedQuantity{Quantity::time, "t", 2},
 };
 
-/// Words of names that say where an extension was recorded; any other name may mean both.
+/// Words of names that tell where an extension was recorded; any other name is ambiguous.
 constexpr std::array<std::string_view, 7> kGripWords = {"crosshead", "travel", "traverse",   "traversenweg",
                                                         "weg",       "stroke", "standardweg"};
 constexpr std::array<std::string_view, 3> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
                                                                 "feindehnung"};
 
-/// Names that hold a word of the list and mean something else.
+/// Words that give a name of the list another meaning.
 constexpr std::array<std::string_view, 18> kOthers = {"strain", "stress", "dehnung", "spannung", "rate",  "date",
                                                       "speed",  "cell",   "count",   "maximum",  "max",   "zeitstempel",
                                                       "true",   "at",     "bei",     "break",    "bruch", "yield"};

@@ -23,7 +23,7 @@ using Cells = std::vector<std::string>;
 
 std::size_t place_of(Quantity quantity) { return static_cast<std::size_t>(quantity); }
 
-/// Where the wanted columns of a block stand, and the factor to s, mm, N.
+/// Positions of the wanted columns of a block, and their factors to s, mm, N.
 struct ColumnLayout {
   std::vector<ColumnName> names;
   std::array<std::size_t, 3> column{};  ///< by Quantity; names.size() when absent
@@ -72,7 +72,7 @@ class ExportReader {
   }
   bool is_mts() const { return is_mts_793(lines_); }
 
-  /// The first line, and with it the delimiter, under which names of extension and force stand side by side.
+  /// The first line that holds names of extension and force, and the delimiter between them.
   std::optional<std::size_t> find_heading() {
     std::optional<std::size_t> found;
     std::size_t most_names = 0;
@@ -91,7 +91,7 @@ class ExportReader {
     return found;
   }
 
-  /// The fault of a file without heading: what comes nearest to one.
+  /// The fault of a file without heading, from the line that resembles one most.
   ImportFault no_heading() const {
     for (const char delimiter : {'\t', ';', ',', '|'}) {
       for (std::size_t i = 0; i < std::min(lines_.size(), kMostHeaderLines); ++i) {
@@ -132,13 +132,13 @@ class ExportReader {
       if (unit.empty()) {
         const std::string_view assumed = quantity == Quantity::force ? "N" : quantity == Quantity::time ? "s" : "mm";
         warnings.push_back(
-            fmt::format("{}:{}: column `{}` has no unit, taken for {}", file_, heading + 1, name.shown, assumed));
+            fmt::format("{}:{}: column `{}` has no unit, {} is assumed", file_, heading + 1, name.shown, assumed));
         continue;
       }
       const auto factor = unit_factor(quantity, unit);
       if (!factor) {
         reject((from_below ? below : heading) + 1, name.shown,
-               fmt::format("`{}` is no unit of {}, expected one of {}", unit, to_string(quantity),
+               fmt::format("`{}` is not a unit of {}, expected one of {}", unit, to_string(quantity),
                            expected_units(quantity)));
         return used;
       }
@@ -147,7 +147,7 @@ class ExportReader {
     return used;
   }
 
-  /// Reads the block whose heading stands at `heading`; returns where to go on.
+  /// Reads the block with its heading at line `heading`; returns the line after it.
   std::size_t read_block(std::size_t heading) {
     ColumnLayout layout = layout_of(cells(heading), choice_);
     std::vector<std::string> warnings;
@@ -180,7 +180,7 @@ class ExportReader {
       if (column >= row.size())
         return fmt::format("the row has {} cells, expected {}", row.size(), layout.names.size());
       if (!looks_like_number(row[column]))
-        return fmt::format("`{}` is no number, expected {}", row[column], to_string(quantity));
+        return fmt::format("`{}` is not a number, expected {}", row[column], to_string(quantity));
     }
     return "";
   }
@@ -250,7 +250,7 @@ class ExportReader {
     if (first_seen[0] && first_seen[1]) {
       const auto later = std::max(*first_seen[0], *first_seen[1]), earlier = std::min(*first_seen[0], *first_seen[1]);
       reject(later + 1, "",
-             fmt::format("decimal point and decimal comma in one file (line {} has the other one), "
+             fmt::format("decimal points and decimal commas in one file (line {} has the other mark), "
                          "expected one of them throughout",
                          earlier + 1));
       return std::nullopt;
@@ -308,7 +308,7 @@ class ExportReader {
         const auto value = instrument_number(text, *mark);
         if (!value) {
           return reject(index + 1, layout.names[column].shown,
-                        fmt::format("`{}` is no number with a decimal {}, expected {}", text,
+                        fmt::format("`{}` is not a number with a decimal {}, expected {}", text,
                                     *mark == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
         }
         append(record, quantity, *value * layout.factor[place_of(quantity)]);
@@ -357,7 +357,7 @@ class ExportReader {
     }
     layout.column = {has_time ? 0 : layout.names.size(), has_time ? std::size_t{1} : 0, layout.names.size() - 1};
     read_rows(layout, first,
-              {fmt::format("{}: has no heading, taken for {}extension in mm, force in N", file_,
+              {fmt::format("{}: has no heading, {}extension in mm, force in N are assumed", file_,
                            has_time ? "time in s, " : "")});
   }
 

@@ -10,7 +10,7 @@ namespace nacre::measurement {
 namespace {
 
 constexpr const char* kCurveName = "curve";
-/// Typed in by hand, nothing needs more.
+/// Enough for anything typed by hand.
 constexpr std::size_t kLongestField = 2000;
 
 RejectedRow rejected(std::string column, std::string reason) { return {1, std::move(column), std::move(reason)}; }
@@ -31,7 +31,7 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
     heading.position[known - kColumns.begin()] = row.cells.size();
     row.cells.push_back({text, 1, 0});  // no place in a file
   }
-  // The row parser would look for a file of that name.
+  // The row parser would read a file of that name.
   if (const auto pattern = fields.find(std::string(kColumns[kPattern]));
       pattern != fields.end() && !pattern->second.empty()) {
     const auto design = pattern::design_from_word(trimmed(pattern->second));

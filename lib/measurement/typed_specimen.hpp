@@ -1,5 +1,5 @@
 #pragma once
-// One specimen typed in by a person instead of read from a set.
+// One specimen typed into a form instead of read from a set.
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 // Structural constraints of the design space (thesis 2.1, Figure 2-1C). They bind proposals; a pattern from elsewhere
-// that violates them is measured and simulated all the same, with a warning.
+// that violates them is still measured and simulated, with a warning.
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tester/names.hpp"
-// What distinguishes the fidelities: size and loading rate of the specimens. Testers and virtual laboratory share both.
+// The fidelities: size and loading rate of the specimens, for the testers and the virtual laboratory alike.
 
 namespace nacre::tester {
 

@@ -21,7 +21,7 @@ namespace {
 /// step is for the waves. At 1/2 T is within 15 % of its limit for the strongest damping allowed, and within 2 % for
 /// common ones.
 constexpr double kLargestAlpha = 0.5;
-/// How often a pure soft specimen that blew up is pulled again, with half the step.
+/// Largest number of repetitions, each with half the step, of a pure soft specimen that blew up.
 constexpr int kMostHalvings = 2;
 /// Strain between samples of the curve.
 constexpr double kSampleStrain = 1e-4;
@@ -83,7 +83,7 @@ double strain_within_steps(const FractureTest& test) {
   return test.settings.strain_rate_per_s * test.settings.time_step_s * static_cast<double>(thesis::kStepLimit);
 }
 
-/// What tells one specimen's voxels from another's.
+/// The name from which one specimen's voxels are drawn.
 std::string specimen_name(const Simulation& simulation, int specimen) {
   return fmt::format("{} at {} degrees, {}, specimen {}", simulation.design.name(),
                      simulation.conditions.orientation_deg, to_string(simulation.fidelity), specimen);
@@ -156,7 +156,7 @@ Result<ToughnessResult> run_fracture_test(const FractureTest& given) {
     result = pull<Real>(test, test.frame_strains);
   }
   if (!result || test.frame_count == 0) return result;
-  // Where things happen is known once the specimen has broken, so it is pulled again.
+  // The strains of the events are known once the specimen has broken, so it is pulled again.
   return pull<Real>(test, film_strains(*result, test.frame_count));
 }
 

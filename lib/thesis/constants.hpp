@@ -1,8 +1,7 @@
 #pragma once
-// Every constant of the thesis: value, unit, where it stands, and whether it is stated there, follows from what is
+// Every constant of the thesis: value, unit, section or table, and whether it is stated there, follows from what is
 // stated (inferred), or is this project's choice where the thesis is silent (chosen). Code elsewhere names these and
-// repeats no number. Parameter ranges (Tables A.1, A.2) stand in material/ranges.cpp, measured values in
-// data/thesis/.
+// repeats no number. Parameter ranges (Tables A.1, A.2) are in material/ranges.cpp, measured values in data/thesis/.
 
 #include <string_view>
 

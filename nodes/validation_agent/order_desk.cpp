@@ -138,8 +138,8 @@ std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) cons
 std::optional<std::string> OrderDesk::against_label(const measurement::SpecimenRecord& specimen,
                                                     const std::string& order_id) const {
   const auto order = std::ranges::find(orders_, order_id, &game::Order::id);
-  if (order == orders_.end()) return game::beside_orders(specimen, orders_);
-  if (game::answers(specimen, *order)) return std::nullopt;
+  if (order == orders_.end()) return game::order_mismatch(specimen, orders_);
+  if (game::fulfils(specimen, *order)) return std::nullopt;
   return fmt::format(
       "specimen {} does not answer order {}, which it names ({}): it is {}, and counts as one that nobody "
       "ordered; are labels swapped?",

@@ -64,9 +64,9 @@ TEST(Rounds, DiscriminationOrdersAreLimitedAndHaveIdsOfTheirOwn) {
 }
 
 TEST(Rounds, CalliperReadingsAnswerTheNominalThickness) {
-  EXPECT_TRUE(answers({.thickness_mm = 3.27}, {}));
-  EXPECT_FALSE(answers({.thickness_mm = 1.6}, {}));
-  EXPECT_FALSE(answers({.orientation_deg = 90.0}, {}));
+  EXPECT_TRUE(fulfils({.thickness_mm = 3.27}, {}));
+  EXPECT_FALSE(fulfils({.thickness_mm = 1.6}, {}));
+  EXPECT_FALSE(fulfils({.orientation_deg = 90.0}, {}));
 }
 
 TEST(Rounds, ReasonsOfOrdersComeBackFromTheirNamesAndNoOtherDoes) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/files.hpp"
+#include "measurement/limits.hpp"
 #include "measurement/read_set.hpp"
 #include "measurement/specimen_checks.hpp"
 #include "measurement/summary.hpp"

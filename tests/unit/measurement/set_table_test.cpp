@@ -37,7 +37,7 @@ TEST_F(TableOnDisk, AJudgementChangesItsRowAndNothingElse) {
         ",S2,nonsense,modulus,2e9,,blue\n");
   write("set/curves/raw.csv", "strain,stress_pa,time_s\n");
   SetTable table(folder_ / "set");
-  table.judge("S1", false, "bubble (me)");
+  table.review("S1", false, "bubble (me)");
   table.write(folder_ / "set");
   EXPECT_EQ(text("set/measurements.csv"),
             "note,specimen,pattern,test,modulus_pa,curve,colour,valid\n"
@@ -77,7 +77,7 @@ class RepeatedImport : public TableOnDisk {
 TEST_F(RepeatedImport, AddsToTheSetAndKeepsWhatAPersonJudged) {
   import("a.csv,A,rigid,52,3.2,54\n");
   SetTable table(folder_ / "set");
-  table.judge("A", false, "bubble (me)");
+  table.review("A", false, "bubble (me)");
   table.write(folder_ / "set");
   const Import second = import("b.csv,B,soft,52,3.2,54\na.csv,A,rigid,52,3.2,54\n");
   EXPECT_EQ(second.known, 1);
@@ -107,7 +107,7 @@ TEST_F(RepeatedImport, RejectsAKnownNameWithAnotherTestAndKeepsTheOldOne) {
 TEST_F(RepeatedImport, ReplacesOnlyWhenToldToAndKeepsTheJudgement) {
   import("a.csv,A,rigid,52,3.2,54\nb.csv,B,soft,52,3.2,54\n");
   SetTable table(folder_ / "set");
-  table.judge("A", false, "bubble (me)");
+  table.review("A", false, "bubble (me)");
   table.write(folder_ / "set");
   const double before_pa = *specimens()[0].toughness_pa;
   write("sheet.csv", "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A,rigid,26,3.2,54\n");
