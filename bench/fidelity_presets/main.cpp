@@ -1,5 +1,5 @@
 // How well a smaller or faster fracture test ranks designs by toughness against the thesis' geometry at 20 /s, and what
-// it costs. Every finished simulation is a line of the table, so an interrupted study goes on where it stopped.
+// it costs. Every finished simulation is a line of the table, so that an interrupted study can be continued.
 // Results: docs/studies/fidelity.md.
 
 #include <algorithm>

@@ -16,7 +16,7 @@
 namespace nacre::gpu_study {
 namespace {
 
-constexpr double kMoved = 1e-6;         // relative, of every parameter: less than anybody knows them
+constexpr double kPerturbation = 1e-6;  // relative perturbation of every parameter: far below its uncertainty
 constexpr double kSlopeStrain = 0.002;  // up to which a curve's slope is its modulus
 
 /// Random patterns over the strata of Table 3.2, and as many of 76 to 85 % rigid, which searches propose.
@@ -31,7 +31,7 @@ std::vector<pattern::Pattern> patterns_of(int count) {
 material::ParameterSet moved_parameters(const pattern::Pattern& pattern) {
   material::ParameterSet set = material::default_parameters();
   RandomStream random(pattern.bits(), "gpu agreement, moved");
-  set.toughness = material::perturbed(set.toughness, kMoved, random);
+  set.toughness = material::perturbed(set.toughness, kPerturbation, random);
   return set;
 }
 
@@ -44,12 +44,12 @@ double slope_pa(const tester::Curve& curve) {
   return xy / xx;
 }
 
-/// How one pattern came out.
+/// The result of one pattern.
 struct PatternAgreement {
-  double slope = 0.0;                     ///< relative difference of the initial slopes
-  double curve = 0.0;                     ///< up to the first failure
-  bool same_first = false;                ///< the same element fails first
-  double log_t = 0.0, log_t_moved = 0.0;  ///< against the processor's own
+  double slope = 0.0;                         ///< relative difference of the initial slopes
+  double curve = 0.0;                         ///< up to the first failure
+  bool same_first = false;                    ///< the same element fails first
+  double log_t = 0.0, log_t_perturbed = 0.0;  ///< against the processor's own
 };
 
 PatternAgreement row_of(const tester::ToughnessResult& device, const tester::ToughnessResult& own,
@@ -61,7 +61,7 @@ PatternAgreement row_of(const tester::ToughnessResult& device, const tester::Tou
   row.same_first =
       !own.breaks.empty() && !device.breaks.empty() && own.breaks.front().element == device.breaks.front().element;
   row.log_t = std::log(device.toughness_pa / own.toughness_pa);
-  row.log_t_moved = std::log(moved.toughness_pa / own.toughness_pa);
+  row.log_t_perturbed = std::log(moved.toughness_pa / own.toughness_pa);
   return row;
 }
 
@@ -83,7 +83,7 @@ void print_summary(const std::vector<PatternAgreement>& rows) {
       rows.size(), largest([](const PatternAgreement& r) { return r.slope; }),
       largest([](const PatternAgreement& r) { return r.curve; }), same);
   for (const auto& [name, value] : {std::pair{"device", &PatternAgreement::log_t},
-                                    std::pair{"processor, parameters moved", &PatternAgreement::log_t_moved}}) {
+                                    std::pair{"processor, parameters perturbed", &PatternAgreement::log_t_perturbed}}) {
     std::vector<double> sizes;
     for (const double each : column([&](const PatternAgreement& r) { return r.*value; }))
       sizes.push_back(std::abs(each));
@@ -119,7 +119,7 @@ void run_agreement(const Options& options) {
              "pattern,slope_difference,curve_difference,same_first_element,log_t_difference,log_t_difference_moved\n");
   for (std::size_t i = 0; i < rows.size(); ++i)
     fmt::print(csv, "{},{:.3e},{:.3e},{},{:.6f},{:.6f}\n", patterns[i].key(), rows[i].slope, rows[i].curve,
-               rows[i].same_first ? 1 : 0, rows[i].log_t, rows[i].log_t_moved);
+               rows[i].same_first ? 1 : 0, rows[i].log_t, rows[i].log_t_perturbed);
   print_summary(rows);
 }
 

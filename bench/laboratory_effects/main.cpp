@@ -1,5 +1,5 @@
-// How large the laboratory's hidden effects are in log E over random patterns, what a refit of the base takes over, and
-// whether one effect looks like another. Everything in the laboratory's own numerics. Results:
+// Effect sizes of the laboratory's hidden effects in log E over random patterns, the part that a refit of the base
+// absorbs, and the collinearity of effects. Everything with the laboratory's own discretisation. Results:
 // docs/studies/laboratory-effects.md.
 
 #include <cmath>
@@ -22,9 +22,9 @@ using laboratory::EffectKind;
 using laboratory::Truth;
 using Patterns = std::vector<pattern::Pattern>;
 
-constexpr int kConstants = 6;  // that a static modulus test feels
+constexpr int kConstants = 6;  // on which a static modulus test depends
 
-/// log E of every pattern, as the laboratory's machine shows it, without scatter.
+/// log E of every pattern, as the laboratory's machine records it, without scatter.
 Eigen::VectorXd log_moduli(Truth truth, const Patterns& patterns, int threads) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
   Eigen::VectorXd logs(static_cast<Eigen::Index>(patterns.size()));
@@ -59,7 +59,7 @@ Eigen::MatrixXd base_tangents(const Truth& truth, const Patterns& patterns, int 
   return tangents;
 }
 
-/// What is left of `vector` after the best combination of the columns of `space`.
+/// Residual of `vector` after the best combination of the columns of `space`.
 Eigen::VectorXd beyond(const Eigen::MatrixXd& space, const Eigen::VectorXd& vector) {
   return vector - space * space.colPivHouseholderQr().solve(vector);
 }
@@ -94,8 +94,8 @@ std::vector<HiddenSignature> signatures(const Truth& truth, const Patterns& patt
   return result;
 }
 
-/// Size beyond the base and all other effects of the diagnosis' library, each at all its magnitudes: no combination of
-/// them comes closer. Not a number when the patterns are too few to tell.
+/// Effect size beyond the base and all other effects of the diagnosis' library, each at all its magnitudes: no
+/// combination of them comes closer. Not a number with too few patterns.
 double beyond_library(const HiddenSignature& signature, const std::vector<HiddenSignature>& all,
                       const Eigen::MatrixXd& tangents) {
   Eigen::MatrixXd space = tangents;

@@ -1,5 +1,5 @@
-// What a static start would save, and cost: specimens are pulled from rest, and again from static equilibrium at a
-// share of the strain at which their first element failed. Results: docs/studies/speed.md.
+// Time saved by a static start, and its cost in accuracy: specimens are pulled from rest, and again from static
+// equilibrium at a share of the strain at which their first element failed. Results: docs/studies/speed.md.
 
 #include <cmath>
 #include <cstdio>

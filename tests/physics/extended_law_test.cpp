@@ -190,14 +190,14 @@ TEST(ResidualStrain, OfColumnsRestsAtTheStiffnessWeightedMean) {
   EXPECT_NEAR(fem::pull_from_rest(grid, 0.0).value().rest_strain, -0.003, 3e-5);
 }
 
-// What was mounted has had the time to relax: only what comes later is stiffer by the branch.
+// A mounted specimen has relaxed: only later strain is stiffer by the branch.
 TEST(ResidualStrain, LeavesNoOverstressWhereASpecimenRests) {
   fem::Grid grid = strip();
   fem::ExplicitSettings settings = settings_for(grid);
   settings.initial_strain = 0.01;
   const double elastic_pa = fem::ExplicitSolver<float>::create(grid, settings).value().step().value().top_stress_pa;
   grid.laws.overstress = 1.0;
-  grid.laws.relaxation_time_s = 1.0;  // long beside the test
+  grid.laws.relaxation_time_s = 1.0;  // long compared with the test
   grid.laws.softening = 1.0;
   settings = settings_for(grid);
   settings.initial_strain = 0.01;
@@ -212,7 +212,7 @@ TEST(ResidualStrain, LeavesNoOverstressWhereASpecimenRests) {
   EXPECT_NEAR((ended - begun) / 0.009 / (elastic_pa / 0.01), 2.0, 0.25);
 }
 
-// A mounted specimen at rest shows no force until it is pulled.
+// A mounted specimen at rest carries no force until it is pulled.
 TEST(ResidualStrain, AMountedSpecimenStartsWithoutForce) {
   tester::Simulation simulation = specimen(patterns(2)[1]);
   simulation.parameters.extensions = {{"residual_strain", {0.01}}};

@@ -20,7 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(CrackRecord, AStraightCrackIsAsLongAsTheWayItMakes) {
+TEST(CrackRecord, AStraightCrackIsAsLongAsTheColumnsItCrosses) {
   const CrackRecord record = drawn_record({"..........",  //
                                            "oooxxsiixx",  //
                                            ".........."});
@@ -61,7 +61,7 @@ TEST(CrackRecord, AStepAlongThePullCountsWithItsHeight) {
   EXPECT_NEAR(record.path->straight_length_m, 7 * kSize, 1e-12);
 }
 
-TEST(CrackRecord, ALongWayOffThePathIsABranchAShortOneIsNot) {
+TEST(CrackRecord, ALongBranchCountsAShortOneDoesNot) {
   const auto fork = [](int height) {
     std::vector<std::string> lines(10, std::string(20, '.'));
     for (int column = 0; column < 20; ++column) lines[9][column] = column < 4 ? 'o' : 'x';
@@ -108,9 +108,9 @@ TEST(CrackRecord, TwoDisjointCracksAreBridgedOnThePathAndCountedApart) {
   apart[1] = "....................";
   apart[4] = "oooxxxxxxxxxxxxxxxxx";
   apart[0] = "....xxxx....xxx.....";
-  const CrackRecord beside = drawn_record(apart);
-  EXPECT_NEAR(beside.path->bridged_share, 0.0, 1e-15);
-  EXPECT_EQ(beside.separate_cracks, 1) << "three elements are no crack yet";
+  const CrackRecord separate = drawn_record(apart);
+  EXPECT_NEAR(separate.path->bridged_share, 0.0, 1e-15);
+  EXPECT_EQ(separate.separate_cracks, 1) << "three elements are no crack yet";
 }
 
 TEST(CrackRecord, OfEquallyLongWaysTheOneThatFailedFirstIsThePath) {

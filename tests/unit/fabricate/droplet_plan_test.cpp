@@ -185,7 +185,7 @@ TEST(DropletPlan, AMixtureIsRandomWithItsFractionInEveryLayerAndTheSameForASeed)
     alike += lower.droplets[i] == upper.droplets[i];
     unlike_in_a_row += lower.droplets[i] != lower.droplets[i + 1];
   }
-  // Independent of the layer above and of the droplet beside it.
+  // Independent of the layer above and of the neighbouring droplet.
   EXPECT_NEAR(double(alike) / pairs, 0.65 * 0.65 + 0.35 * 0.35, 0.003);
   EXPECT_NEAR(double(unlike_in_a_row) / pairs, 2 * 0.65 * 0.35, 0.003);
   EXPECT_EQ(DropletPlan(mixture, {}).slice(10), lower);

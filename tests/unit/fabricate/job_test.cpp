@@ -150,7 +150,7 @@ TEST(BuildSheet, SaysWhatIsInTheSlices) {
     EXPECT_TRUE(fs::exists(folder / model["name"].get<std::string>() / "preview.png"));
   }
   const std::string html = read_file(folder / "build_sheet.html"), table = read_file(folder / "specimens.csv");
-  EXPECT_NE(html.find("soft is black, rigid white"), std::string::npos) << "the preview has no legend of its own";
+  EXPECT_NE(html.find("background:#22262c\"></span>soft"), std::string::npos) << "a legend of the colours";
   for (const PlacedSpecimen& specimen : job.specimens) {
     EXPECT_NE(html.find(specimen.label), std::string::npos);
     EXPECT_NE(table.find("," + specimen.label + ","), std::string::npos);

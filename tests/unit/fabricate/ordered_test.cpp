@@ -134,7 +134,7 @@ TEST_F(OrderedTest, ComesBackThroughTheImportAsItWasOrdered) {
     const measurement::SpecimenRecord& record = records.emplace_back(one.record);
     EXPECT_TRUE(record.valid);
     EXPECT_EQ(record.test, TestKind::tensile);
-    EXPECT_EQ(record.conditions, (tester::TestConditions{.strain_rate_per_s = 6.17e-3})) << "what answers the order";
+    EXPECT_EQ(record.conditions, (tester::TestConditions{.strain_rate_per_s = 6.17e-3})) << "as ordered";
     EXPECT_TRUE(record.design == ordered.design);
     EXPECT_EQ(record.other_columns.at("order_id"), ordered.order_id);
     EXPECT_EQ(record.other_columns.at("tray"), "1");

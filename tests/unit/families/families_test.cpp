@@ -199,16 +199,15 @@ TEST(FamiliesFile, ComesBackAsItWasWritten) {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
     }
   };
-  refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1:1: a family is expected to have seeds");
-  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n",
-          "families.toml:1:1: a family is expected to have a name");
+  refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1:1: expected seeds = [\"key\", ...] in the family");
+  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n", "families.toml:1:1: expected a name");
   refused("[[family]]\nname = \"2\"\nseeds = [\"577fffe9fffdef\"]\n", "not digits alone");
   refused("[[family]]\nname = \"" + std::string(65, 'a') + "\"\nseeds = [\"577fffe9fffdef\"]\n", "at most 64");
   refused("[[family]]\nname = \"a\"\nseeds = [\"577f\"]\n", "families.toml:3:10: seed '577f'");
   refused(
       "[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = "
       "[\"577fffe9fffdef\"]\n",
-      "families.toml:4:1: seed '577fffe9fffdef' stands here for the second time");
+      "families.toml:4:1: seed '577fffe9fffdef' is listed a second time");
 }
 
 }  // namespace

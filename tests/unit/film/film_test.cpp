@@ -103,7 +103,7 @@ TEST(Film, DamageIsNamed) {
   EXPECT_THAT(decode(columns).error().message, HasSubstr("columns: -1, expected"));
 }
 
-// Whoever draws the crack walks along these elements.
+// The crack is drawn along these elements.
 TEST(Film, BreaksThatCannotBeAreRefused) {
   Film film = sample();
   film.crack.order[1] = film.crack.order[0];

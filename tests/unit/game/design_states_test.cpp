@@ -82,7 +82,7 @@ TEST(DesignStates, WhatWasMeasuredWasPrinted) {
   facts.orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};
   facts.book.enter(specimen_of("A-1", kDesign), "");
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::printed);
-  EXPECT_EQ(design_states(facts).front().printed, 1) << "nobody said so";
+  EXPECT_EQ(design_states(facts).front().printed, 1) << "it was not reported";
 }
 
 TEST(DesignStates, TheFirstDecisionCounts) {
@@ -125,16 +125,16 @@ TEST(DesignStates, ADecisionThatWouldChangeNothingSaysWhy) {
   };
   EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "");
   EXPECT_EQ(reason({0, kDesign, true, "lab", ""}, false),
-            "this game does not ask for approvals: what is proposed is ordered");
+            "this game does not ask for approvals: proposed designs are ordered at once");
   EXPECT_EQ(reason({3, kDesign, true, "lab", ""}), "577fffe9fffdef is not in proposal 3");
   EXPECT_EQ(reason({-1, kDesign, true, "lab", ""}),
-            "577fffe9fffdef is proposed and waits for an answer: say yes to the proposal");
+            "577fffe9fffdef is proposed and waits for approval: approve it in the proposal");
   EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "");
   EXPECT_NE(reason({-1, kOther, false, "lab", ""}), "");
   facts.approvals = {{0, kDesign, false, "Ada", "islands"}};
-  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "577fffe9fffdef was rejected before by Ada: that stands");
+  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "577fffe9fffdef was already rejected by Ada, which is kept");
   facts.orders = both_orders_of(kOther);
-  EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "3ffc9b4ad4d2d9 was ordered before: that stands");
+  EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "3ffc9b4ad4d2d9 was already ordered; the order is kept");
 }
 
 TEST(DesignStates, WhatWaitsForAnAnswerWaitsWhateverWasPrintedOfIt) {
@@ -174,7 +174,7 @@ TEST(DesignStates, PrintedSpecimensCountOnceForTheOrderTheyCarryOrFit) {
       {"A-1", kDesign, tester::TestKind::modulus, 0.0, orders[0].id},
       {"A-2", kDesign, tester::TestKind::modulus, 0.0, ""},
       {"A-3", kDesign, tester::TestKind::modulus, 0.0, ""},     // one too many
-      {"A-4", kDesign, tester::TestKind::toughness, 90.0, ""},  // turned: another question
+      {"A-4", kDesign, tester::TestKind::toughness, 90.0, ""},  // turned: another order
       {"A-5", kOther, tester::TestKind::toughness, 0.0, ""}};
   EXPECT_EQ(printed_for(orders, printed), (std::vector<int>{2, 0}));
 }

@@ -48,7 +48,7 @@ TEST(MeasurementBook, ASpecimenPulledAtAnotherRateIsBesideItsOrder) {
   EXPECT_NE(order_mismatch(fast, orders)->find("fast"), std::string::npos);
   EXPECT_NE(order_mismatch(fast, orders)->find("0.00123 /s"), std::string::npos) << *order_mismatch(fast, orders);
   EXPECT_TRUE(order_mismatch(thick, orders));
-  EXPECT_FALSE(order_mismatch(turned, orders)) << "a question of its own";
+  EXPECT_FALSE(order_mismatch(turned, orders)) << "another order";
   fast.design = pattern::Mixture{1.0};
   EXPECT_FALSE(order_mismatch(fast, orders)) << "nobody ordered it";
 }

@@ -56,7 +56,7 @@ TEST(Rounds, DiscriminationOrdersAreLimitedAndHaveIdsOfTheirOwn) {
   DiscriminationTest third;
   third.design = pattern::Pattern(9);
   const auto orders = discrimination_orders(scenario, 2, std::vector{turned, turned, fast, third});
-  ASSERT_EQ(orders.size(), 2u) << "a repeated question is ordered once, the third falls under the limit";
+  ASSERT_EQ(orders.size(), 2u) << "a repeated test is ordered once, the third falls under the limit";
   EXPECT_NE(orders[0].id, orders[1].id);
   EXPECT_EQ(orders[1].conditions, fast.conditions);
   scenario.diagnosis.discrimination_orders = 0;

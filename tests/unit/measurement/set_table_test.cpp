@@ -82,7 +82,7 @@ TEST_F(RepeatedImport, AddsToTheSetAndKeepsWhatAPersonJudged) {
   const Import second = import("b.csv,B,soft,52,3.2,54\na.csv,A,rigid,52,3.2,54\n");
   EXPECT_EQ(second.known, 1);
   ASSERT_EQ(second.specimens.size(), 2U);
-  EXPECT_FALSE(second.specimens[1].record.valid) << "what the set says of it";
+  EXPECT_FALSE(second.specimens[1].record.valid) << "as in the set";
   const auto set = specimens();
   ASSERT_EQ(set.size(), 2U);
   EXPECT_EQ(set[0].specimen, "A");
@@ -99,7 +99,7 @@ TEST_F(RepeatedImport, RejectsAKnownNameWithAnotherTestAndKeepsTheOldOne) {
   EXPECT_TRUE(second.specimens.empty());
   ASSERT_EQ(second.rejected.size(), 1U);
   EXPECT_EQ(second.rejected[0].line, 2);
-  EXPECT_THAT(second.rejected[0].reason, HasSubstr("`A` stands in"));
+  EXPECT_THAT(second.rejected[0].reason, HasSubstr("`A` is already in"));
   EXPECT_EQ(text("set/measurements.csv"), before);
   EXPECT_EQ(text("set/curves/A.csv"), curve);
 }

@@ -13,7 +13,7 @@ constexpr double kStrainStep = 4e-6;
 constexpr FractureRecord::Sampling kSampling{
     .strain_per_step = kStrainStep, .steps_per_sample = 25, .transit_steps = 400, .strain_limit = 0.3};
 
-/// Feeds stress(strain) until the record says separated or strain 0.05 is reached; returns the strain at the end.
+/// Feeds stress(strain) until the record is separated or strain 0.05 is reached; returns the strain at the end.
 template <class Stress>
 double feed(FractureRecord& record, const Stress& stress) {
   for (int step = 0; step < 12500; ++step) {
