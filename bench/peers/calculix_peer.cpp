@@ -152,7 +152,8 @@ int main(int argc, char** argv) {
     const tester::SpecimenUnits units = tester::modulus_units(simulation.fidelity);
     const fem::Grid grid = tester::assemble(simulation.design, simulation.parameters, simulation.conditions,
                                             tester::AssemblyTarget::modulus, units.x, units.y);
-    const TimedModulus nacre = solve_with_nacre(simulation, grid, 20), calculix = solve_with_calculix(grid, solver, folder);
+    const TimedModulus nacre = solve_with_nacre(simulation, grid, 20),
+                       calculix = solve_with_calculix(grid, solver, folder);
     const double difference = nacre.modulus_pa / calculix.modulus_pa - 1.0;
     worst = std::max(worst, std::abs(difference));
     ours += nacre.seconds / count;

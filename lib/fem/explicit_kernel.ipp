@@ -12,8 +12,10 @@
 
 namespace nacre::fem::NACRE_SIMD {
 
+// clang-format off: the packs come first
 #include "fem/explicit_law.ipp"
 #include "fem/simd_packs.hpp"
+// clang-format on
 
 /// v(i-1) + v(i) + v(i+1), symmetric to the last bit.
 template <class Real>
