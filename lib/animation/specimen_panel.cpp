@@ -92,7 +92,7 @@ void draw_tag(Canvas& canvas, CanvasPoint at, const MarkStyle& style) {
               {.size = 11.0, .rgb = kPage, .bold = true, .anchor = TextAnchor::centre});
 }
 
-/// The specimen before the test, as far as marks ask for it.
+/// The specimen before the test, with the data that marks need.
 fem::Grid grid_of(const film::Film& film) {
   fem::Grid grid;
   grid.columns = film.columns;

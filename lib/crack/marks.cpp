@@ -21,7 +21,7 @@ struct FailedPath {
   bool failed(int element) const { return strain_of.contains(element); }
   int row(int element) const { return element / grid.columns; }
   fem::Phase phase(int element) const { return grid.phase[element]; }
-  /// When the path has got as far as its i-th element: when that, or for a standing one the next failed one, has
+  /// Strain at which the path reaches its i-th element: when that one, or for an intact one the next failed one,
   /// failed.
   double strain_at(std::size_t i) const {
     for (; i < elements.size(); ++i)

@@ -28,7 +28,7 @@ struct ValidationSettings {
   int enough_valid = 0;     ///< an order is also complete with this many valid specimens; 0 means all replicates
   int calibration_evaluations = 25;  ///< evaluations of the toughness calibration set per round
   int modulus_evaluations = 120;     ///< evaluations of the modulus calibration set per round
-  int calibration_batch = 3;         ///< evaluations asked for at once
+  int calibration_batch = 3;         ///< parameter sets evaluated at once
   std::vector<double> mixtures = {0.5,  0.6, 0.65, 0.7,
                                   0.75, 0.8, 0.85, 0.9};  ///< homogeneous benchmark, measured in round 1
   bool approval = false;                                  ///< proposals wait for a person's approval

@@ -51,7 +51,7 @@ ToughnessParameters toughness_from_vector(const ToughnessVector& vector);
 /// absent extension and one at zero are the same model.
 using Extensions = std::map<std::string, std::vector<double>, std::less<>>;
 
-/// Everything a simulation needs to know about the material model.
+/// All parameters of the material model.
 struct ParameterSet {
   ModulusParameters modulus;
   ToughnessParameters toughness;

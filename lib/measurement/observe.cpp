@@ -75,34 +75,34 @@ double observe_toughness(double toughness_pa, const material::Extensions& extens
   return machine.gain * machine.drift * toughness_pa;
 }
 
-double modulus_behind(double shown_pa, const material::Extensions& extensions) {
+double modulus_behind(double recorded_pa, const material::Extensions& extensions) {
   const TestingMachine machine(extensions, {});
-  const double left = machine.gain - machine.compliance_per_pa * shown_pa;
-  return left > 0.0 ? shown_pa / left : std::numeric_limits<double>::infinity();
+  const double left = machine.gain - machine.compliance_per_pa * recorded_pa;
+  return left > 0.0 ? recorded_pa / left : std::numeric_limits<double>::infinity();
 }
 
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
                             const PrintContext& context) {
   const TestingMachine machine(extensions, context);
   if (machine.is_ideal()) return curve;
-  tester::Curve shown;
-  if (machine.slack > 0.0) shown = {.strain = {0.0}, .stress_pa = {0.0}};
+  tester::Curve recorded;
+  if (machine.slack > 0.0) recorded = {.strain = {0.0}, .stress_pa = {0.0}};
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const double stress_pa = machine.drift * curve.stress_pa[i];
-    shown.strain.push_back(curve.strain[i] + machine.slack + machine.compliance_per_pa * stress_pa);
-    shown.stress_pa.push_back(machine.gain * stress_pa);
+    recorded.strain.push_back(curve.strain[i] + machine.slack + machine.compliance_per_pa * stress_pa);
+    recorded.stress_pa.push_back(machine.gain * stress_pa);
   }
-  return shown;
+  return recorded;
 }
 
-tester::Curve observe_along(const std::vector<double>& shown_strain, const SpecimenResponse& pull,
+tester::Curve observe_along(const std::vector<double>& recorded_strain, const SpecimenResponse& pull,
                             const material::Extensions& extensions, const PrintContext& context) {
   constexpr double kSmallStrain = 1e-4, kWellKnown = 1e-9;
   constexpr int kMostPasses = 50;
   const TestingMachine machine(extensions, context);
-  if (machine.is_ideal()) return pull(shown_strain);
+  if (machine.is_ideal()) return pull(recorded_strain);
   std::vector<double> own;
-  for (const double strain : shown_strain) own.push_back(std::max(0.0, strain - machine.slack));
+  for (const double strain : recorded_strain) own.push_back(std::max(0.0, strain - machine.slack));
   // A Newton step with the stiffness at the start: at once for a linear specimen, in a few passes for one that flows.
   const double per_pa = machine.compliance_per_pa * machine.drift;
   const double stiffness = per_pa > 0.0 ? pull({kSmallStrain}).stress_pa.front() / kSmallStrain : 0.0;
@@ -110,7 +110,7 @@ tester::Curve observe_along(const std::vector<double>& shown_strain, const Speci
   for (int pass = 0; per_pa > 0.0 && pass < kMostPasses; ++pass) {
     double largest = 0.0;
     for (std::size_t i = 0; i < own.size(); ++i) {
-      const double excess = own[i] + machine.slack + per_pa * pulled.stress_pa[i] - shown_strain[i];
+      const double excess = own[i] + machine.slack + per_pa * pulled.stress_pa[i] - recorded_strain[i];
       const double next = std::max(0.0, own[i] - excess / (1.0 + per_pa * stiffness));
       largest = std::max(largest, std::abs(next - own[i]));
       own[i] = next;
@@ -118,7 +118,7 @@ tester::Curve observe_along(const std::vector<double>& shown_strain, const Speci
     if (largest < kWellKnown) break;
     pulled = pull(own);
   }
-  pulled.strain = shown_strain;
+  pulled.strain = recorded_strain;
   for (double& stress : pulled.stress_pa) stress *= machine.gain * machine.drift;
   return pulled;
 }

@@ -31,9 +31,9 @@ double observe_modulus(double modulus_pa, const material::Extensions& extensions
 /// The toughness as recorded of a specimen that is pulled to separation: the machine's compliance gives back the energy
 /// that it stored.
 double observe_toughness(double toughness_pa, const material::Extensions& extensions, const PrintContext& context = {});
-/// The modulus that is recorded as `shown_pa`, for prints that have not drifted; infinite where the machine's
+/// The modulus that is recorded as `recorded_pa`, for prints that have not drifted; infinite where the machine's
 /// compliance alone exceeds it.
-double modulus_behind(double shown_pa, const material::Extensions& extensions);
+double modulus_behind(double recorded_pa, const material::Extensions& extensions);
 /// A curve as recorded, with a first point (0, 0) before the slack is taken up. Strain may decrease where stress falls
 /// steeply.
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
@@ -44,7 +44,7 @@ using SpecimenResponse = std::function<tester::Curve(const std::vector<double>& 
 
 /// The inverse problem: the curve as recorded at given recorded strains, unloading included. The specimen itself is
 /// stretched by less, strain = recorded - s - c sigma, and by nothing while slack is taken up.
-tester::Curve observe_along(const std::vector<double>& shown_strain, const SpecimenResponse& pull,
+tester::Curve observe_along(const std::vector<double>& recorded_strain, const SpecimenResponse& pull,
                             const material::Extensions& extensions, const PrintContext& context = {});
 
 }  // namespace nacre::measurement

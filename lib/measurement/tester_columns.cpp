@@ -216,7 +216,7 @@ std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
 }
 
 ColumnName recognise_column(std::string_view heading) {
-  ColumnName column{.shown = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
+  ColumnName column{.heading = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
   std::string name = plain_words(heading);
   const bool is_other = std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); });
   const std::string unit = take_unit(name);
@@ -241,7 +241,7 @@ std::size_t best_column(const std::vector<ColumnName>& columns, Quantity quantit
   std::size_t best = columns.size();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!wanted.empty()) {
-      if (holds_word(plain_words(columns[i].shown), plain_words(wanted))) return i;
+      if (holds_word(plain_words(columns[i].heading), plain_words(wanted))) return i;
       continue;
     }
     if (columns[i].quantity == quantity && (best == columns.size() || columns[i].rank < columns[best].rank)) best = i;

@@ -23,7 +23,7 @@ enum class Gauge { unknown, grips, extensometer };
 
 /// A heading taken apart.
 struct ColumnName {
-  std::string shown;  ///< as in the file
+  std::string heading;  ///< as in the file
   std::optional<Quantity> quantity;
   int rank = 0;      ///< among columns of one quantity the smallest rank is taken
   std::string unit;  ///< as written with the name; empty when it is not

@@ -132,12 +132,12 @@ class ExportReader {
       if (unit.empty()) {
         const std::string_view assumed = quantity == Quantity::force ? "N" : quantity == Quantity::time ? "s" : "mm";
         warnings.push_back(
-            fmt::format("{}:{}: column `{}` has no unit, {} is assumed", file_, heading + 1, name.shown, assumed));
+            fmt::format("{}:{}: column `{}` has no unit, {} is assumed", file_, heading + 1, name.heading, assumed));
         continue;
       }
       const auto factor = unit_factor(quantity, unit);
       if (!factor) {
-        reject((from_below ? below : heading) + 1, name.shown,
+        reject((from_below ? below : heading) + 1, name.heading,
                fmt::format("`{}` is not a unit of {}, expected one of {}", unit, to_string(quantity),
                            expected_units(quantity)));
         return used;
@@ -176,7 +176,7 @@ class ExportReader {
   std::string damage_of(const Cells& row, const ColumnLayout& layout, std::string& column_name) const {
     for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
       const std::size_t column = layout.column[place_of(quantity)];
-      column_name = layout.names[column].shown;
+      column_name = layout.names[column].heading;
       if (column >= row.size())
         return fmt::format("the row has {} cells, expected {}", row.size(), layout.names.size());
       if (!looks_like_number(row[column]))
@@ -268,11 +268,11 @@ class ExportReader {
 
   void name_extension(const ColumnLayout& layout, TesterRecord& record) const {
     const std::size_t taken = layout.column[place_of(Quantity::extension)];
-    record.extension_column = layout.names[taken].shown;
+    record.extension_column = layout.names[taken].heading;
     record.gauge = layout.names[taken].gauge;
     for (std::size_t i = 0; i < layout.names.size() && choice_.extension.empty(); ++i) {
       if (i != taken && layout.names[i].quantity == Quantity::extension)
-        record.other_extensions.push_back(layout.names[i].shown);
+        record.other_extensions.push_back(layout.names[i].heading);
     }
   }
 
@@ -307,7 +307,7 @@ class ExportReader {
         const std::string text = column < row.size() ? row[column] : "";
         const auto value = instrument_number(text, *mark);
         if (!value) {
-          return reject(index + 1, layout.names[column].shown,
+          return reject(index + 1, layout.names[column].heading,
                         fmt::format("`{}` is not a number with a decimal {}, expected {}", text,
                                     *mark == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
         }
@@ -316,7 +316,7 @@ class ExportReader {
       record.line.push_back(static_cast<int>(index) + 1);
       const std::size_t n = record.time_s.size();
       if (layout.has(Quantity::time) && n > 1 && record.time_s[n - 1] < record.time_s[n - 2]) {
-        return reject(index + 1, layout.names[layout.column[0]].shown,
+        return reject(index + 1, layout.names[layout.column[0]].heading,
                       fmt::format("time goes back from {} to {} s, expected one test in the order of time",
                                   record.time_s[n - 2], record.time_s[n - 1]));
       }

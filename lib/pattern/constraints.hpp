@@ -26,7 +26,7 @@ std::uint64_t required_rigid_bits(int rigid_count);
 /// Whether a proposal may have this pattern.
 bool is_feasible(const Pattern& pattern);
 
-/// What forbids the pattern, as a sentence for a person; nothing when it lies in the design space.
+/// The violated constraint, as a sentence; nothing when it lies in the design space.
 std::optional<std::string> violation(const Pattern& pattern);
 
 }  // namespace nacre::pattern

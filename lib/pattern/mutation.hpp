@@ -9,15 +9,15 @@
 
 namespace nacre::pattern {
 
-/// What one mutation attempt does to a pattern.
+/// Kind of a mutation attempt.
 enum class MutationKind {
   three_way,    ///< flip a pixel, rewrite a line or rewrite a square
   single_pixel  ///< flip a pixel
 };
 
 /// One attempt, mirrored over the whole pattern, constraints not looked at. The result may equal the parent (a line
-/// rewritten by what it was). Pixels, line ends and a square's corner are uniform over the 20 x 20 pixels, the size of
-/// a square uniform from 1 to the largest that fits.
+/// rewritten by its own values). Pixels, line ends and a square's corner are uniform over the 20 x 20 pixels, the size
+/// of a square uniform from 1 to the largest that fits.
 Pattern mutation_attempt(const Pattern& parent, MutationKind kind, RandomStream& random);
 
 /// Repair rule 1: below 50 % rigid, every pixel is flipped and the four corner pixels are made rigid.

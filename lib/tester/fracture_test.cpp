@@ -35,8 +35,8 @@ double time_step_s(const fem::Grid& grid, double gamma_per_s, bool capped) {
 }
 
 template <class Real>
-FractureFrame frame_of(const fem::ExplicitSolver<Real>& solver, const fem::Grid& grid, double shown_strain) {
-  FractureFrame frame{.strain = shown_strain,
+FractureFrame frame_of(const fem::ExplicitSolver<Real>& solver, const fem::Grid& grid, double grip_strain) {
+  FractureFrame frame{.strain = grip_strain,
                       .columns = grid.columns,
                       .rows = grid.rows,
                       .element_size_m = grid.element_size_m,
@@ -65,11 +65,12 @@ Result<ToughnessResult> pull(const FractureTest& test, const std::vector<double>
   FractureWatch watch(test);
   std::vector<FractureFrame> frames;
   for (bool over = false; !over;) {
-    while (frames.size() < frame_strains.size() && specimen->shown(solver->strain()) >= frame_strains[frames.size()])
-      frames.push_back(frame_of(*solver, test.grid, specimen->shown(solver->strain())));
+    while (frames.size() < frame_strains.size() &&
+           specimen->grip_strain(solver->strain()) >= frame_strains[frames.size()])
+      frames.push_back(frame_of(*solver, test.grid, specimen->grip_strain(solver->strain())));
     const Result<fem::StepReport> report = solver->step();
     if (!report) return fail("toughness tester: {}", report.error().message);
-    over = watch.add(specimen->shown(report->strain), report->stress_pa(), solver->steps());
+    over = watch.add(specimen->grip_strain(report->strain), report->stress_pa(), solver->steps());
     if (report->failed > 0) watch.add_breaks(solver->last_failed());
   }
   // A solution that just blew up may look like one that broke.

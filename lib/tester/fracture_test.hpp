@@ -27,7 +27,7 @@ struct MountedSpecimen {
   fem::ExplicitSolver<Real> solver;
   double rest_strain = 0.0;
   /// Strain of the grips, from where they carry no force.
-  double shown(double strain) const { return (strain - rest_strain) / (1.0 + rest_strain); }
+  double grip_strain(double strain) const { return (strain - rest_strain) / (1.0 + rest_strain); }
 };
 
 /// Mounts the specimen of a test; one whose material shrank has come to rest before. Error: what the solver refuses.

@@ -9,7 +9,7 @@ namespace nacre::tester {
 
 /// Presets of size and loading rate of the virtual specimens. Values of different fidelities are never compared.
 enum class Fidelity {
-  tiny,     ///< one unit; for tests of processes and faults; reports say so
+  tiny,     ///< one unit; for tests of processes and faults; marked in reports
   preview,  ///< thesis geometry pulled twice as fast; for searches, demonstrations and early rounds
   full,     ///< thesis geometry: toughness 5 x 4 units (200 x 160 elements), modulus 2 x 1 units (80 x 40)
 };
