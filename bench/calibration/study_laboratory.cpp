@@ -6,6 +6,8 @@
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "sysid/prediction_store.hpp"
 
 namespace nacre::calibration_study {

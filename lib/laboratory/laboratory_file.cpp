@@ -1,7 +1,8 @@
-// LAB.toml: read strictly, written back in full.
+#include "laboratory/laboratory_file.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -10,7 +11,8 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "base/toml_file.hpp"
-#include "laboratory/truth.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "measurement/limits.hpp"
 
 namespace nacre::laboratory {

@@ -1,4 +1,4 @@
-// The laboratory as a batch tool.
+#include "laboratory/measure_set.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,7 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
-#include "laboratory/laboratory.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_table.hpp"
 

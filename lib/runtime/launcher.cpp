@@ -118,7 +118,7 @@ class Launch {
       : options_(options),
         run_(std::move(run)),
         port_(std::move(port)),
-        display_(stdout, terminal_columns(STDOUT_FILENO)) {
+        display_(stdout, terminal_columns(STDOUT_FILENO), run_.scenario().rounds) {
     if (!is_guest()) run_.set_port(port_->port());
     std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that has gone must not end the run
   }
@@ -126,7 +126,7 @@ class Launch {
   int play();
 
  private:
-  /// Takes part in a run that another launcher, on another machine, has begun and will sum up.
+  /// Joins a run that another launcher, on another machine, has begun and will sum up.
   bool is_guest() const { return !options_.only.empty(); }
   void start_recorder();
   void open_endpoint();
@@ -158,7 +158,7 @@ class Launch {
   bool heard_last_round_ = false;
   std::set<std::pair<int, bool>> shown_rounds_;  // number, whether it was the last
   Clock::time_point said_waiting_ = Clock::now();
-  Clock::time_point looked_for_end_ = Clock::now();
+  Clock::time_point checked_for_end_ = Clock::now();
 };
 
 void Launch::start_recorder() {
@@ -286,14 +286,14 @@ bool Launch::guests_part_is_over() const {
   });
 }
 
-/// Every node says that it has finished, and the validation agent, where it runs here, has written the last round down:
-/// it says so itself only then.
+/// Every node reports that it has finished, and the validation agent, where it runs here, has written the last round
+/// down, before which it does not report so.
 bool Launch::game_is_over() {
   if (is_guest()) return guests_part_is_over();
   const bool all_finished =
       std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->state() == State::finished; });
-  if (!all_finished || Clock::now() - looked_for_end_ < std::chrono::milliseconds(500)) return false;
-  looked_for_end_ = Clock::now();
+  if (!all_finished || Clock::now() - checked_for_end_ < std::chrono::milliseconds(500)) return false;
+  checked_for_end_ = Clock::now();
   if (!is_started_here(options_, "validation_agent")) return true;
   const std::vector<round_summary_t> rounds = read_rounds(run_.path());
   return !rounds.empty() && rounds.back().last;

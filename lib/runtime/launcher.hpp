@@ -22,7 +22,7 @@ struct LaunchOptions {
   std::filesystem::path nacre;                ///< program whose `record` is the recorder; empty: this program
   RestartBudget::Settings restarts;
   std::vector<std::string> elsewhere;  ///< nodes of the run that another machine starts (hosts = "lan")
-  std::vector<std::string> only;       ///< take part with these nodes in a run that another machine has launched
+  std::vector<std::string> only;       ///< join with these nodes a run that another machine has launched
 };
 
 /// Plays the game until its last round, Ctrl-C (SIGINT, SIGTERM, SIGHUP) or the failure of a node for good. Exit

@@ -67,11 +67,11 @@ class BusReplay {
       differs(fmt::format("messages of another version of nacre (manifest.json names it), which cannot be read: {}",
                           of_another_version_));
     for (const auto& [hash, channel] : said_) {
-      if (!now_.count(hash)) differs(fmt::format("a message on {} was said then and is not now", channel));
+      if (!now_.count(hash)) differs(fmt::format("a message on {} was sent then and is not sent now", channel));
     }
     for (const auto& [hash, channel] : now_) {
       if (!said_.count(hash))
-        differs(fmt::format("a message on {} is said now and was not then (or was not recorded)", channel));
+        differs(fmt::format("a message on {} is sent now and was not sent then (or was not recorded)", channel));
     }
     report_.outputs = static_cast<std::int64_t>(said_.size());
     report_.equal = report_.difference.empty();
@@ -152,9 +152,8 @@ ReplayReport replay_bus_log(const std::filesystem::path& log, const std::string&
                             const std::map<std::string, WorkFunction>& work) {
   ReplayReport report;
   report.note =
-      "best effort: the bus log holds the order in which the recorder heard the messages, not the node; ticks are not "
-      "recorded, and "
-      "work is done at once. The node's own journal gives the exact answer";
+      "best effort: the bus log holds the order in which the recorder received the messages, not the node; ticks are "
+      "not recorded, and work is done at once. The node's own journal gives the exact comparison";
   BusReplay replay(node, core, work, report);
   LogReader reader(log);
   std::int64_t records = 0;

@@ -148,7 +148,7 @@ std::string SupervisedNode::last_words() const {
 }
 
 bool SupervisedNode::is_silent(Clock::time_point now) const {
-  constexpr auto kPatience = std::chrono::seconds(10);  // a node speaks twice a second
+  constexpr auto kPatience = std::chrono::seconds(10);  // a node reports twice a second
   return runs_elsewhere() && (!heard_ || now - *heard_ > kPatience);
 }
 
@@ -162,13 +162,13 @@ std::optional<std::string> SupervisedNode::listen(Clock::time_point now) {
 }
 
 void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now) {
-  // A late word of a process that has died. Not told by the time in it: clocks may be set.
+  // A late STATUS of a process that has died. Not told by the time in it: clocks may be set.
   if (process_ && epoch_before_ != 0 && epoch == epoch_before_) return;
   if (!process_ && state_ != State::stopped && !runs_elsewhere()) return;
   heard_ = now;
   epoch_ = epoch;
   status_ = status;
-  // A stopped node that speaks again runs elsewhere: started by hand, perhaps on another machine.
+  // A stopped node that reports again runs elsewhere: started by hand, perhaps on another machine.
   if (status.finished) {
     state_ = State::finished;
   } else if (status.ready) {

@@ -51,7 +51,7 @@ class SupervisedNode {
   bool runs_elsewhere() const { return settings_.command.empty(); }
   /// Of a node elsewhere: not heard for ten seconds, or never.
   bool is_silent(Clock::time_point now) const;
-  /// Subscribed and able to take part; also true for one that has finished.
+  /// Subscribed and able to play; also true for one that has finished.
   bool is_ready() const { return state_ == State::running || state_ == State::finished; }
   int output() const { return process_ ? process_->output() : -1; }
   NodeView view() const;

@@ -234,9 +234,12 @@ void read_families(SQLite::Database& db, RunRecord& run) {
 
 /// Validity is the measurement's own unless a review says otherwise; the highest revision wins, "not valid" wins a tie.
 constexpr const char* kSpecimens = R"sql(
-  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch, m.print_order, m.modulus_pa, m.toughness_pa,
-         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
-         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
+  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch,
+         m.print_order, m.modulus_pa, m.toughness_pa,
+         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen
+                   ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
+         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen
+                   ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
   FROM measurement m ORDER BY m.specimen
 )sql";
 
@@ -257,7 +260,7 @@ void read_specimens(SQLite::Database& db, RunRecord& run) {
     m.record.toughness_pa = optional_double(q.getColumn(10));
     m.record.note = q.getColumn(12).getString();
     m.record.curve = unpacked(q.getColumn(13));
-    // As for the validation agent: a person's word makes no specimen valid that says nothing.
+    // As for the validation agent: a review makes no specimen valid that has no usable value.
     m.record.valid = q.getColumn(11).getInt() != 0 && !measurement::why_unusable(m.record);
     run.specimens.push_back(std::move(m));
   });

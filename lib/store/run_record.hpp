@@ -51,7 +51,7 @@ struct RecordedCrack {
   std::string film;  ///< file in RUN/films; empty when there is none
 };
 
-/// One round; parts that have not been heard of yet are empty.
+/// One round; parts that have not been received yet are empty.
 struct RoundRecord {
   std::optional<wire::RoundSummary> summary;
   std::map<std::string, double> parameters;

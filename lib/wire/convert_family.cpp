@@ -1,4 +1,4 @@
-// Conversions of FAMILY.
+// Part of the conversions (convert.hpp): FAMILY and FAMILY_GAMUT.
 
 #include "wire/checks.hpp"
 #include "wire/convert.hpp"

@@ -35,7 +35,7 @@ Result<Experiment> experiment_from_spec(std::string_view spec) try {
                     .fidelity = *fidelity,
                     .loading = *loading};
 } catch (const json::exception& error) {
-  return fail("question of the virtual laboratory: {}", error.what());
+  return fail("experiment of the virtual laboratory: {}", error.what());
 }
 
 std::string to_text(const Result<Response>& response) {

@@ -1,5 +1,5 @@
 #pragma once
-// Questions and responses as text: what travels between the node's core and its worker threads.
+// Experiments and responses as text: what travels between the node's core and its worker threads.
 
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace nacre::virtual_lab {
 using laboratory::Experiment;
 using laboratory::Response;
 
-/// One line of JSON; equal questions are equal texts.
+/// One line of JSON; equal experiments are equal texts.
 std::string to_spec(const Experiment& experiment);
 /// Reads to_spec() back.
 Result<Experiment> experiment_from_spec(std::string_view spec);

@@ -19,8 +19,8 @@ using laboratory::Response;
 using laboratory::Truth;
 
 /// TEST_ORDER in; one Compute (kind "measure") per design, test, conditions and fidelity that nobody has ordered yet;
-/// MEASUREMENT out, one per specimen, when the simulation is done. What a specimen shows depends on truth and order
-/// alone, never on the order of arrival. A repeated order changes nothing; another order under the same id is refused
+/// MEASUREMENT out, one per specimen, when the simulation is done. What is measured depends on truth and order alone,
+/// never on the order of arrival. A repeated order changes nothing; another order under the same id is refused
 /// with a warning.
 class VirtualLabCore : public runtime::NodeCore {
  public:

@@ -1,4 +1,4 @@
-// Batches for a cluster: how questions are cut, when a task is taken for lost, what the files carry, what Slurm is
+// Batches for a cluster: how test_requests are cut, when a task is taken for lost, what the files carry, what Slurm is
 // told.
 
 #include <gmock/gmock.h>
@@ -96,12 +96,12 @@ TEST(Slurm, OptionsOfTheScenarioComeLastSoThatTheyWin) {
 
 std::vector<BatchRecord> records() {
   BatchRecord broken{
-      .key = "k1", .answer = {}, .breaks = std::vector<tester::Break>{{7, 0.01}, {9, 0.1}}, .seconds = 2};
-  broken.answer.toughness_pa = 1.0 / 3.0;
-  broken.answer.curve.strain = {0.0, 0.1};
-  broken.answer.curve.stress_pa = {1.0, 2.0 / 3.0};
-  BatchRecord failed{.key = "k2", .answer = {}, .breaks = std::nullopt, .seconds = 0.5};
-  failed.answer.failure = "J = 0";
+      .key = "k1", .response = {}, .breaks = std::vector<tester::Break>{{7, 0.01}, {9, 0.1}}, .seconds = 2};
+  broken.response.toughness_pa = 1.0 / 3.0;
+  broken.response.curve.strain = {0.0, 0.1};
+  broken.response.curve.stress_pa = {1.0, 2.0 / 3.0};
+  BatchRecord failed{.key = "k2", .response = {}, .breaks = std::nullopt, .seconds = 0.5};
+  failed.response.failure = "J = 0";
   return {broken, failed};
 }
 
@@ -118,7 +118,7 @@ TEST(BatchFiles, CarryEveryBit) {
 
 TEST(BatchFiles, DamageAndForeignBatchesAreNoticed) {
   const std::string bytes = write_batch_result("name", records());
-  EXPECT_THAT(read_batch_result(bytes, "another").error().message, HasSubstr("it answers batch name"));
+  EXPECT_THAT(read_batch_result(bytes, "another").error().message, HasSubstr("it is the result of batch name"));
   RandomStream random(3, "damage");
   for (int i = 0; i < 300; ++i) {
     std::string damaged = bytes;

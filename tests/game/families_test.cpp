@@ -49,7 +49,7 @@ InProcessGame played(const game::Scenario& scenario, const Delivery& delivery = 
 
 /// The second word of each family, by number.
 std::vector<wire::Family> validated(const InProcessGame& game) {
-  std::vector<wire::Family> families = game.said<wire::Family>("FAMILY");
+  std::vector<wire::Family> families = game.sent<wire::Family>("FAMILY");
   std::erase_if(families, [](const wire::Family& family) { return !family.is_validated; });
   return families;
 }
@@ -57,7 +57,7 @@ std::vector<wire::Family> validated(const InProcessGame& game) {
 TEST(FamilyStage, FollowsTheLastRoundAndClosesItForGood) {
   const game::Scenario scenario = with_families();
   InProcessGame game = played(scenario);
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_THAT(rounds, SizeIs(3));
   EXPECT_EQ(rounds[1].round, 1);
   EXPECT_FALSE(rounds[1].last);
@@ -68,7 +68,7 @@ TEST(FamilyStage, FollowsTheLastRoundAndClosesItForGood) {
   EXPECT_EQ(rounds[2], again) << "the same figures, said as the last";
   const auto families = validated(game);
   ASSERT_FALSE(families.empty());
-  EXPECT_EQ(game.said<wire::Family>("FAMILY").size(), 2 * families.size());
+  EXPECT_EQ(game.sent<wire::Family>("FAMILY").size(), 2 * families.size());
   for (const char* node : {"validation_agent", "proposal_agent", "simulator_farm"})
     EXPECT_TRUE(game.status_of(node).finished) << node;
 }
@@ -125,7 +125,7 @@ TEST(FamilyStage, WhatWasMeasuredOfADesignIsNotWhatItsTwinAtAnotherRateShowed) {
   game.announce(scenario);
   game.play();
   std::vector<measurement::SpecimenRecord> specimens;
-  for (const auto& measured : game.said<wire::Measurement>("MEASUREMENT")) specimens.push_back(measured.record);
+  for (const auto& measured : game.sent<wire::Measurement>("MEASUREMENT")) specimens.push_back(measured.record);
   const auto values = game::measured_values(specimens);
   ASSERT_FALSE(validated(game).empty());
   for (const wire::Family& family : validated(game)) {
@@ -174,7 +174,7 @@ TEST(FamilyStage, IsPlayedOnRequestAlone) {
   InProcessGame game = played(scenario);
   EXPECT_THAT(game.payloads("FAMILY"), IsEmpty());
   EXPECT_THAT(game.work_of("validation_agent"), IsEmpty());
-  EXPECT_TRUE(game.said<wire::RoundSummary>("ROUND").back().last);
+  EXPECT_TRUE(game.sent<wire::RoundSummary>("ROUND").back().last);
 }
 
 TEST(FamilyStage, MeasuresWhatAPersonAddedAfterTheLastRoundWasMeasured) {
@@ -199,7 +199,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   add_players(game, scenario);
   game.announce(scenario);
   game.play();
-  const auto decide = [&](int round, const pattern::Design& design, bool yes) {
+  const auto send_approval = [&](int round, const pattern::Design& design, bool yes) {
     approval_t approval{};
     approval.round = round;
     approval.design = design.name();
@@ -207,17 +207,17 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
     approval.by = "a person";
     game.publish({"APPROVAL", wire::encode(approval)});
   };
-  const wire::Proposal first = game.said<wire::Proposal>("PROPOSAL").at(0);
-  for (const auto& proposed : first.designs) decide(0, proposed.design, true);
+  const wire::Proposal first = game.sent<wire::Proposal>("PROPOSAL").at(0);
+  for (const auto& proposed : first.designs) send_approval(0, proposed.design, true);
   game.play();
   EXPECT_THAT(validated(game), IsEmpty()) << "nobody has approved the variants yet";
   std::vector<pattern::Pattern> chosen;
-  for (const wire::Family& family : game.said<wire::Family>("FAMILY")) {
+  for (const wire::Family& family : game.sent<wire::Family>("FAMILY")) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) chosen.push_back(design.pattern);
   }
   ASSERT_FALSE(chosen.empty());
-  for (const pattern::Pattern& each : chosen) decide(2, each, each != chosen.front());
+  for (const pattern::Pattern& each : chosen) send_approval(2, each, each != chosen.front());
   game.play();
   ASSERT_FALSE(validated(game).empty());
   for (const wire::Family& family : validated(game)) {

@@ -42,7 +42,7 @@ TEST(RealTesters, PlayAWholeGame) {
   game.add("analyser", make_analyser());
   game.announce(scenario);
   game.play();
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_EQ(rounds.size(), 2u);
   EXPECT_TRUE(rounds.back().last);
   EXPECT_EQ(rounds.back().calibration_count, 3);

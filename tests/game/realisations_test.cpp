@@ -1,4 +1,4 @@
-// Candidates that are drawn again, with answers made up by the test.
+// Candidates that are drawn again, with responses made up by the test.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ wire::SimulateRequest model() {
 }
 
 /// The first eight were lucky: under other parameters T is a third. A little of it is the draw's own.
-std::vector<wire::SimulatedDesign> answer(const wire::SimulateRequest& request, const std::vector<Evaluated>& truth) {
+std::vector<wire::SimulatedDesign> response(const wire::SimulateRequest& request, const std::vector<Evaluated>& truth) {
   std::vector<wire::SimulatedDesign> results;
   const double draw =
       std::sqrt(request.parameters.toughness.w_if_j_per_m3 / model().parameters.toughness.w_if_j_per_m3);
@@ -63,7 +63,7 @@ Realisations drawn(const std::vector<pattern::Pattern>& chosen, bool backwards =
       EXPECT_FALSE(request.modulus);
       EXPECT_NE(request.parameters.toughness, model().parameters.toughness);
       EXPECT_TRUE(realisations.waits_for(request.request_id));
-      realisations.take(request.request_id, answer(request, gamut()));
+      realisations.take(request.request_id, response(request, gamut()));
     }
   }
   return realisations;
@@ -93,7 +93,7 @@ TEST(Realisations, WhatCannotBeSelectedIsDrawnOnTheFrontOnly) {
 TEST(Realisations, ADrawThatFailsDoesNotCount) {
   Realisations realisations(gamut(), {}, kDraws, 7, "test");
   for (const wire::SimulateRequest& request : realisations.next(model())) {
-    auto results = answer(request, gamut());
+    auto results = response(request, gamut());
     for (wire::SimulatedDesign& result : results)
       result = {.design = result.design, .failure = "did not break", .curve = {}};
     realisations.take(request.request_id, results);

@@ -74,7 +74,8 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
   const Outcome outcome = run_nacre(arguments());
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("every node is ready"), HasSubstr("round 0: gap"), HasSubstr("the game is over")));
+              AllOf(HasSubstr("every node is ready"), HasSubstr("round 0: nothing measured yet; model not fitted"),
+                    HasSubstr("the game is over")));
   EXPECT_THAT(outcome.out, Not(HasSubstr("recorder | "))) << "what nodes log goes to standard error";
   EXPECT_THAT(outcome.err, HasSubstr("recorder | recording into"));
   for (const char* file : {"scenario.toml", "manifest.json", "run.lcm", "inputs/base_materials.csv",
@@ -199,9 +200,9 @@ TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsHeard) {
   ::unsetenv("NACRE_FAULTS");
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   const std::string live = outcome.out.substr(0, outcome.out.find("the game is over"));
-  const std::size_t first = live.find("round 0: gap");
+  const std::size_t first = live.find("round 0: nothing measured yet");
   ASSERT_NE(first, std::string::npos) << live;
-  EXPECT_EQ(live.find("round 0: gap", first + 1), std::string::npos) << live;
+  EXPECT_EQ(live.find("round 0: nothing measured yet", first + 1), std::string::npos) << live;
 }
 
 TEST_F(Launcher, RunFolderUnderAnotherNameIsResumed) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../diagnosis/synthetic_set.hpp"
+#include "analyser/diagnosis_work.hpp"
 #include "analyser/works.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "wire/channels.hpp"
@@ -123,7 +124,7 @@ std::vector<std::string> answers_to(const Message& request) {
                        .failure_strain = 0.03,
                        .curve = {}});
   std::vector<std::string> payloads;
-  for (const auto& part : wire::simulate_answer(asked.request_id, results)) payloads.push_back(wire::write(part));
+  for (const auto& part : wire::simulate_response(asked.request_id, results)) payloads.push_back(wire::write(part));
   return payloads;
 }
 
@@ -223,7 +224,7 @@ TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
   EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
   analyser.hear("MEASUREMENT", measurement_of("c", 6));
   EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
-  EXPECT_EQ(analyser.core.status().phase, "waiting for specimens b of 2");
+  EXPECT_EQ(analyser.core.status().phase, "waiting for measurements of 1 of 2 specimens: b");
   analyser.hear("MEASUREMENT", measurement_of("b", 7));
   EXPECT_THAT(analyser.ids("diagnose"), ElementsAre("diagnose/r1"));
   EXPECT_EQ(analyser.core.status().phase, "diagnosing round 1");
@@ -232,7 +233,7 @@ TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
 TEST(Analyser, NamesAFewOfTheSpecimensThatItWaitsFor) {
   Watched analyser;
   analyser.hear("DIAGNOSE", question({"a", "b", "c", "d", "e"}));
-  EXPECT_EQ(analyser.core.status().phase, "waiting for specimens a, b, c, ... of 5");
+  EXPECT_EQ(analyser.core.status().phase, "waiting for measurements of 5 of 5 specimens: a, b, c, ...");
 }
 
 TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {

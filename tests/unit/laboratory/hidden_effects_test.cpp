@@ -11,9 +11,12 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "laboratory/fracture_bench.hpp"
 #include "laboratory/hidden_coupon.hpp"
 #include "laboratory/laboratory.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "laboratory/modulus_bench.hpp"
 #include "material/extensions.hpp"
 #include "material/pulled_bar.hpp"

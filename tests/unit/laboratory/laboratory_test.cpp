@@ -9,6 +9,10 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
+#include "laboratory/laboratory_file.hpp"
+#include "laboratory/measure_set.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::laboratory {

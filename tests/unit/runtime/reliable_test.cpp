@@ -231,10 +231,10 @@ TEST(Outbox, AnAnswerIsRepeatedForARequesterThatAsksAgainInANewProcess) {
   outbox.offer("h", {"SIMULATED", wire::write(result)}, {"proposal_agent"});
   outbox.due(0);
   outbox.acknowledge("h", "proposal_agent", 1, 1);
-  outbox.answer_again("proposal_agent/0/1", "proposal_agent", 1);  // a late repetition by the same process
+  outbox.respond_again("proposal_agent/0/1", "proposal_agent", 1);  // a late repetition by the same process
   EXPECT_EQ(outbox.unacknowledged(), 0);
   outbox.saw("proposal_agent", 2, 1);
-  outbox.answer_again("proposal_agent/0/1", "proposal_agent", 2);
+  outbox.respond_again("proposal_agent/0/1", "proposal_agent", 2);
   EXPECT_EQ(outbox.due(1).size(), 1u);
 }
 

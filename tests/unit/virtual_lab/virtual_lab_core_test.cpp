@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
 #include "virtual_lab/experiment_text.hpp"
 
 namespace nacre::laboratory {

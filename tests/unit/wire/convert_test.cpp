@@ -241,7 +241,7 @@ TEST(Convert, AnswersAreCutBelowADatagramAndJoinedInAnyOrder) {
     results[i].modulus_pa = 1e9 + static_cast<double>(i);
     results[i].curve = {std::vector<double>(500, 0.25), std::vector<double>(500, static_cast<double>(i))};
   }
-  std::vector<SimulateResult> parts = simulate_answer("analyser/1", results);
+  std::vector<SimulateResult> parts = simulate_response("analyser/1", results);
   ASSERT_GT(parts.size(), 3u);
   ResponseCollector collector;
   std::optional<std::vector<SimulatedDesign>> whole;
