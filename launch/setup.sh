@@ -53,9 +53,9 @@ install_packages() {
   rm -f "$log"
 }
 
-# build: configures and builds everything in build/.
+# build TARGET: configures, and builds a target (play: what plays; all: tests and studies too) in build/.
 build() {
-  local log="$NACRE_ROOT/build/setup.log"
+  local target=$1 log="$NACRE_ROOT/build/setup.log"
   mkdir -p "$NACRE_ROOT/build"
   say "configuring (Release, build/)"
   if ! (cd "$NACRE_ROOT" && cmake --preset release) >"$log" 2>&1; then
@@ -64,11 +64,11 @@ build() {
   fi
   say "building with $(nproc) cores"
   if [ -t 2 ]; then
-    cmake --build "$NACRE_ROOT/build" >&2 || give_up "building failed"
+    cmake --build "$NACRE_ROOT/build" --target "$target" >&2 || give_up "building failed"
     return
   fi
   # Not a terminal: one plain line every 40 steps; compiler messages go to the log and are shown when something fails.
-  if ! cmake --build "$NACRE_ROOT/build" 2>&1 | tee -a "$log" |
+  if ! cmake --build "$NACRE_ROOT/build" --target "$target" 2>&1 | tee -a "$log" |
     awk '
       /^\[[0-9]+\/[0-9]+\]/ {
         split(substr($1, 2), n, /[\/\]]/)

@@ -59,7 +59,7 @@ void ValidationCore::accept_response(const std::string& payload) {
     return measure_families_when_chosen();
   }
   if (!farm_.take(*std::move(part))) return;
-  if (phase_ == Phase::predicting_for_trial) {
+  if (phase_ == Phase::predicting_trial) {
     finish_trial_predictions();
   } else if (phase_ == Phase::predicting) {
     finish_out_of_sample(farm_.predictions().front());
@@ -215,7 +215,7 @@ runtime::Status ValidationCore::status() const {
     case Phase::waiting_for_run:
       status.phase = "waiting for all nodes";
       break;
-    case Phase::predicting_for_trial:
+    case Phase::predicting_trial:
       status.phase = "predicting the proposed designs with the extension on trial";
       break;
     case Phase::measuring: {

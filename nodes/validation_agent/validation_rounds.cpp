@@ -266,11 +266,11 @@ void ValidationCore::close_round_when_proposed() {
                       .measured_hypervolume = round.measured_hypervolume_staircase,
                       .hypervolume_error = round.hypervolume_error,
                       .signed_gap = round.signed_gap});
-  const game::Verdict verdict = game::judge_equilibrium(history_);
-  round.equilibrium = verdict.equilibrium;
-  round.last = round_ >= scenario_.rounds || (verdict.equilibrium && scenario_.stop_at_equilibrium);
-  round.decided_by = verdict.decided_by;
-  if (round.last && !verdict.equilibrium)
+  const game::EquilibriumCheck check = game::judge_equilibrium(history_);
+  round.equilibrium = check.equilibrium;
+  round.last = round_ >= scenario_.rounds || (check.equilibrium && scenario_.stop_at_equilibrium);
+  round.decided_by = check.decided_by;
+  if (round.last && !check.equilibrium)
     round.decided_by += fmt::format("; the limit of {} is reached", counted(scenario_.rounds, "round"));
   gamuts_.erase(round_);
   StageBeginning beginning = stage_beginning();
@@ -281,7 +281,8 @@ void ValidationCore::close_round_when_proposed() {
     round.decided_by += "; families follow";
   }
   send("ROUND", round);
-  say(LogLevel::info, fmt::format("{}; {}", runtime::in_words(wire::to_wire(round)), round.decided_by));
+  const bool has_news = round_ > 0 || round.last || families_follow;  // of round 0 the sentence says it all
+  say(LogLevel::info, runtime::in_words(wire::to_wire(round)) + (has_news ? "; " + round.decided_by : ""));
   if (families_follow) {
     phase_ = Phase::working_out_families;
     families_.emplace(scenario_, std::move(beginning));

@@ -146,7 +146,7 @@ void ValidationCore::predict_for_trial() {
                       .toughness = false,
                       .items = numbers(proposed, designs.size())});
   }
-  phase_ = Phase::predicting_for_trial;
+  phase_ = Phase::predicting_trial;
   ask_farm("f", wanted, designs);
 }
 
