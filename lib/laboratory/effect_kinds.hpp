@@ -27,7 +27,7 @@ struct EffectKind {
   bool either_sign = false;                         ///< the drawn value takes a sign by the toss of a coin
   bool drawn_unasked = false;                       ///< a laboratory without file may hide it
   bool in_library = true;                           ///< false: the diagnosis has no name for it
-  std::string_view family = {};                     ///< of the library that it belongs to all the same, or empty
+  std::string_view family = {};                     ///< of the library's that it belongs to nevertheless, or empty
   bool even = false;                                ///< acts on all specimens of one condition by one factor
   double HiddenEffects::*value = nullptr;
   EffectNumber second = {};  ///< its second number, where it has one (second.value not null)

@@ -76,7 +76,7 @@ class Specimen {
     }
   }
 
-  /// Takes up what the material hides; `state` must outlive the specimen's steps.
+  /// Adds the hidden effects of the material; `state` must outlive the specimen's steps.
   void hide(HiddenSpecimen* state) { hidden_ = state; }
   /// Slows all motion down, to come to rest.
   void brake(float share) {

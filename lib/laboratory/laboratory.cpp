@@ -112,7 +112,7 @@ Result<Response> respond_tensile(const Truth& truth, const Experiment& experimen
 /// exp(N(0, sd)): a factor with median 1.
 double lognormal(RandomStream& stream, double sd) { return std::exp(sd * stream.normal()); }
 
-/// How this specimen differs from the truth's average one.
+/// How this specimen differs from the average one.
 struct Scatter {
   double modulus = 1.0, stress = 1.0, strain = 1.0;
 };
@@ -135,24 +135,24 @@ double stress_gain(const HiddenEffects& effects, double thickness_mm) {
 }
 
 /// A modulus as it is recorded: load train and gain.
-double shown_modulus(const HiddenEffects& effects, double gain, double modulus_pa) {
+double recorded_modulus(const HiddenEffects& effects, double gain, double modulus_pa) {
   return effects.machine_compliance_per_pa == 0.0 ? gain * modulus_pa
                                                   : gain / (1.0 / modulus_pa + effects.machine_compliance_per_pa);
 }
 
 /// A specimen's curve as it is recorded: slack, then the load train's stretch added to the specimen's, the gain.
-tester::Curve shown_curve(const HiddenEffects& effects, double gain, const tester::Curve& curve) {
-  tester::Curve shown;
+tester::Curve recorded_curve(const HiddenEffects& effects, double gain, const tester::Curve& curve) {
+  tester::Curve recorded;
   if (effects.toe_slack > 0.0) {
-    shown.strain.push_back(0.0);
-    shown.stress_pa.push_back(0.0);
+    recorded.strain.push_back(0.0);
+    recorded.stress_pa.push_back(0.0);
   }
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    shown.strain.push_back(curve.strain[i] + effects.toe_slack +
+    recorded.strain.push_back(curve.strain[i] + effects.toe_slack +
                            effects.machine_compliance_per_pa * curve.stress_pa[i]);
-    shown.stress_pa.push_back(gain * curve.stress_pa[i]);
+    recorded.stress_pa.push_back(gain * curve.stress_pa[i]);
   }
-  return shown;
+  return recorded;
 }
 
 /// How many batches came before: the number at the end of its name, less that of the first one; 0 without a number.
@@ -185,14 +185,14 @@ void fill_in(SpecimenRecord& record, const Truth& truth, const Response& respons
   scatter.stress *= drift;
   const double gain = stress_gain(truth.effects, record.conditions.thickness_mm);
   if (record.test == TestKind::modulus) {
-    record.modulus_pa = shown_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
+    record.modulus_pa = recorded_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
     return;
   }
   const double stress = record.test == TestKind::tensile ? scatter.modulus : scatter.stress;
   tester::Curve curve = curve_of(response, number);
   for (double& value : curve.strain) value *= scatter.strain;
   for (double& value : curve.stress_pa) value *= stress;
-  record.curve = shown_curve(truth.effects, gain, curve);
+  record.curve = recorded_curve(truth.effects, gain, curve);
   if (record.test == TestKind::toughness) record.toughness_pa = tester::area_under(record.curve);
 }
 
@@ -227,7 +227,7 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   record.note = response ? response->remark : response.error().message;
   if (!response) return record;
   fill_in(record, truth, *response, replicate.number);
-  // No laboratory hands in what no game can use: the specimen failed.
+  // A laboratory reports no value that no game can use: the specimen failed.
   if (const auto fault = measurement::why_unusable(record)) {
     record.valid = false;
     record.note = fmt::format("{} {}", fault->column, fault->reason);

@@ -12,7 +12,7 @@
 
 namespace nacre::laboratory {
 
-/// What one simulation answers.
+/// One test of one design: the laboratory's unit of work, which one simulation serves.
 struct Experiment {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
@@ -27,12 +27,12 @@ struct Response {
   double modulus_pa = 0.0;  ///< test `modulus`
   tester::Curve curve;      ///< `toughness` and `tensile`
   std::string remark;       ///< what a lab book would note, or empty
-  /// Where voxels have strengths of their own: curves of further specimens beside `curve`, as many in all as the truth
-  /// has replicates. Whoever asks for more gets them again: every one costs a simulation.
+  /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the truth has
+  /// replicates. Whoever asks for more gets them again: every one costs a simulation.
   std::vector<tester::Curve> other_curves = {};
 };
 
-/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; a question that makes no sense
+/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; an experiment that makes no sense
 /// (`tensile` of a layout, an orientation other than 0 and 90).
 Result<Response> respond(const Truth& truth, const Experiment& experiment);
 

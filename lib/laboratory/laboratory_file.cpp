@@ -149,7 +149,7 @@ void read_effect(const toml::table& table, std::string_view source, std::uint64_
   if (kind == effect_kinds().end()) {
     const toml::node* given = table.get("name");
     throw fault_at(source, given ? *given : static_cast<const toml::node&>(table), "effect.name",
-                   name == kDraw ? "no value beside the name \"draw\"" : "one of " + effect_names());
+                   name == kDraw ? "no value with the name \"draw\"" : "one of " + effect_names());
   }
   const bool drawn = !value || value->value_exact<std::string_view>() == kDraw;
   if (kind->second.value != nullptr) effects.*kind->second.value = draw_second_value(seed, *kind);

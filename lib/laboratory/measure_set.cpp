@@ -37,10 +37,10 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
   return experiments;
 }
 
-/// Simulated time of a question, in arbitrary units: a fracture takes thousands of times longer than a modulus.
+/// Effort of an experiment, in arbitrary units: a fracture takes thousands of times longer than a modulus.
 double effort_of(const Experiment& experiment) { return experiment.test == tester::TestKind::modulus ? 1.0 : 1000.0; }
 
-/// Asks all of them, reporting as they come in.
+/// Makes all experiments, reporting progress as they end.
 std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
                                            const CampaignProgress& progress) {
   std::vector<std::optional<Result<Response>>> responses(experiments.size());
@@ -60,7 +60,7 @@ std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector
   return all;
 }
 
-/// A specimen to be recorded: which question it answers, and which replicate it is.
+/// A specimen to be recorded: of which experiment, and which replicate it is.
 struct Planned {
   std::size_t experiment = 0;
   Replicate replicate;
@@ -87,7 +87,7 @@ std::filesystem::path truth_file(const std::filesystem::path& folder) {
   return without_last_slash(std::filesystem::weakly_canonical(folder)).concat(".truth.toml");
 }
 
-/// A set is not measured over: judgements, and the truth beside it, belong to the specimens that it holds.
+/// A set is not measured over: reviews, and the truth next to it, belong to the specimens that it holds.
 void require_new(const std::filesystem::path& folder) {
   std::error_code unreadable;
   if (std::filesystem::exists(folder / measurement::kTableName, unreadable)) {

@@ -28,8 +28,8 @@ std::vector<measurement::SpecimenRecord> measure(const Truth& truth, const Campa
                                                  const CampaignProgress& progress = {});
 
 /// `nacre measure`: measures as LAB.toml says, writes the measurement set `folder` and, sealed, `folder`.truth.toml
-/// beside it. Returns the records. Throws InputError for a bad laboratory file, a folder that holds a set already or
-/// has a truth beside it (before anything is simulated) or one that cannot be written.
+/// next to it. Returns the records. Throws InputError for a bad laboratory file, a folder that holds a set already or
+/// has a truth next to it (before anything is simulated) or one that cannot be written.
 std::vector<measurement::SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file,
                                                      const std::filesystem::path& folder, const Campaign& campaign,
                                                      const CampaignProgress& progress = {});

@@ -1,6 +1,6 @@
 #pragma once
-// What the virtual laboratory knows and nobody else may: the constants of its materials, its hidden effects and its
-// scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include headers of this
+// The hidden truth of a virtual laboratory, which nobody else may know: the constants of its materials, its hidden
+// effects and its scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include headers of this
 // folder.
 
 #include <cstdint>
@@ -38,13 +38,13 @@ struct HiddenEffects {
   double residual_strain = 0.0;
   double plane_strain = 0.0;
   double batch_drift = 0.0;
-  // Other forms of effects that the diagnosis knows.
+  // Other forms of effects of the diagnosis' library.
   double smooth_mixing_pixels = 0.0;
   double longer_notch = 0.0;
   double soft_overstress = 0.0, soft_relaxation_s = 0.0;
   double drawn_out_damage = 0.0;
   double order_drift = 0.0;
-  // Effects that it does not know.
+  // Unmodelled causes: not in its library.
   double void_gradient = 0.0;
   double edge_layer = 0.0;
   double weak_layers = 0.0;

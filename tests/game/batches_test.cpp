@@ -1,4 +1,4 @@
-// Batches for a cluster: how test_requests are cut, when a task is taken for lost, what the files carry, what Slurm is
+// Batches for a cluster: how test requests are cut, when a task is taken for lost, what the files carry, what Slurm is
 // told.
 
 #include <gmock/gmock.h>
@@ -17,10 +17,10 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Batches, HoldAboutAsMuchWorkAsIsAskedForAndEveryQuestionOnce) {
+TEST(Batches, HoldAboutAsMuchWorkAsIsAskedForAndEveryTestOnce) {
   EXPECT_THAT(cut_into_batches({1, 1, 1, 1, 1}, 2.0, 100), ElementsAre(2, 2, 1));
-  EXPECT_THAT(cut_into_batches({5, 1, 1}, 2.0, 100), ElementsAre(1, 2)) << "a long question goes by itself";
-  EXPECT_THAT(cut_into_batches({0, 0, 0}, 2.0, 2), ElementsAre(2, 1)) << "not too many questions";
+  EXPECT_THAT(cut_into_batches({5, 1, 1}, 2.0, 100), ElementsAre(1, 2)) << "a long test goes by itself";
+  EXPECT_THAT(cut_into_batches({0, 0, 0}, 2.0, 2), ElementsAre(2, 1)) << "not too many tests";
   EXPECT_TRUE(cut_into_batches({}, 2.0, 2).empty());
 }
 
@@ -29,7 +29,7 @@ TEST(Batches, CostsComeNearerToWhatTasksReport) {
   const double guess = costs.seconds(tester::TestKind::toughness, tester::Fidelity::full);
   for (int i = 0; i < 100; ++i) costs.learn(tester::TestKind::toughness, tester::Fidelity::full, 10.0 * guess);
   EXPECT_NEAR(costs.seconds(tester::TestKind::toughness, tester::Fidelity::full), 10.0 * guess, 0.01 * guess);
-  EXPECT_LT(costs.seconds(tester::TestKind::modulus, tester::Fidelity::full), guess) << "another kind of question";
+  EXPECT_LT(costs.seconds(tester::TestKind::modulus, tester::Fidelity::full), guess) << "another kind of test";
 }
 
 constexpr Patience kPatience{.listing_s = 10.0, .sign_s = 100.0};

@@ -88,7 +88,7 @@ TEST(Diagnosis, AnEffectOfTheMaterialThatPredictsBetterExtendsTheModelOfTheSearc
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 2, 3});
   const std::vector<bool> held = adopted(game, "droplet_mixing");
   EXPECT_FALSE(held[1]) << "a name alone adopts nothing";
-  EXPECT_TRUE(held[3]) << "eight designs were foretold within two per cent, against forty";
+  EXPECT_TRUE(held[3]) << "eight designs were predicted within two per cent, against forty";
   EXPECT_TRUE(held[4]);
   EXPECT_TRUE(proposal_agent_asked_with(game, "droplet_mixing"));
 }
@@ -155,8 +155,8 @@ TEST(Diagnosis, AnEffectOfTheTestingMachineActsInComparisonsOnly) {
   EXPECT_FALSE(proposal_agent_asked_with(game, "machine_compliance"));
 }
 
-// Held-out errors are taken of what the machine would show: asked again, with curves.
-TEST(Diagnosis, HeldOutErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
+// Prediction errors are taken of what the machine would record: requested again, with curves.
+TEST(Diagnosis, PredictionErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
   const auto game = played_with("machine_compliance", 2e-9, 4, {1, 2, 3, 4});
   const std::vector<bool> held = adopted(game, "machine_compliance");
   const auto first = std::find(held.begin(), held.end(), true) - held.begin();
@@ -179,7 +179,7 @@ TEST(Diagnosis, ANameThatPredictsNothingBetterIsNeverAdopted) {
 TEST(Diagnosis, ANameThatIsNotHeldEndsItsTrial) {
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 3, 4});
   EXPECT_EQ(adopted(game, "droplet_mixing"), (std::vector<bool>{false, false, false, false, true}))
-      << "what it foretold for round 2 does not count in round 3";
+      << "what it predicted for round 2 does not count in round 3";
 }
 
 TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
@@ -198,7 +198,7 @@ TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
   }
 }
 
-TEST(Diagnosis, SeparatingExperimentsAreOrderedBesideTheProposals) {
+TEST(Diagnosis, SeparatingExperimentsAreOrderedWithTheProposals) {
   game::Scenario scenario = small_scenario();
   const pattern::Design coupon = pattern::Pattern(0x577fffe9fffdefULL);
   const auto game = played(scenario, [&](int) {

@@ -65,7 +65,7 @@ TEST(FamilyStage, FollowsTheLastRoundAndClosesItForGood) {
   wire::RoundSummary again = rounds[1];
   again.last = true;
   again.decided_by = rounds[2].decided_by;
-  EXPECT_EQ(rounds[2], again) << "the same figures, said as the last";
+  EXPECT_EQ(rounds[2], again) << "the same figures, sent as the last";
   const auto families = validated(game);
   ASSERT_FALSE(families.empty());
   EXPECT_EQ(game.sent<wire::Family>("FAMILY").size(), 2 * families.size());
@@ -240,7 +240,7 @@ TEST(FamilyGrouping, APersonsFileIsTakenAndAFaultyOnePassedOver) {
   const std::string spec = validation_agent::grouping_spec(three_measured(), 2);
   const auto proposed = validation_agent::grouping_from(group(spec));
   EXPECT_EQ(families::read_families(file), proposed.families) << "the proposal is there to be edited";
-  EXPECT_EQ(group(spec), group(spec)) << "a restart finds what the first attempt wrote and says the same";
+  EXPECT_EQ(group(spec), group(spec)) << "a restart finds what the first attempt wrote and returns the same";
 
   const std::vector<families::Family> own = {{"mine", {three_measured()[1].pattern}}};
   write_file_atomically(file, families::to_toml(own));

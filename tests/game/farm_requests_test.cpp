@@ -1,4 +1,4 @@
-// What the validation agent asks the farm, with responses made up by the test.
+// What the validation agent requests from the farm, with responses made up by the test.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ wire::SimulateResult response(const wire::SimulateRequest& request, double tough
 
 // The journal was lost, and the second course of the game comes to other parameters, or to other designs in the same
 // places, under the same label.
-TEST(FarmRequests, AnAnswerToAnotherCoursesQuestionIsNotTaken) {
+TEST(FarmRequests, AResponseToAnotherCoursesRequestIsNotTaken) {
   for (const FarmBatch& second_course : {third_evaluation(2e7), third_evaluation(1e7, 7)}) {
     FarmRequests before, now;
     const wire::SimulateRequest stale = only_request(before, third_evaluation(1e7));

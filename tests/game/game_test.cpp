@@ -49,7 +49,7 @@ TEST(Game, TwoRoundsTakeTheCourseOfTheRules) {
     EXPECT_EQ(rounds[at].round, round);
     EXPECT_EQ(rounds[at].last, round == 2);
   }
-  // N(n): 4 random patterns and 3 proposals in round 1, 3 more in round 2; held out are the proposals.
+  // N(n): 4 random patterns and 3 proposals in round 1, 3 more in round 2; the proposals are out-of-sample.
   EXPECT_EQ(rounds[1].calibration_count, 7);
   EXPECT_EQ(rounds[2].calibration_count, 10);
   EXPECT_EQ(rounds[1].held_out.modulus_count, 3);
@@ -112,7 +112,7 @@ TEST(Game, BaseMaterialsAreFittedFromTheModelThatItBeginsWith) {
   EXPECT_EQ(models[0].provenance.search, "base_materials");
 }
 
-TEST(Game, EveryQuestionIsComputedOnce) {
+TEST(Game, EveryTestRequestIsComputedOnce) {
   const game::Scenario scenario = small_scenario();
   InProcessGame game;
   add_players(game, scenario);

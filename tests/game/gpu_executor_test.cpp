@@ -98,7 +98,7 @@ class GpuExecutorTest : public testing::Test {
     cache_ = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   }
 
-  /// Answers by the test_requests' ids.
+  /// Responses by the ids of the test requests.
   std::map<std::string, TestResponse> responses(MakeDevice make_device,
                                                 const std::vector<runtime::Compute>& test_requests = both_tests()) {
     GpuExecutor executor(cache_, {.films = folder_ / "films", .threads = 1, .make_device = std::move(make_device)},
@@ -119,7 +119,7 @@ class GpuExecutorTest : public testing::Test {
       for (runtime::FinishedWork& work : executor.finished()) {
         EXPECT_TRUE(work.result) << work.result.error().message;
         EXPECT_TRUE(responses.emplace(work.compute.id, read_response(*work.result).value()).second)
-            << work.compute.id << " was answered twice";
+            << work.compute.id << " has two responses";
       }
     }
     EXPECT_EQ(executor.pending(), 0);
@@ -158,7 +158,7 @@ TEST_F(GpuExecutorTest, WithoutADeviceThreadsDoEverything) {
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("there is none"))));
 }
 
-TEST_F(GpuExecutorTest, ADeviceThatIsLostLosesNoQuestion) {
+TEST_F(GpuExecutorTest, ADeviceThatIsLostLosesNoTest) {
   expect_like_the_processors(
       responses([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(3); }));
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("it fell off the bus"))));

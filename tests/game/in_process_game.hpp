@@ -64,7 +64,7 @@ class InProcessGame {
   const std::vector<std::string>& complaints_of(const std::string& node) { return complaints_[node]; }
   runtime::Status status_of(const std::string& node) const { return nodes_.at(node).core->status(); }
 
-  /// Feeds everything that `node` received to a fresh core and compares what it says. Returns the number of inputs.
+  /// Feeds everything that `node` received to a fresh core and compares what it sends. Returns the number of inputs.
   std::size_t replay(const std::string& node, runtime::NodeCore& fresh) const;
 
   /// Writes what `node` received and sent as its shell would have journaled it. Returns the number of records.

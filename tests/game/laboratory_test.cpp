@@ -26,7 +26,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::StartsWith;
 
-// A game that a person measures for: nothing responses TEST_ORDERs by itself.
+// A game that a person measures for: nothing measures what is ordered by itself.
 class PersonGame : public testing::Test {
  protected:
   PersonGame() {
@@ -249,7 +249,7 @@ TEST_F(PersonGame, EnoughValidSpecimensCompleteAnOrder) {
   EXPECT_EQ(rounds(), 2u);
 }
 
-TEST_F(PersonGame, SpecimensMeasuredInAdvanceAnswerLaterOrders) {
+TEST_F(PersonGame, SpecimensMeasuredInAdvanceCountForLaterOrders) {
   add_players(game_, scenario_);
   // The pure materials are known from before: reported even before the run is announced.
   for (const auto& order : game::opening_orders(scenario_, {})) {

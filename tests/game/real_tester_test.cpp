@@ -52,7 +52,7 @@ TEST(RealTesters, PlayAWholeGame) {
   EXPECT_LE(rounds.back().after.toughness_mean, rounds.back().before.toughness_mean);
   std::size_t simulations = 0;
   for (const std::string& id : game.work_of("simulator_farm")) simulations += id.find('/') == std::string::npos;
-  EXPECT_EQ(static_cast<std::size_t>(cache->size()), simulations) << "each question was simulated once";
+  EXPECT_EQ(static_cast<std::size_t>(cache->size()), simulations) << "each test was simulated once";
   std::filesystem::remove_all(folder);
 }
 

@@ -67,7 +67,7 @@ TEST(Restart, FoldsTheJournalOfFiveRoundsInSeconds) {
 }
 
 // A power cut took the validation agent's journal: the others offer what they sent of all rounds before it has come
-// back to any of them, and nobody says it twice.
+// back to any of them, and nobody sends it twice.
 TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
   const game::Scenario scenario = small_scenario();
   InProcessGame whole;
@@ -145,8 +145,8 @@ TEST(Restart, AProposalAgentWaitsForTheModelOfTheRoundThatIsDue) {
   EXPECT_TRUE(wire::request_id_of("SIMULATE", begun.messages.front().payload).starts_with("proposal_agent/r0/"));
 }
 
-// Its journal lost, it comes to another model of the same round, and the farm still repeats what it sent of the first.
-TEST(Restart, AProposalAgentWithoutItsJournalTakesNoAnswersAboutAnotherModel) {
+// Its journal lost, it comes to another model of the same round, and the farm still repeats its responses about the first.
+TEST(Restart, AProposalAgentWithoutItsJournalTakesNoResponsesAboutAnotherModel) {
   const game::Scenario scenario = small_scenario();
   wire::AdoptedModel model;
   model.fidelity = scenario.fidelity;

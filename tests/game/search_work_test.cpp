@@ -9,7 +9,7 @@
 namespace nacre::proposal_agent {
 namespace {
 
-TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli) {
+TEST(SearchWork, FindsInTheSpecWhatTheBatchRequestHoldsAndTheModelThatMeasuresModuli) {
   explore::SearchSettings settings;
   settings.algorithm = "learned";
   settings.budget = 60;

@@ -49,7 +49,7 @@ Outputs ask(FarmCore& farm, const wire::SimulateRequest& request) {
   return farm.step(Message{"SIMULATE", wire::write(request)});
 }
 
-// Numbers that only this test_request has, so that mixed-up responses show.
+// Numbers that only this test has, so that mixed-up responses show.
 wire::SimulatedDesign made_up(const wire::SimulateRequest& test_request) {
   wire::SimulatedDesign response;
   response.design = test_request.designs.front();
@@ -74,7 +74,7 @@ wire::Fracture made_up_fracture(const wire::SimulateRequest& test_request) {
   return fracture;
 }
 
-/// Like done(), for test_requests with crack or film.
+/// Like done(), for test requests with crack or film.
 runtime::WorkDone broken(const Compute& compute) {
   const auto test_request = wire::read<wire::SimulateRequest>(compute.spec).value();
   TestResponse response{made_up(test_request), std::nullopt};
@@ -108,7 +108,7 @@ const pattern::Design kSoft = pattern::Mixture{0.0};
 const pattern::Design kMixed = pattern::Mixture{0.65};
 const pattern::Design kRigid = pattern::Mixture{1.0};
 
-TEST(SimulatorFarm, AnswersComeInTheOrderOfTheRequestWhateverTheOrderOfTheResults) {
+TEST(SimulatorFarm, ResponsesComeInTheOrderOfTheRequestWhateverTheOrderOfTheResults) {
   FarmCore farm;
   const std::vector<Compute> computes = ask(farm, request("node/1", {kRigid, kSoft, kMixed})).computes;
   ASSERT_THAT(computes, SizeIs(6)) << "one per design and test";
@@ -126,7 +126,7 @@ TEST(SimulatorFarm, AnswersComeInTheOrderOfTheRequestWhateverTheOrderOfTheResult
   EXPECT_EQ(parts[0].results[2].design, kMixed);
 }
 
-TEST(SimulatorFarm, EqualQuestionsOfDifferentRequestsAreComputedOnce) {
+TEST(SimulatorFarm, EqualTestsOfDifferentRequestsAreComputedOnce) {
   FarmCore farm;
   const auto first = ask(farm, request("a/1", {kRigid, kSoft}));
   const auto second = ask(farm, request("b/1", {kSoft, kRigid, kSoft}));
@@ -140,10 +140,10 @@ TEST(SimulatorFarm, EqualQuestionsOfDifferentRequestsAreComputedOnce) {
   EXPECT_EQ(all[1].request_id, "b/1");
   EXPECT_THAT(all[1].results, SizeIs(3));
   EXPECT_EQ(responses(ask(farm, request("c/1", {kRigid}))).size(), 1u)
-      << "an answered question is answered from memory";
+      << "a test that is done is not simulated again";
 }
 
-TEST(SimulatorFarm, ARepeatedRequestIsAnsweredAgainAndAChangedOneRefused) {
+TEST(SimulatorFarm, ARepeatedRequestGetsItsResponseAgainAndAChangedOneIsRefused) {
   FarmCore farm;
   const auto computes = ask(farm, request("a/1", {kRigid})).computes;
   EXPECT_THAT(ask(farm, request("a/1", {kRigid})).computes, IsEmpty());
@@ -158,7 +158,7 @@ TEST(SimulatorFarm, ARepeatedRequestIsAnsweredAgainAndAChangedOneRefused) {
 }
 
 // Of a requester that lost its journal and takes another course the second time.
-TEST(SimulatorFarm, AnotherQuestionAtTheSamePlaceIsAnsweredUnderItsOwnId) {
+TEST(SimulatorFarm, AnotherRequestAtTheSamePlaceGetsAResponseUnderItsOwnId) {
   FarmCore farm;
   const auto before = wire::with_content_id(request("a/1", {kRigid}));
   const auto now = wire::with_content_id(request("a/1", {kSoft}));
@@ -195,7 +195,7 @@ TEST(SimulatorFarm, ACurveIsFetchedWithoutAskingForTheSameSimulationTwice) {
   EXPECT_THAT(parts[0].results[0].curve.strain, SizeIs(16));
 }
 
-TEST(SimulatorFarm, AFailedSimulationIsAnAnswerWithItsReason) {
+TEST(SimulatorFarm, AFailedSimulationIsAResponseWithItsReason) {
   FarmCore farm;
   auto modulus = request("a/1", {kRigid, kSoft});
   modulus.toughness = false;
@@ -213,7 +213,7 @@ TEST(SimulatorFarm, AFailedSimulationIsAnAnswerWithItsReason) {
   EXPECT_EQ(parts[0].results[1].failure, "");
 }
 
-TEST(SimulatorFarm, LongAnswersAreCutIntoMessagesBelowTheLimit) {
+TEST(SimulatorFarm, LongResponsesAreCutIntoMessagesBelowTheLimit) {
   FarmCore farm;
   std::vector<pattern::Design> designs;
   for (int i = 0; i < 60; ++i) designs.emplace_back(pattern::Mixture{0.01 * (i + 1)});
@@ -230,7 +230,7 @@ TEST(SimulatorFarm, LongAnswersAreCutIntoMessagesBelowTheLimit) {
   for (std::size_t i = 0; i < designs.size(); ++i) EXPECT_EQ((*whole)[i].design, designs[i]);
 }
 
-TEST(SimulatorFarm, EffectsOfTheTestingMachineAreNoQuestionForTheSimulator) {
+TEST(SimulatorFarm, EffectsOfTheTestingMachineAreNotRequestedFromTheSimulator) {
   FarmCore farm;
   const auto plain = ask(farm, request("a/1", {kRigid}));
   auto observed = request("b/1", {kRigid});
@@ -259,7 +259,7 @@ TEST(SimulatorFarm, FracturesGoToThoseWhoAskedForThem) {
   while (!open.empty()) {
     const Compute compute = open.back();
     open.pop_back();
-    EXPECT_TRUE(ids.insert(compute.id).second) << "one id, one question: " << compute.id;
+    EXPECT_TRUE(ids.insert(compute.id).second) << "one id, one test request: " << compute.id;
     const Outputs outputs = farm.step(broken(compute));
     open.insert(open.end(), outputs.computes.begin(), outputs.computes.end());
     for (const Message& message : outputs.messages) {
@@ -293,7 +293,7 @@ TEST(SimulatorFarm, ACrackThatCannotBeToldTakesNoNumbersAway) {
   failed.design.failure = "the crack cannot be told";
   const auto told = responses(farm.step(runtime::WorkDone{second.id, write_response(failed)}));
   ASSERT_THAT(told, SizeIs(1));
-  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told")) << "whoever asked for it hears why";
+  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told")) << "whoever requested it is told why";
   const Outputs again = ask(farm, later);
   EXPECT_THAT(again.computes, IsEmpty());
   ASSERT_THAT(responses(again), SizeIs(1));
@@ -317,7 +317,7 @@ class SimulateWork : public testing::Test {
   std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "nacre_simulate_work_test";
 };
 
-TEST_F(SimulateWork, TheSameQuestionIsSimulatedOnceEvenByTwoFarms) {
+TEST_F(SimulateWork, TheSameTestIsSimulatedOnceEvenByTwoFarms) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
   const std::string first = work_functions(cache, folder_ / "films").at("simulate")(wire::write(test_request));
@@ -455,7 +455,7 @@ TEST_F(NumbersFromElsewhere, AFilmIsTheirsWhenOnlyRoundingTellsThemApart) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "films" / filmed.fracture->film));
 }
 
-TEST_F(SimulateWork, BreaksStandBesideTheNumbersOfTheirFractureAlone) {
+TEST_F(SimulateWork, BreaksAreKeptWithTheNumbersOfTheirFractureAlone) {
   store::SimulationCache cache(folder_ / "simulations.db");
   store::CachedSimulation first, other;
   first.toughness_pa = other.toughness_pa = 2e5;

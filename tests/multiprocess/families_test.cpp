@@ -144,7 +144,7 @@ TEST_F(FamilyStageOfProcesses, AKilledValidationAgentGoesOnWithTheSameStage) {
   ASSERT_EQ(game->status(), 0) << game->said();
   for (const Kill& kill : kills) EXPECT_NE(kill.process, 0) << kill.when_said;
   EXPECT_THAT(game->said(), HasSubstr("validation_agent died (killed by SIGKILL"));
-  EXPECT_THAT(differences(said_in_game(undisturbed_->folder()), said_in_game(game->folder())), IsEmpty());
+  EXPECT_THAT(differences(sent_in_game(undisturbed_->folder()), sent_in_game(game->folder())), IsEmpty());
   const Outcome replay = run_nacre({"replay", game->folder().string(), "--node", "validation_agent"});
   EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }

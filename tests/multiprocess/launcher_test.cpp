@@ -93,9 +93,9 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
 TEST_F(Launcher, AReaderOfItsOutputWhoGoesEarlyTakesNothingFromTheGame) {
   std::string command = program("nacre");
   for (const std::string& argument : arguments()) command += " " + shell_word(argument);
-  const auto answer = runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
-  EXPECT_EQ(answer.end.exit_status, 0) << answer.end.in_words();
-  EXPECT_THAT(answer.output, HasSubstr("run game on UDP port"));
+  const auto printed = runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
+  EXPECT_EQ(printed.end.exit_status, 0) << printed.end.in_words();
+  EXPECT_THAT(printed.output, HasSubstr("run game on UDP port"));
 }
 
 TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
@@ -194,7 +194,7 @@ TEST_F(Launcher, NodesThatAPersonStopsHaveNotFailed) {
                           Not(HasSubstr("has failed"))));
 }
 
-TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsHeard) {
+TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsReceived) {
   ::setenv("NACRE_FAULTS", "seed=1,duplicate=1", 1);
   const Outcome outcome = run_nacre(arguments());
   ::unsetenv("NACRE_FAULTS");

@@ -1,5 +1,5 @@
 // The farm on a Slurm cluster: a loopback one, started for the test. Whatever happens to tasks, controller, node and
-// farm, every question is answered as threads of this machine answer it, to the last bit. And programs of nodes that
+// farm, every test has the result that threads of this machine get, to the last bit. And programs of nodes that
 // need no cluster: what a second one, started by mistake, leaves alone.
 
 #include <csignal>
@@ -33,7 +33,7 @@ using simulator_farm::SlurmSettings;
 
 constexpr double kPatienceS = 90.0;
 
-/// Questions of different kinds: two tests, with and without curve, crack, film.
+/// Test requests of different kinds: two tests, with and without curve, crack, film.
 std::vector<Compute> test_computes(int designs) {
   wire::SimulateRequest request;
   request.request_id = "test/1";
@@ -55,7 +55,7 @@ std::vector<Compute> test_computes(int designs) {
 
 using Responses = std::map<std::string, std::string>;  ///< by id
 
-/// What threads of this machine say.
+/// What threads of this machine get.
 Responses local_responses(const std::vector<Compute>& computes, const fs::path& folder) {
   store::SimulationCache cache(folder / "simulations.db");
   Responses responses;
@@ -117,7 +117,7 @@ class Cluster : public testing::Test {
           return responses_.size() >= count;
         },
         kPatienceS))
-        << responses_.size() << " of " << count << " answers; " << executor_->standing() << "\n"
+        << responses_.size() << " of " << count << " responses; " << executor_->standing() << "\n"
         << log_ << slurm_->standing();
   }
   /// Waits for tasks to run. The node of a controller that was killed may be drained long after it looked ready: it is
@@ -132,7 +132,7 @@ class Cluster : public testing::Test {
   void take() {
     for (runtime::FinishedWork& work : executor_->finished()) {
       ASSERT_TRUE(work.result) << work.result.error().message;
-      EXPECT_TRUE(responses_.emplace(work.compute.id, *work.result).second) << work.compute.id << " is answered twice";
+      EXPECT_TRUE(responses_.emplace(work.compute.id, *work.result).second) << work.compute.id << " has two responses";
     }
     for (const runtime::LogLine& line : executor_->take_log()) log_ += line.text + "\n";
   }
@@ -168,7 +168,7 @@ class Cluster : public testing::Test {
 
 std::unique_ptr<test::LoopbackSlurm> Cluster::slurm_;
 
-TEST_F(Cluster, AnswersAsThreadsDoToTheLastBit) {
+TEST_F(Cluster, RespondsAsThreadsDoToTheLastBit) {
   const auto computes = test_computes(12);
   open_executor();
   start(computes);
@@ -276,7 +276,7 @@ TEST_F(Cluster, AFarmThatIsStartedAgainTakesTheTasksOfTheOneBefore) {
   expect_responses_of_threads(computes);
 }
 
-TEST_F(Cluster, AQuestionThatKillsItsTasksStopsTheFarmWithTheReason) {
+TEST_F(Cluster, ATestThatKillsItsTasksStopsTheFarmWithTheReason) {
   open_executor();
   const fs::path program = folder_ / "slow_task";
   std::ofstream(program) << "#!/bin/sh\necho cannot load this library >&2\nexit 1\n";
@@ -294,12 +294,12 @@ TEST_F(Cluster, AQuestionThatKillsItsTasksStopsTheFarmWithTheReason) {
 TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
   std::ofstream(folder_ / "threads.toml") << short_game("cluster", 1);
   std::ofstream(folder_ / "slurm.toml") << short_game("cluster", 1) << "[farm]\nexecutor = \"slurm\"\nbatch_s = 1\n";
-  std::map<std::string, SaidInGame> said;
+  std::map<std::string, SentInGame> said;
   for (const std::string executor : {"threads", "slurm"}) {
     PlayedGame game(folder_ / (executor + ".toml"), folder_ / executor, "game");
     ASSERT_TRUE(game.play_to_end(200.0)) << game.said();
     ASSERT_EQ(game.status(), 0) << game.said();
-    said[executor] = on_channels(said_in_game(game.folder()), {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
+    said[executor] = on_channels(sent_in_game(game.folder()), {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
                                                                "MEASUREMENT", "DIAGNOSIS", "ROUND"});
     EXPECT_FALSE(said[executor].empty());
   }
@@ -365,7 +365,7 @@ TEST_F(NodeProgramTest, AnAnalyserThatStartsForTheFirstTimeMakesNothingAnew) {
   EXPECT_THAT(errors(), Not(HasSubstr("made anew")));
 }
 
-TEST_F(NodeProgramTest, AFarmBesideADeviceHasTheThreadsThatItIsGiven) {
+TEST_F(NodeProgramTest, AFarmWithADeviceHasTheThreadsThatItIsGiven) {
   const auto threads_of = [&](int threads) {
     test::Process farm = start("simulator_farm", {"--executor", "cuda", "--threads", std::to_string(threads), "--cache",
                                                   (run_ / fmt::format("{}.db", threads)).string()});

@@ -224,7 +224,7 @@ TEST(Outbox, AnAcknowledgementIsWorthAsMuchAsItsJournal) {
   EXPECT_EQ(outbox.due(20).size(), 1u);
 }
 
-TEST(Outbox, AnAnswerIsRepeatedForARequesterThatAsksAgainInANewProcess) {
+TEST(Outbox, AResponseIsRepeatedForARequesterThatAsksAgainInANewProcess) {
   wire::SimulateResult result{"proposal_agent/0/1", 0, 1, 0, {{pattern::Mixture{1.0}, "", 1e9, 0.0, 0.0, 0.0, {}}}};
   Outbox outbox;
   outbox.saw("proposal_agent", 1, 1);

@@ -87,7 +87,7 @@ TEST(Convert, ARequestsIdEndsInTheHashOfAllThatIsAsked) {
   EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.curve_points = 99; }));
   EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.designs.pop_back(); }));
   EXPECT_NE(hash, hash_of([](SimulateRequest& r) { std::swap(r.designs[0], r.designs[1]); }))
-      << "answers are paired with designs by their places";
+      << "results are paired with designs by their places";
 }
 
 TEST(Convert, CracksAndFilmsAreAskedForWithToughnessOnly) {
@@ -234,7 +234,7 @@ TEST(Convert, CodesOutsideTheEnumerationsAreRefused) {
   EXPECT_FALSE(from_wire(message));
 }
 
-TEST(Convert, AnswersAreCutBelowADatagramAndJoinedInAnyOrder) {
+TEST(Convert, ResponsesAreCutBelowADatagramAndJoinedInAnyOrder) {
   std::vector<SimulatedDesign> results(64);
   for (std::size_t i = 0; i < results.size(); ++i) {
     results[i].design = pattern::Pattern(i);
