@@ -37,17 +37,17 @@ Making making_of(const Experiment& experiment, int specimen = 0) {
           .specimen = specimen};
 }
 
-Result<Response> respond_modulus(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond_modulus(const Truth& truth, const Experiment& experiment) {
   if (const pattern::Mixture* mixture = experiment.design.mixture()) {
-    return Response{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(experiment)),
-                    .curve = {},
-                    .remark = {}};
+    return TrueResponse{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(experiment)),
+                        .curve = {},
+                        .remark = {}};
   }
   const SpecimenSize size = specimen_size(TestKind::modulus, experiment.fidelity);
   const Result<double> modulus_pa =
       pull_elastically(modulus_raster(truth, experiment.design, making_of(experiment), size));
   if (!modulus_pa) return tl::unexpected(modulus_pa.error());
-  return Response{.modulus_pa = *modulus_pa, .curve = {}, .remark = {}};
+  return TrueResponse{.modulus_pa = *modulus_pa, .curve = {}, .remark = {}};
 }
 
 Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, int specimen) {
@@ -60,8 +60,8 @@ Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, 
                .strain_limit = raster.all_soft ? thesis::kSoftStrainLimit.value : thesis::kStrainLimit.value});
 }
 
-Result<Response> respond_toughness(const Truth& truth, const Experiment& experiment) {
-  Response response;
+Result<TrueResponse> respond_toughness(const Truth& truth, const Experiment& experiment) {
+  TrueResponse response;
   const int specimens = truth.effects.strength_scatter > 0.0 ? truth.replicates : 1;
   for (int specimen = 0; specimen < specimens; ++specimen) {
     const Result<PulledSpecimen> one = pulled(truth, experiment, specimen);
@@ -92,10 +92,10 @@ std::vector<double> coupon_strains(const Truth& truth, const Experiment& experim
   return tester::strain_path(loading, way / (kCurvePoints - 1));
 }
 
-Result<Response> respond_tensile(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond_tensile(const Truth& truth, const Experiment& experiment) {
   const pattern::Mixture* mixture = experiment.design.mixture();
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
-  Response response;
+  TrueResponse response;
   const std::vector<double> strains = coupon_strains(truth, experiment, mixture->rigid_fraction);
   if (hides_a_curve(truth.effects)) {
     response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(experiment), strains);
@@ -149,7 +149,7 @@ tester::Curve recorded_curve(const HiddenEffects& effects, double gain, const te
   }
   for (std::size_t i = 0; i < curve.size(); ++i) {
     recorded.strain.push_back(curve.strain[i] + effects.toe_slack +
-                           effects.machine_compliance_per_pa * curve.stress_pa[i]);
+                              effects.machine_compliance_per_pa * curve.stress_pa[i]);
     recorded.stress_pa.push_back(gain * curve.stress_pa[i]);
   }
   return recorded;
@@ -173,12 +173,12 @@ double drift_of(const HiddenEffects& effects, const SpecimenRecord& record) {
 }
 
 /// The curve of replicate `number` among those that were pulled.
-const tester::Curve& curve_of(const Response& response, int number) {
+const tester::Curve& curve_of(const TrueResponse& response, int number) {
   const auto which = static_cast<std::size_t>(std::max(0, number - 1)) % (response.other_curves.size() + 1);
   return which == 0 ? response.curve : response.other_curves[which - 1];
 }
 
-void fill_in(SpecimenRecord& record, const Truth& truth, const Response& response, int number) {
+void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, int number) {
   Scatter scatter = scatter_of(truth, record.specimen);
   const double drift = drift_of(truth.effects, record);
   scatter.modulus *= drift;
@@ -198,7 +198,7 @@ void fill_in(SpecimenRecord& record, const Truth& truth, const Response& respons
 
 }  // namespace
 
-Result<Response> respond(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment) {
   if (experiment.test != TestKind::tensile && !experiment.loading.turns.empty())
     return fail("loading \"{}\": only unnotched coupons are unloaded here", tester::to_string(experiment.loading));
   const double orientation = experiment.conditions.orientation_deg;
@@ -214,7 +214,7 @@ Result<Response> respond(const Truth& truth, const Experiment& experiment) {
   return fail("an unknown test");
 }
 
-SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment, const Result<Response>& response,
+SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment, const Result<TrueResponse>& response,
                                const Replicate& replicate) {
   SpecimenRecord record;
   record.specimen = replicate.specimen;

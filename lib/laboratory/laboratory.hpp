@@ -23,30 +23,31 @@ struct Experiment {
 };
 
 /// The specimen's true response, without scatter and before the machine: a modulus, or a curve.
-struct Response {
+struct TrueResponse {
   double modulus_pa = 0.0;  ///< test `modulus`
   tester::Curve curve;      ///< `toughness` and `tensile`
   std::string remark;       ///< what a lab book would note, or empty
-  /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the truth has
-  /// replicates. Whoever asks for more gets them again: every one costs a simulation.
+  /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the truth
+  /// has replicates. Whoever asks for more gets them again: every one costs a simulation.
   std::vector<tester::Curve> other_curves = {};
 };
 
-/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; an experiment that makes no sense
+/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; an experiment that makes no
+/// sense
 /// (`tensile` of a layout, an orientation other than 0 and 90).
-Result<Response> respond(const Truth& truth, const Experiment& experiment);
+Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment);
 
 /// One replicate: how it is called and where it was printed.
 struct Replicate {
   std::string specimen;  ///< names the streams of its scatter
   std::string batch;
   int print_order = 0;
-  int number = 1;  ///< among those of its order, from 1: which specimen of a Response with several it is
+  int number = 1;  ///< among those of its order, from 1: which specimen of a TrueResponse with several it is
 };
 
 /// The record of one specimen: the response with this specimen's scatter, seen through the machine, its curve in at
 /// most 200 points. A failed simulation gives an invalid specimen with a note, never a number.
 measurement::SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
-                                            const Result<Response>& response, const Replicate& replicate);
+                                            const Result<TrueResponse>& response, const Replicate& replicate);
 
 }  // namespace nacre::laboratory

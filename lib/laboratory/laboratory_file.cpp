@@ -92,12 +92,12 @@ class Section {
   std::vector<std::string> known_;
 };
 
-struct Range {
+struct AllowedRange {
   double minimum, maximum;
 };
 
 /// Values that the benches can compute with.
-Range range_of(std::string_view parameter) {
+AllowedRange range_of(std::string_view parameter) {
   if (parameter.starts_with("nu_")) return {0.0, 0.5};
   if (parameter.starts_with("gamma_")) return {1.0, 1e8};
   if (parameter.starts_with("e_")) return {measurement::kModulusPa.least, measurement::kModulusPa.most};
@@ -108,7 +108,7 @@ Range range_of(std::string_view parameter) {
 template <class Vector>
 Vector read_constants(Section section, std::span<const std::string_view> names, Vector constants) {
   for (std::size_t i = 0; i < constants.size(); ++i) {
-    const Range range = range_of(names[i]);
+    const AllowedRange range = range_of(names[i]);
     constants[i] = section.number(names[i], range.minimum, range.maximum, constants[i]);
   }
   section.refuse_others();

@@ -41,9 +41,9 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
 double effort_of(const Experiment& experiment) { return experiment.test == tester::TestKind::modulus ? 1.0 : 1000.0; }
 
 /// Makes all experiments, reporting progress as they end.
-std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
-                                           const CampaignProgress& progress) {
-  std::vector<std::optional<Result<Response>>> responses(experiments.size());
+std::vector<Result<TrueResponse>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
+                                               const CampaignProgress& progress) {
+  std::vector<std::optional<Result<TrueResponse>>> responses(experiments.size());
   double whole = 0.0, spent = 0.0;
   for (const Experiment& experiment : experiments) whole += effort_of(experiment);
   int done = 0;
@@ -55,7 +55,7 @@ std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector
     spent += effort_of(experiments[q]);
     if (progress) progress(spent / whole, ++done, static_cast<int>(experiments.size()));
   });
-  std::vector<Result<Response>> all;
+  std::vector<Result<TrueResponse>> all;
   for (auto& response : responses) all.push_back(*std::move(response));
   return all;
 }
@@ -103,7 +103,7 @@ void require_new(const std::filesystem::path& folder) {
 
 std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
   const std::vector<Experiment> experiments = experiments_of(truth, campaign);
-  const std::vector<Result<Response>> responses = responses_to(truth, experiments, progress);
+  const std::vector<Result<TrueResponse>> responses = responses_to(truth, experiments, progress);
   std::vector<Planned> plan;
   for (std::size_t q = 0; q < experiments.size(); ++q) {
     const Experiment& experiment = experiments[q];

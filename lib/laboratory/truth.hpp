@@ -1,7 +1,7 @@
 #pragma once
 // The hidden truth of a virtual laboratory, which nobody else may know: the constants of its materials, its hidden
-// effects and its scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include headers of this
-// folder.
+// effects and its scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include
+// headers of this folder.
 
 #include <cstdint>
 

@@ -155,7 +155,7 @@ class Launch {
   bool recorder_is_ready_ = false;
   bool is_announced_ = false;
   bool is_stopping_ = false;
-  bool heard_last_round_ = false;
+  bool has_last_round_ = false;
   std::set<std::pair<int, bool>> shown_rounds_;  // number, whether it was the last
   Clock::time_point said_waiting_ = Clock::now();
   Clock::time_point checked_for_end_ = Clock::now();
@@ -213,7 +213,7 @@ void Launch::take_message(const Received& received) {
     if (!round) return;
     // A ROUND is repeated until everybody has it; the last one is said once more when families followed it.
     if (shown_rounds_.emplace(round->round, round->last).second) display_.say(in_words(*round));
-    heard_last_round_ = heard_last_round_ || round->last;
+    has_last_round_ = has_last_round_ || round->last;
     return;
   }
   if (received.message.channel != "STATUS") return;
@@ -223,7 +223,7 @@ void Launch::take_message(const Received& received) {
     if (node->name() != received.header.node) continue;
     node->saw(*status, received.header.epoch, Clock::now());
     // What it said once in a game that is resumed it does not say again.
-    heard_last_round_ = heard_last_round_ || (node->name() == "validation_agent" && node->state() == State::finished);
+    has_last_round_ = has_last_round_ || (node->name() == "validation_agent" && node->state() == State::finished);
   }
 }
 
@@ -282,7 +282,7 @@ void Launch::announce_when_ready() {
 bool Launch::guests_part_is_over() const {
   const auto now = Clock::now();
   return std::all_of(nodes_.begin(), nodes_.end(), [&](const auto& node) {
-    return node->state() == State::finished || (heard_last_round_ && node->is_silent(now));
+    return node->state() == State::finished || (has_last_round_ && node->is_silent(now));
   });
 }
 

@@ -28,7 +28,7 @@ struct LaunchOptions {
 /// Plays the game until its last round, Ctrl-C (SIGINT, SIGTERM, SIGHUP) or the failure of a node for good. Exit
 /// status: 0 the game was played to its end, 1 it was stopped before or a node failed. Throws InputError for what a
 /// person has to mend first. With `only`, `resume` is the run's folder, shared or copied: neither recorder nor RUN come
-/// from here, and the end is that these nodes have finished and nobody who still plays is heard.
+/// from here, and the end is that these nodes have finished and nobody who still plays reports.
 int launch(const LaunchOptions& options);
 
 }  // namespace nacre::runtime

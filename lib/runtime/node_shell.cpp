@@ -211,7 +211,7 @@ class NodeShell {
   void handle_status(const Received& received) {
     if (received.header.node == options_.node) {
       if (received.header.epoch == bus_->epoch()) {
-        heard_itself_ = true;
+        received_own_status_ = true;
       } else if (received.header.epoch > bus_->epoch()) {
         problem(LogLevel::error, fmt::format("another process calls itself {} in this run", options_.node));
       }
@@ -309,7 +309,7 @@ class NodeShell {
     const BusCounters& bus = bus_->counters();
     node_status_t message{};
     message.journal = journal_->identity();
-    message.ready = heard_itself_;
+    message.ready = received_own_status_;
     message.unacknowledged = outbox_.unacknowledged();
     message.computing = executor_->pending();
     message.finished = status.finished && message.unacknowledged == 0 && message.computing == 0;
@@ -353,7 +353,7 @@ class NodeShell {
   PendingRequests requests_;
   Eta eta_;
   RecentProblem problem_;
-  bool heard_itself_ = false;
+  bool received_own_status_ = false;
   std::int64_t next_status_ = 0;
   std::int64_t next_tick_ = 0;
   std::int64_t tick_period_us_ = 0;

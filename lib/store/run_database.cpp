@@ -202,7 +202,7 @@ void keep(SQLite::Database& db, const wire::Fracture& f) {
 }
 
 /// A family that is validated is not put back by an older FAMILY.
-void keep(SQLite::Database& db, const wire::Family& f) {
+void keep(SQLite::Database& db, const wire::CalibratedFamily& f) {
   SQLite::Statement known(db, "SELECT is_validated FROM family WHERE number = ?");
   known.bind(1, f.number);
   if (known.executeStep() && known.getColumn(0).getInt() != 0 && !f.is_validated) return;
@@ -245,7 +245,7 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
   if (channel == "MEASUREMENT") keep_domain<wire::Measurement>(db, payload);
   if (channel == "SIMULATED") keep_domain<wire::SimulateResult>(db, payload);
   if (channel == "FRACTURE") keep_domain<wire::Fracture>(db, payload);
-  if (channel == "FAMILY") keep_domain<wire::Family>(db, payload);
+  if (channel == "FAMILY") keep_domain<wire::CalibratedFamily>(db, payload);
   if (channel == "FAMILY_GAMUT") keep_domain<wire::FamilyGamut>(db, payload);
   if (channel == "REVIEW") keep_message<review_t>(db, payload);
   if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);

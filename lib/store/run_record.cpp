@@ -198,7 +198,7 @@ void read_families(SQLite::Database& db, RunRecord& run) {
   std::map<int, RecordedFamily> families;
   each_row(db, "SELECT number, name, round, fidelity, count, is_validated, simulations, samples FROM family",
            [&](SQLite::Statement& q) {
-             wire::Family& stated = families[q.getColumn(0).getInt()].stated;
+             wire::CalibratedFamily& stated = families[q.getColumn(0).getInt()].stated;
              stated.number = q.getColumn(0).getInt();
              stated.name = q.getColumn(1).getString();
              stated.round = q.getColumn(2).getInt();

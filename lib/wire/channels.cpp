@@ -55,7 +55,7 @@ std::vector<Channel> make_channels() {
       domain_channel<DiagnoseRequest>("DIAGNOSE", {"analyser"}),
       type_channel<diagnosis_t>("DIAGNOSIS", {"validation_agent", "proposal_agent"}),
       domain_channel<RoundSummary>("ROUND", everyone),
-      domain_channel<Family>("FAMILY", {"analyser"}),
+      domain_channel<CalibratedFamily>("FAMILY", {"analyser"}),
       domain_channel<FamilyGamut>("FAMILY_GAMUT", {"analyser"}),
       type_channel<ack_t>("ACK", everyone, false),
       type_channel<node_status_t>("STATUS", everyone, false),

@@ -166,7 +166,7 @@ struct DiagnoseRequest {
 inline constexpr std::size_t kMostFamilyDesigns = 500;  ///< of a message below 60 kB
 
 /// FAMILY: a family of the stage after the game (thesis 2.4.1).
-struct Family {
+struct CalibratedFamily {
   using Wire = family_t;
   int round = 0;  ///< that its designs are ordered in
   tester::Fidelity fidelity = tester::Fidelity::full;
@@ -178,7 +178,7 @@ struct Family {
   int simulations = 0;                      ///< spent on its calibration
   int samples = 0;                          ///< patterns simulated around the seeds
   std::vector<game::FamilyDesign> designs;  ///< seeds, then chosen ones; at most kMostFamilyDesigns
-  bool operator==(const Family&) const = default;
+  bool operator==(const CalibratedFamily&) const = default;
 };
 
 /// FAMILY_GAMUT: one chunk of a family's variants.
@@ -223,8 +223,8 @@ simulate_result_t to_wire(const SimulateResult& result);
 fracture_t to_wire(const Fracture& fracture);
 Result<Fracture> from_wire(const fracture_t& message);
 Result<SimulateResult> from_wire(const simulate_result_t& message);
-family_t to_wire(const Family& family);
-Result<Family> from_wire(const family_t& message);
+family_t to_wire(const CalibratedFamily& family);
+Result<CalibratedFamily> from_wire(const family_t& message);
 family_gamut_t to_wire(const FamilyGamut& gamut);
 Result<FamilyGamut> from_wire(const family_gamut_t& message);
 gamut_t to_wire(const GamutChunk& chunk);

@@ -61,7 +61,7 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
       request_films();
     }
   } else if (message.channel == "FAMILY") {
-    const auto family = wire::read<wire::Family>(message.payload);
+    const auto family = wire::read<wire::CalibratedFamily>(message.payload);
     if (scenario_.fidelity != tester::Fidelity::tiny && filmed_families_.insert(family->number).second) {
       std::vector<pattern::Design> designs;
       for (const game::FamilyDesign& each : family->designs) designs.emplace_back(each.pattern);

@@ -38,7 +38,7 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   auto read = wire::read<wire::SimulateRequest>(payload);
   if (!read) return warn(outputs, fmt::format("a SIMULATE is ignored: {}", read.error().message));
   const auto [position, is_new] = requests_.try_emplace(read->request_id);
-  Request& entry = position->second;
+  OpenRequest& entry = position->second;
   if (!is_new) {
     if (!(entry.request == *read)) {
       warn(outputs, fmt::format("request {} came again with other content and is ignored", read->request_id));
@@ -106,7 +106,7 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
   }
   const std::vector<std::string> waiting = std::exchange(open_test.waiting, {});
   for (const std::string& id : waiting) {
-    Request& request = requests_.at(id);
+    OpenRequest& request = requests_.at(id);
     const Extras wanted = wanted_extras(request.request, open_test.test);
     if (!open_test.suffices(wanted)) {
       open_test.waiting.push_back(id);

@@ -134,7 +134,7 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
     return;
   }
   const families::Family& group = groups_[families_.size()];
-  wire::Family& family = families_.emplace_back();
+  wire::CalibratedFamily& family = families_.emplace_back();
   family.round = beginning_.round;
   family.fidelity = scenario_.fidelity;
   family.number = static_cast<int>(families_.size()) - 1;
@@ -199,7 +199,7 @@ void FamilyStage::simulate_variants(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::choose(runtime::Outputs& outputs) {
-  wire::Family& family = families_.back();
+  wire::CalibratedFamily& family = families_.back();
   gamut_.clear();
   const std::vector<sysid::Prediction>& predictions = farm_.predictions().front();
   for (std::size_t i = 0; i < variants_.size(); ++i) {
@@ -227,7 +227,7 @@ void FamilyStage::choose(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::finish_family(runtime::Outputs& outputs) {
-  wire::Family& family = families_.back();
+  wire::CalibratedFamily& family = families_.back();
   const auto& predictions = farm_.predictions();
   for (std::size_t i = 0; i < family.designs.size(); ++i) {
     family.designs[i].global_model = recorded(predictions[0][i], beginning_.model.extensions);
@@ -246,7 +246,7 @@ void FamilyStage::finish_family(runtime::Outputs& outputs) {
 
 std::vector<pattern::Design> FamilyStage::chosen() const {
   std::vector<pattern::Design> designs;
-  for (const wire::Family& family : families_) {
+  for (const wire::CalibratedFamily& family : families_) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) designs.emplace_back(design.pattern);
   }
@@ -260,7 +260,7 @@ game::DesignValues FamilyStage::measured_values(const pattern::Pattern& pattern)
 }
 
 void FamilyStage::conclude(const std::vector<measurement::Replicates>& measured, runtime::Outputs& outputs) {
-  for (wire::Family& family : families_) {
+  for (wire::CalibratedFamily& family : families_) {
     for (game::FamilyDesign& design : family.designs) {
       if (design.is_seed) continue;
       const measurement::Replicates* found = measured_of(measured, design.pattern);
@@ -287,7 +287,7 @@ void FamilyStage::conclude(const std::vector<measurement::Replicates>& measured,
 
 std::string FamilyStage::phase() const {
   if (step_ == Step::grouping || families_.empty()) return "grouping the best designs into families";
-  const wire::Family& family = families_.back();
+  const wire::CalibratedFamily& family = families_.back();
   const std::string which = fmt::format("family {} of {}: ", family.number + 1, family.count);
   switch (step_) {
     case Step::calibrating:

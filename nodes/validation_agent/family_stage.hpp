@@ -69,7 +69,7 @@ class FamilyStage {
   bool has_chosen_ = false;
 
   std::vector<families::Family> groups_;
-  std::vector<wire::Family> families_;  // one per group, the last one in work
+  std::vector<wire::CalibratedFamily> families_;  // one per group, the last one in work
 
   // Of the family in work.
   std::optional<Fitting> fitting_;

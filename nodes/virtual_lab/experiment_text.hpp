@@ -10,7 +10,7 @@
 namespace nacre::virtual_lab {
 
 using laboratory::Experiment;
-using laboratory::Response;
+using laboratory::TrueResponse;
 
 /// One line of JSON; equal experiments are equal texts.
 std::string to_spec(const Experiment& experiment);
@@ -18,8 +18,8 @@ std::string to_spec(const Experiment& experiment);
 Result<Experiment> experiment_from_spec(std::string_view spec);
 
 /// JSON that gives every number back to the last bit; a failed simulation is its sentence.
-std::string to_text(const Result<Response>& response);
+std::string to_text(const Result<TrueResponse>& response);
 /// Reads to_text() back; an unreadable text is a failed simulation.
-Result<Response> response_from_text(std::string_view text);
+Result<TrueResponse> response_from_text(std::string_view text);
 
 }  // namespace nacre::virtual_lab

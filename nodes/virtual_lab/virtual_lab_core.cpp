@@ -98,7 +98,7 @@ void VirtualLabCore::settle(const runtime::WorkDone& work, Outputs& outputs) {
 }
 
 void VirtualLabCore::report(const wire::TestOrder& order, const Experiment& experiment,
-                            const Result<Response>& response, Outputs& outputs) const {
+                            const Result<TrueResponse>& response, Outputs& outputs) const {
   if (!response) {
     outputs.log.push_back(
         {LogLevel::warning, fmt::format("{}: no valid specimen: {}", order.order_id, response.error().message)});

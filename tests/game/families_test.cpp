@@ -48,9 +48,9 @@ InProcessGame played(const game::Scenario& scenario, const Delivery& delivery = 
 }
 
 /// The second word of each family, by number.
-std::vector<wire::Family> validated(const InProcessGame& game) {
-  std::vector<wire::Family> families = game.sent<wire::Family>("FAMILY");
-  std::erase_if(families, [](const wire::Family& family) { return !family.is_validated; });
+std::vector<wire::CalibratedFamily> validated(const InProcessGame& game) {
+  std::vector<wire::CalibratedFamily> families = game.sent<wire::CalibratedFamily>("FAMILY");
+  std::erase_if(families, [](const wire::CalibratedFamily& family) { return !family.is_validated; });
   return families;
 }
 
@@ -68,14 +68,14 @@ TEST(FamilyStage, FollowsTheLastRoundAndClosesItForGood) {
   EXPECT_EQ(rounds[2], again) << "the same figures, sent as the last";
   const auto families = validated(game);
   ASSERT_FALSE(families.empty());
-  EXPECT_EQ(game.sent<wire::Family>("FAMILY").size(), 2 * families.size());
+  EXPECT_EQ(game.sent<wire::CalibratedFamily>("FAMILY").size(), 2 * families.size());
   for (const char* node : {"validation_agent", "proposal_agent", "simulator_farm"})
     EXPECT_TRUE(game.status_of(node).finished) << node;
 }
 
 TEST(FamilyStage, ChosenDesignsAreFeasibleVariantsMeasuredAndPredictedByBothModels) {
   InProcessGame game = played(with_families());
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     std::vector<pattern::Pattern> seeds;
     int chosen = 0;
     for (const game::FamilyDesign& design : family.designs) {
@@ -128,7 +128,7 @@ TEST(FamilyStage, WhatWasMeasuredOfADesignIsNotWhatItsTwinAtAnotherRateShowed) {
   for (const auto& measured : game.sent<wire::Measurement>("MEASUREMENT")) specimens.push_back(measured.record);
   const auto values = game::measured_values(specimens);
   ASSERT_FALSE(validated(game).empty());
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     for (const game::FamilyDesign& design : family.designs) {
       const std::string name = design.pattern.key() + (design.is_seed ? ", a seed" : ", chosen");
       ASSERT_TRUE(design.measured.modulus_pa && design.measured.toughness_pa) << name;
@@ -142,7 +142,7 @@ TEST(FamilyStage, WhatWasMeasuredOfADesignIsNotWhatItsTwinAtAnotherRateShowed) {
 TEST(FamilyStage, ItsModelIsNearerToItsSeedsThanTheGlobalOne) {
   InProcessGame game = played(with_families());
   double global = 0.0, own = 0.0;
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     global += errors.seeds_global.toughness_mean;
     own += errors.seeds_family.toughness_mean;
@@ -212,7 +212,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   game.play();
   EXPECT_THAT(validated(game), IsEmpty()) << "nobody has approved the variants yet";
   std::vector<pattern::Pattern> chosen;
-  for (const wire::Family& family : game.sent<wire::Family>("FAMILY")) {
+  for (const wire::CalibratedFamily& family : game.sent<wire::CalibratedFamily>("FAMILY")) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) chosen.push_back(design.pattern);
   }
@@ -220,7 +220,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   for (const pattern::Pattern& each : chosen) send_approval(2, each, each != chosen.front());
   game.play();
   ASSERT_FALSE(validated(game).empty());
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     for (const game::FamilyDesign& design : family.designs)
       EXPECT_EQ(design.measured.toughness_pa.has_value(), design.pattern != chosen.front());
   }

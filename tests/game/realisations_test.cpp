@@ -55,7 +55,8 @@ std::vector<wire::SimulatedDesign> response(const wire::SimulateRequest& request
   return results;
 }
 
-/// Realisations until nothing more is requested; responses come in the order of requests, or from the last to the first.
+/// Realisations until nothing more is requested; responses come in the order of requests, or from the last to the
+/// first.
 Realisations drawn(const std::vector<pattern::Pattern>& chosen, bool backwards = false) {
   Realisations realisations(gamut(), chosen, kDraws, 7, "test");
   for (auto requests = realisations.next(model()); !requests.empty(); requests = realisations.next(model())) {

@@ -145,7 +145,8 @@ TEST(Restart, AProposalAgentWaitsForTheModelOfTheRoundThatIsDue) {
   EXPECT_TRUE(wire::request_id_of("SIMULATE", begun.messages.front().payload).starts_with("proposal_agent/r0/"));
 }
 
-// Its journal lost, it comes to another model of the same round, and the farm still repeats its responses about the first.
+// Its journal lost, it comes to another model of the same round, and the farm still repeats its responses about the
+// first.
 TEST(Restart, AProposalAgentWithoutItsJournalTakesNoResponsesAboutAnotherModel) {
   const game::Scenario scenario = small_scenario();
   wire::AdoptedModel model;

@@ -139,8 +139,7 @@ TEST(SimulatorFarm, EqualTestsOfDifferentRequestsAreComputedOnce) {
   EXPECT_EQ(all[0].request_id, "a/1");
   EXPECT_EQ(all[1].request_id, "b/1");
   EXPECT_THAT(all[1].results, SizeIs(3));
-  EXPECT_EQ(responses(ask(farm, request("c/1", {kRigid}))).size(), 1u)
-      << "a test that is done is not simulated again";
+  EXPECT_EQ(responses(ask(farm, request("c/1", {kRigid}))).size(), 1u) << "a test that is done is not simulated again";
 }
 
 TEST(SimulatorFarm, ARepeatedRequestGetsItsResponseAgainAndAChangedOneIsRefused) {
@@ -293,7 +292,8 @@ TEST(SimulatorFarm, ACrackThatCannotBeToldTakesNoNumbersAway) {
   failed.design.failure = "the crack cannot be told";
   const auto told = responses(farm.step(runtime::WorkDone{second.id, write_response(failed)}));
   ASSERT_THAT(told, SizeIs(1));
-  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told")) << "whoever requested it is told why";
+  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told"))
+      << "whoever requested it is told why";
   const Outputs again = ask(farm, later);
   EXPECT_THAT(again.computes, IsEmpty());
   ASSERT_THAT(responses(again), SizeIs(1));

@@ -1,6 +1,7 @@
 #pragma once
 // Two tiny cores with the real messages: the asker sends requests in batches, the farm responds by long work.
-// What the asker sends in the end depends on every message that reached its core, so that one too many or too few shows.
+// What the asker sends in the end depends on every message that reached its core, so that one too many or too few
+// shows.
 
 #include <chrono>
 #include <map>

@@ -93,7 +93,8 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
 TEST_F(Launcher, AReaderOfItsOutputWhoGoesEarlyTakesNothingFromTheGame) {
   std::string command = program("nacre");
   for (const std::string& argument : arguments()) command += " " + shell_word(argument);
-  const auto printed = runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
+  const auto printed =
+      runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
   EXPECT_EQ(printed.end.exit_status, 0) << printed.end.in_words();
   EXPECT_THAT(printed.output, HasSubstr("run game on UDP port"));
 }

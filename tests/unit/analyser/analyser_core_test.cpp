@@ -171,7 +171,7 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
 
 TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
   Watched analyser;
-  wire::Family family;
+  wire::CalibratedFamily family;
   family.number = 2;
   family.count = 3;
   family.name = "family-3";
@@ -476,7 +476,7 @@ TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   analyser.receive("ROUND", round_of(1, false));
   analyser.finish_stores();
   analyser.finish(analyser.ids("report").at(0));
-  wire::Family family;
+  wire::CalibratedFamily family;
   family.name = "family-1";
   family.parameters = material::default_parameters();
   analyser.receive("FAMILY", wire::write(family));

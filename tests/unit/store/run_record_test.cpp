@@ -64,7 +64,7 @@ TEST_F(RunRecordOfAFile, AFileOfAVersionBeforeFitsIsRead) {
 }
 
 TEST_F(RunRecordOfAFile, CracksBelongToTheRoundOrTheFamilyWhoseModelBrokeThem) {
-  const wire::Family family = wire::samples::family();
+  const wire::CalibratedFamily family = wire::samples::family();
   database_.project("FAMILY", wire::write(family));
   wire::Fracture fracture = wire::samples::fracture();
   for (const std::string& request_id :
