@@ -16,6 +16,7 @@
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "base_refit.hpp"
+#include "laboratory/draw.hpp"
 #include "laboratory/laboratory.hpp"
 #include "pattern/random_pattern.hpp"
 #include "study/study_command.hpp"

@@ -12,6 +12,8 @@
 
 #include "base/parallel.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory.hpp"
 #include "pattern/random_pattern.hpp"
 

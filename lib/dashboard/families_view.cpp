@@ -24,7 +24,7 @@ Json design_json(const game::FamilyDesign& design, const store::RecordedFamily& 
 }
 
 Json stage_json(const store::RecordedFamily& family) {
-  const wire::Family& stated = family.stated;
+  const wire::CalibratedFamily& stated = family.stated;
   const game::FamilyErrors errors = game::family_errors(stated.designs);
   Json designs = Json::array(), over_fits = Json::array(), parameters = Json::object();
   for (const game::FamilyDesign& design : stated.designs) designs.push_back(design_json(design, family));

@@ -178,7 +178,7 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
     point_link_at(logs / kLatest, chosen);
   } catch (...) {
     std::error_code left_behind;
-    fs::remove_all(run.path_, left_behind);  // half a run would be nothing but in the way of its name
+    fs::remove_all(run.path_, left_behind);  // half a run would only block its name
     throw;
   }
   return run;

@@ -11,7 +11,7 @@ namespace nacre::store {
 /// Points that a curve is resampled to before it is kept.
 inline constexpr int kKeptCurvePoints = 256;
 
-/// What is kept of a tester's answer.
+/// What is kept of a tester's result.
 CachedSimulation kept(const Result<tester::ModulusResult>& result);
 CachedSimulation kept(const Result<tester::ToughnessResult>& result);
 

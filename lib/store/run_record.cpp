@@ -199,7 +199,7 @@ void read_families(SQLite::Database& db, RunRecord& run) {
   std::map<int, RecordedFamily> families;
   each_row(db, "SELECT number, name, round, fidelity, count, is_validated, simulations, samples FROM family",
            [&](SQLite::Statement& q) {
-             wire::Family& stated = families[q.getColumn(0).getInt()].stated;
+             wire::CalibratedFamily& stated = families[q.getColumn(0).getInt()].stated;
              stated.number = q.getColumn(0).getInt();
              stated.name = q.getColumn(1).getString();
              stated.round = q.getColumn(2).getInt();
@@ -235,9 +235,12 @@ void read_families(SQLite::Database& db, RunRecord& run) {
 
 /// Validity is the measurement's own unless a review says otherwise; the highest revision wins, "not valid" wins a tie.
 constexpr const char* kSpecimens = R"sql(
-  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch, m.print_order, m.modulus_pa, m.toughness_pa,
-         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
-         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
+  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch,
+         m.print_order, m.modulus_pa, m.toughness_pa,
+         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen
+                   ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
+         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen
+                   ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
   FROM measurement m ORDER BY m.specimen
 )sql";
 
@@ -258,7 +261,7 @@ void read_specimens(SQLite::Database& db, RunRecord& run) {
     m.record.toughness_pa = optional_double(q.getColumn(10));
     m.record.note = q.getColumn(12).getString();
     m.record.curve = unpacked(q.getColumn(13));
-    // As for the validation agent: a person's word makes no specimen valid that says nothing.
+    // As for the validation agent: a review makes no specimen valid that has no usable value.
     m.record.valid = q.getColumn(11).getInt() != 0 && !measurement::why_unusable(m.record);
     run.specimens.push_back(std::move(m));
   });

@@ -51,7 +51,7 @@ struct RecordedCrack {
   std::string film;  ///< file in RUN/films; empty when there is none
 };
 
-/// One round; parts that have not been heard of yet are empty.
+/// One round; parts that have not been received yet are empty.
 struct RoundRecord {
   std::optional<wire::RoundSummary> summary;
   std::map<std::string, double> parameters;
@@ -71,7 +71,7 @@ struct MeasuredSpecimen {
 
 /// A family of the stage after the game; `stated.parameters` holds no values here, `parameters` names them.
 struct RecordedFamily {
-  wire::Family stated;
+  wire::CalibratedFamily stated;
   std::map<std::string, double> parameters;
   std::vector<explore::Evaluated> gamut;        ///< its variants by its own model
   std::map<std::string, RecordedCrack> cracks;  ///< of its seeds and chosen designs by its own model, by design

@@ -1,3 +1,5 @@
+// Part of the conversions (convert.hpp): FRACTURE.
+
 #include <algorithm>
 
 #include "wire/channels.hpp"

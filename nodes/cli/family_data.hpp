@@ -33,7 +33,7 @@ struct FamilyOptions {
 /// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated
 /// again.
 struct StagedFamily {
-  wire::Family stated;
+  wire::CalibratedFamily stated;
   std::vector<explore::Evaluated> variants;
 };
 

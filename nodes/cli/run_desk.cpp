@@ -50,7 +50,7 @@ std::optional<material::ParameterSet> RunDesk::model(int round) {
 std::optional<material::ParameterSet> RunDesk::family_model(const std::string& family) {
   std::optional<material::ParameterSet> parameters;
   for (const std::string& payload : sent_by_validation_agent(run_, "FAMILY")) {
-    const auto stated = wire::read<wire::Family>(payload);
+    const auto stated = wire::read<wire::CalibratedFamily>(payload);
     if (stated && stated->name == family) parameters = stated->parameters;
   }
   return parameters;

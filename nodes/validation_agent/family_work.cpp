@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/expected.hpp"
 #include "base/files.hpp"
 #include "families/dense_sampling.hpp"
@@ -43,7 +44,7 @@ std::string grouping_work(const std::filesystem::path& folder, const std::string
   const std::vector<std::string> fields = expected(runtime::unpack(spec));
   const std::vector<families::MeasuredPattern> measured = members_from(std::span(fields).subspan(1));
   const std::filesystem::path file = folder / kFamiliesFile;
-  const auto answer = [](const std::vector<families::SeedFamily>& families, const std::string& remark, bool is_faulty) {
+  const auto result = [](const std::vector<families::SeedFamily>& families, const std::string& remark, bool is_faulty) {
     return runtime::pack({families::to_toml(families), remark, is_faulty ? "faulty" : ""});
   };
   const auto proposed = families::proposed_families(families::near_pareto(measured, std::stoi(fields.at(0))));
@@ -51,11 +52,12 @@ std::string grouping_work(const std::filesystem::path& folder, const std::string
     try {
       const std::vector<families::SeedFamily> chosen = families::read_families(file);
       check_seeds(chosen, measured, file);
-      // A file that says what would be proposed may be this program's own, from before a restart.
+      // A file that equals the proposal may be this program's own, from before a restart.
       if (chosen != proposed)
-        return answer(chosen, fmt::format("{} families of {}", chosen.size(), kFamiliesFile), false);
+        return result(chosen, fmt::format("{} of {}", counted(std::ssize(chosen), "family", "families"), kFamiliesFile),
+                      false);
     } catch (const InputError& error) {
-      return answer(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()),
+      return result(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()),
                     true);
     }
   }
@@ -63,7 +65,9 @@ std::string grouping_work(const std::filesystem::path& folder, const std::string
     std::filesystem::create_directories(folder);
     write_file_atomically(file, families::to_toml(proposed));
   }
-  return answer(proposed, fmt::format("{} families proposed by pattern and properties", proposed.size()), false);
+  return result(
+      proposed,
+      fmt::format("{} proposed by pattern and properties", counted(std::ssize(proposed), "family", "families")), false);
 }
 
 std::string sampling_work(const std::string& spec) {

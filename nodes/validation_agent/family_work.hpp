@@ -23,7 +23,7 @@ struct Grouping {
 /// The result of a grouping.
 Grouping grouping_from(const std::string& result);
 
-/// Spec of a Compute of kind "sample_family": so many patterns around the seeds, seeds included.
+/// Spec of a Compute of kind "sample_family": `samples` patterns around the seeds, seeds included.
 std::string sampling_spec(const families::SeedFamily& family, int samples, std::uint64_t seed);
 /// The result of a sampling: seeds first.
 std::vector<pattern::Pattern> sample_from(const std::string& result);

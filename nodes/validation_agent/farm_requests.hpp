@@ -1,5 +1,5 @@
 #pragma once
-// Evaluations that the farm is asked for, and their answers put together again.
+// Evaluations requested from the farm, and their responses put together again.
 
 #include <map>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace nacre::validation_agent {
 
-/// What the farm is asked at once.
+/// Evaluations that are requested at once.
 struct FarmBatch {
   std::string label;  ///< of request ids, before the evaluation's own: batches that share it hold other evaluations
   std::vector<sysid::WantedEvaluation> wanted;
@@ -19,7 +19,7 @@ struct FarmBatch {
   int curve_points = 64;  ///< of toughness tests: enough for the curve term of Eq. 2.8
 };
 
-/// One batch of evaluations at the farm. Answers may come in any order and any number of times; what predictions()
+/// One batch of evaluations at the farm. Responses may come in any order and any number of times; what predictions()
 /// holds does not depend on it.
 class FarmRequests {
  public:

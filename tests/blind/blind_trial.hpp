@@ -14,6 +14,7 @@
 #include "../output_of.hpp"
 #include "base/random.hpp"
 #include "laboratory/laboratory.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"

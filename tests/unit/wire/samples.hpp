@@ -99,8 +99,8 @@ inline FamilyGamut family_gamut() {
   return {2, tester::Fidelity::preview, 0, 1, {{pattern::Pattern(0x577fffe9fffdef), {1.5e9, 4e5}}}};
 }
 
-inline Family family() {
-  Family family;
+inline CalibratedFamily family() {
+  CalibratedFamily family;
   family.round = 4;
   family.fidelity = tester::Fidelity::preview;
   family.number = 1;
