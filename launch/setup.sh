@@ -47,19 +47,19 @@ install_packages() {
   rm -f "$log"
 }
 
-# build: configures and builds everything in build/.
+# build TARGET: configures, and builds a target (play: what plays; all: tests and studies too) in build/.
 build() {
-  local log="$NACRE_ROOT/build/setup.log"
+  local target=$1 log="$NACRE_ROOT/build/setup.log"
   mkdir -p "$NACRE_ROOT/build"
   say "configuring (Release, build/)"
   (cd "$NACRE_ROOT" && cmake --preset release) >"$log" 2>&1 || { tail -n 20 "$log" >&2; give_up "configuring failed; the whole output is in build/setup.log"; }
   say "building with $(nproc) cores"
   if [ -t 2 ]; then
-    cmake --build "$NACRE_ROOT/build" >&2 || give_up "building failed"
+    cmake --build "$NACRE_ROOT/build" --target "$target" >&2 || give_up "building failed"
     return
   fi
   # Not a terminal: one plain line every 40 steps; compiler messages go to the log and are shown when something fails.
-  if ! cmake --build "$NACRE_ROOT/build" 2>&1 | tee -a "$log" |
+  if ! cmake --build "$NACRE_ROOT/build" --target "$target" 2>&1 | tee -a "$log" |
     awk '/^\[[0-9]+\/[0-9]+\]/ { split(substr($1, 2), n, /[\/\]]/); if (n[1] % 40 == 0 || n[1] == n[2]) print "nacre:   step " n[1] " of " n[2] > "/dev/stderr" }'; then
     grep -m 20 -E 'error|FAILED' "$log" >&2 || true
     give_up "building failed; the whole output is in build/setup.log"

@@ -79,7 +79,7 @@ struct MarkStyle {
 constexpr std::array<MarkStyle, crack::kMarkKinds> kMarkStyles = {
     {{"D", 0x7a3fb0}, {"B", 0xb0307a}, {"L", 0x2d7d46}, {"A", 0xb05a00}, {"G", 0x4a5568}}};
 
-MarkStyle style_of(crack::MarkKind kind) { return kMarkStyles[kind]; }
+MarkStyle style_of(crack::MarkKind kind) { return kMarkStyles[static_cast<std::size_t>(kind)]; }
 
 void draw_tag(Canvas& canvas, CanvasPoint at, const MarkStyle& style) {
   constexpr double kRadius = 7.5;
@@ -108,7 +108,7 @@ void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placeme
   std::array<int, crack::kMarkKinds> shown{};
   for (const crack::Mark& mark : marks) {
     if (frame.strain < mark.strain || frame.strain > mark.until_strain) continue;
-    if (++shown[mark.kind] > kMostOfAKind) continue;
+    if (++shown[static_cast<std::size_t>(mark.kind)] > kMostOfAKind) continue;
     const int corner = mark.element / film.columns * (film.columns + 1) + mark.element % film.columns;
     const CanvasPoint at = node[corner];
     const bool above = mark.kind == crack::MarkKind::bridging || mark.kind == crack::MarkKind::soft_arrest;

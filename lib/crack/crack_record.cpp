@@ -78,7 +78,7 @@ Path measured(const Field& field, std::vector<int> way) {
     length += share;
     if (!field.failed(way[i])) continue;
     failed_length += share;
-    path.material[grid.phase[way[i]]] += share;
+    path.material[static_cast<std::size_t>(grid.phase[way[i]])] += share;
   }
   for (double& share : path.material) share /= failed_length;
   const auto [left, right] = std::minmax({field.column(way.front()), field.column(way.back())});

@@ -137,8 +137,8 @@ void put_unloading(FeatureValues& values, const tester::Curve& curve) {
 
 }  // namespace
 
-std::string_view to_string(Feature feature) { return kNames[feature].name; }
-std::string_view in_words(Feature feature) { return kNames[feature].words; }
+std::string_view to_string(Feature feature) { return kNames[static_cast<std::size_t>(feature)].name; }
+std::string_view in_words(Feature feature) { return kNames[static_cast<std::size_t>(feature)].words; }
 
 bool is_curve_stress(Feature f) {
   return f == Feature::log_toughness || f == Feature::log_tangent_10 || f == Feature::log_tangent_30 ||

@@ -42,8 +42,12 @@ Result<Feature> feature_from_string(std::string_view name);
 
 /// One value per feature, in their order; nothing where the test does not say.
 using FeatureValues = std::array<std::optional<double>, kFeatureCount>;
-inline std::optional<double>& value_of(FeatureValues& values, Feature feature) { return values[feature]; }
-inline const std::optional<double>& value_of(const FeatureValues& values, Feature feature) { return values[feature]; }
+inline std::optional<double>& value_of(FeatureValues& values, Feature feature) {
+  return values[static_cast<std::size_t>(feature)];
+}
+inline const std::optional<double>& value_of(const FeatureValues& values, Feature feature) {
+  return values[static_cast<std::size_t>(feature)];
+}
 
 /// Features of a notched specimen pulled to separation. The curve is taken at 128 points first, so that measured and
 /// simulated curves are read alike. Nothing at all when the stress never rises.

@@ -193,7 +193,7 @@ bool Observations::has(TestKind test) const {
 }
 
 double Observations::replicate_sd(Feature feature, TestKind test) const {
-  const Eigen::MatrixXd& c = scatter[test].covariance;
+  const Eigen::MatrixXd& c = scatter[static_cast<std::size_t>(test)].covariance;
   const auto f = static_cast<Eigen::Index>(feature);
   return c.size() ? std::sqrt(c(f, f)) : 0.0;
 }

@@ -123,7 +123,7 @@ struct Observations {
   bool has(tester::TestKind test) const;
   bool has_shared_discretisation() const { return discretisation_shared.rows() == size(); }
   /// Degrees of freedom behind the scatter of a test's replicates; 0: there are none, or no such test.
-  int replicate_dof(tester::TestKind test) const { return scatter[test].dof; }
+  int replicate_dof(tester::TestKind test) const { return scatter[static_cast<std::size_t>(test)].dof; }
   double replicate_sd(Feature feature, tester::TestKind test) const;
   /// Covariance of two rows, but for the shared directions and the emulator. What two numerics differ by is the same
   /// for all specimens of one layout under one test: rotated twins share it.

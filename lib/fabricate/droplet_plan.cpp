@@ -53,7 +53,7 @@ std::uint32_t threshold_of(double probability) {
 
 DropletCount count_droplets(const Slice& slice) {
   DropletCount count{};
-  for (const Droplet droplet : slice.droplets) ++count[droplet];
+  for (const Droplet droplet : slice.droplets) ++count[static_cast<std::size_t>(droplet)];
   return count;
 }
 

@@ -190,19 +190,19 @@ std::string unit_as_written(std::string_view heading) {
 
 std::string_view to_string(Quantity quantity) {
   constexpr std::array<std::string_view, 3> kNames = {"time", "extension", "force"};
-  return kNames[quantity];
+  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 std::string_view expected_names(Quantity quantity) {
   constexpr std::array<std::string_view, 3> kNames = {
       "Time, Pruefzeit", "Extension, Displacement, Crosshead, Standardweg", "Force, Load, Standardkraft"};
-  return kNames[quantity];
+  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 std::string_view expected_units(Quantity quantity) {
   constexpr std::array<std::string_view, 3> kNames = {"s, ms, min, h", "mm, cm, m, um, in, mil, ft",
                                                       "N, kN, mN, MN, daN, lbf, kip, kgf, gf"};
-  return kNames[quantity];
+  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {

@@ -244,7 +244,7 @@ class ExportReader {
         const std::size_t column = layout.column[place_of(quantity)];
         if (column >= row.size()) continue;
         const auto mark = decimal_evidence(row[column]);
-        if (mark && !first_seen[*mark]) first_seen[*mark] = index;
+        if (mark && !first_seen[static_cast<std::size_t>(*mark)]) first_seen[static_cast<std::size_t>(*mark)] = index;
       }
     }
     if (first_seen[0] && first_seen[1]) {

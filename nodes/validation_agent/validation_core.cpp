@@ -60,7 +60,7 @@ void ValidationCore::accept_answer(const std::string& payload) {
     return measure_families_when_chosen();
   }
   if (!questions_.take(*std::move(part))) return;
-  if (phase_ == Phase::predicting) {
+  if (phase_ == Phase::predicting_trial) {
     finish_predicting();
   } else if (phase_ == Phase::predicting) {
     finish_held_out(questions_.predictions().front());
@@ -199,7 +199,7 @@ runtime::Status ValidationCore::status() const {
     case Phase::waiting_for_run:
       status.phase = "waiting for the run to be announced";
       break;
-    case Phase::predicting:
+    case Phase::predicting_trial:
       status.phase = "noting what the extension on trial expects";
       break;
     case Phase::measuring: {

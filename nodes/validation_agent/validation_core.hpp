@@ -48,7 +48,7 @@ class ValidationCore : public runtime::NodeCore {
  private:
   enum class Phase {
     waiting_for_run,
-    predicting,
+    predicting_trial,
     measuring,
     predicting,
     calibrating,

@@ -262,11 +262,11 @@ void ValidationCore::close_round_when_proposed() {
                       .measured_hypervolume = round.measured_hypervolume_staircase,
                       .hypervolume_error = round.hypervolume_error,
                       .signed_gap = round.signed_gap});
-  const game::Verdict verdict = game::judge_equilibrium(history_);
-  round.equilibrium = verdict.equilibrium;
-  round.last = round_ >= scenario_.rounds || (verdict.equilibrium && scenario_.stop_at_equilibrium);
-  round.decided_by = verdict.decided_by;
-  if (round.last && !verdict.equilibrium)
+  const game::EquilibriumCheck check = game::judge_equilibrium(history_);
+  round.equilibrium = check.equilibrium;
+  round.last = round_ >= scenario_.rounds || (check.equilibrium && scenario_.stop_at_equilibrium);
+  round.decided_by = check.decided_by;
+  if (round.last && !check.equilibrium)
     round.decided_by += fmt::format("; the limit of {} rounds is reached", scenario_.rounds);
   gamuts_.erase(round_);
   StageBeginning beginning = stage_beginning();

@@ -144,7 +144,7 @@ void ValidationCore::predict() {
                       .toughness = false,
                       .items = numbers(proposed, designs.size())});
   }
-  phase_ = Phase::predicting;
+  phase_ = Phase::predicting_trial;
   ask_farm("f", wanted, designs);
 }
 

@@ -103,10 +103,10 @@ void VirtualLabCore::report(const wire::TestOrder& order, const Experiment& expe
   }
   for (int k = 1; k <= order.replicates; ++k) {
     const std::string specimen = fmt::format("{}/{}", order.order_id, k);
-    const Replicate replicate{.specimen = specimen,
-                              .batch = order.batch,
-                              .print_order = print_position(truth_.seed, order.batch, specimen),
-                              .number = k};
+    const laboratory::Replicate replicate{.specimen = specimen,
+                                          .batch = order.batch,
+                                          .print_order = print_position(truth_.seed, order.batch, specimen),
+                                          .number = k};
     const wire::Measurement measurement{.round = order.round,
                                         .order_id = order.order_id,
                                         .fidelity = order.fidelity,
@@ -125,8 +125,8 @@ runtime::Status VirtualLabCore::status() const {
 }
 
 Truth truth_of(const game::Scenario& scenario) {
-  if (scenario.laboratory.file.empty()) return draw_truth(scenario.seed, scenario.fidelity);
-  Truth truth = read_laboratory(scenario.laboratory.file, scenario.seed);
+  if (scenario.laboratory.file.empty()) return laboratory::draw_truth(scenario.seed, scenario.fidelity);
+  Truth truth = laboratory::read_laboratory(scenario.laboratory.file, scenario.seed);
   truth.fidelity = scenario.fidelity;
   return truth;
 }

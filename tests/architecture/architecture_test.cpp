@@ -12,32 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "base/files.hpp"
+#include "tree.hpp"
 
 namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = NACRE_SOURCE_DIR;
-
-/// The source files below a folder of the project, by path relative to the root.
-std::vector<fs::path> sources_below(const fs::path& folder) {
-  static const std::set<std::string> kExtensions = {".hpp", ".cpp", ".ipp", ".inc", ".cu"};
-  std::vector<fs::path> files;
-  if (!fs::exists(kRoot / folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-    if (entry.is_regular_file() && kExtensions.contains(entry.path().extension().string())) {
-      files.push_back(fs::relative(entry.path(), kRoot));
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 std::vector<std::string> includes_of(const fs::path& file) {
   static const std::regex kInclude(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
   std::vector<std::string> includes;
-  std::istringstream lines(read_file(kRoot / file));
+  std::istringstream lines(text_of(file));
   for (std::string line; std::getline(lines, line);) {
     if (std::smatch match; std::regex_search(line, match, kInclude)) includes.push_back(match[1]);
   }
@@ -87,7 +72,7 @@ TEST(Architecture, OnlyRuntimeIncludesLcmAndClocks) {
     if (file.string().starts_with("lib/runtime/")) continue;
     // What work costs a thread: a figure for people, no decision hangs on it.
     const bool may_measure_work = file == "lib/base/processor_time.hpp";
-    const std::string text = read_file(kRoot / file);
+    const std::string text = text_of(file);
     for (const char* call : {"clock_gettime", "gettimeofday", "std::time(", "std::clock("})
       EXPECT_TRUE(may_measure_work || text.find(call) == std::string::npos) << file << " calls " << call;
     for (const std::string& include : includes_of(file)) {
@@ -114,7 +99,7 @@ TEST(Architecture, OnlyTheLaboratoryAndItsToolsReadTheTruth) {
     for (const fs::path& file : sources_below(folder)) {
       if (std::any_of(allowed.begin(), allowed.end(), [&](const auto& p) { return file.string().starts_with(p); }))
         continue;
-      const std::string text = read_file(kRoot / file);
+      const std::string text = text_of(file);
       EXPECT_EQ(text.find("truth.toml"), std::string::npos) << file;
       for (const std::string& include : includes_of(file)) {
         EXPECT_FALSE(include.starts_with("laboratory/") || include.starts_with("virtual_lab/")) << file;
@@ -126,9 +111,39 @@ TEST(Architecture, OnlyTheLaboratoryAndItsToolsReadTheTruth) {
 TEST(Architecture, NoFileIsLongerThanFiveHundredLines) {
   for (const char* folder : {"lib", "nodes"}) {
     for (const fs::path& file : sources_below(folder)) {
-      const std::string text = read_file(kRoot / file);
+      const std::string text = text_of(file);
       EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500) << file;
     }
+  }
+}
+
+/// A source is declared in the header of its own name, or its first line says what it is a part of.
+bool has_a_header_or_says_of_what_it_is_a_part(const fs::path& source) {
+  for (const char* extension : {".hpp", ".ipp"}) {
+    if (fs::exists(kRoot / fs::path(source).replace_extension(extension))) return true;
+  }
+  return text_of(source).starts_with("// Part of ");
+}
+
+TEST(Architecture, EverySourceHasAHeaderOrSaysOfWhatItIsAPart) {
+  for (const char* folder : {"lib", "nodes"}) {
+    for (const fs::path& file : sources_below(folder)) {
+      if (file.extension() != ".cpp" || file.filename() == "main.cpp") continue;
+      EXPECT_TRUE(has_a_header_or_says_of_what_it_is_a_part(file)) << file;
+    }
+  }
+}
+
+TEST(Architecture, NodesAreThinMainsOnPureCores) {
+  const std::map<std::string, int> most_lines = {{"nodes/analyser", 1200}, {"nodes/virtual_lab", 800}};
+  for (const auto& [folder, most] : most_lines) {
+    std::ptrdiff_t lines = 0;
+    for (const fs::path& file : sources_below(folder)) {
+      const std::string text = text_of(file);
+      lines += std::count(text.begin(), text.end(), '\n');
+    }
+    EXPECT_GT(lines, 0) << folder;
+    EXPECT_LT(lines, most) << folder;
   }
 }
 
