@@ -43,7 +43,7 @@ function missingFor(f: Family, kind: Kind): string {
 }
 
 /** Whether a family's own model can be trusted. Where all its variants were rejected, nobody knows. */
-function judge(f: Family): { text: string; kind: "bad" | "quiet" | "" } {
+function trustIn(f: Family): { text: string; kind: "bad" | "quiet" | "" } {
   const faults = faultsOf(f);
   if (faults) return { text: faults, kind: "bad" };
   if (!f.is_validated) return { text: "not measured yet", kind: "quiet" };
@@ -65,10 +65,10 @@ export function ErrorTable({ families, which }: { families: Family[]; which: "se
     csv: "own_model",
     words: true,
     show: (f: Family) => {
-      const { text, kind } = judge(f);
+      const { text, kind } = trustIn(f);
       return kind === "bad" ? <strong class="bad">{text}</strong> : <span class={kind}>{text}</span>;
     },
-    value: (f: Family) => judge(f).text,
+    value: (f: Family) => trustIn(f).text,
   };
   return (
     <Table

@@ -5,13 +5,7 @@ import { bytes, duration, words } from "./numbers";
 import { Bar, Table, type Column } from "./parts";
 import { toApprove } from "./status";
 
-const SHORT: Record<string, string> = {
-  virtual_lab: "laboratory",
-  simulator_farm: "farm",
-  proposal_agent: "proposal",
-  validation_agent: "validation",
-  analyser: "analyser",
-};
+const nameOf = (node: string) => (node === "virtual_lab" ? "virtual laboratory" : words(node));
 
 /** What a node is doing; where designs wait for a person, a link to where they are approved. */
 function Phase({ node }: { node: NodeState }) {
@@ -26,7 +20,7 @@ export function NodeStrip({ live }: { live: Live }) {
         <li key={n.node} class={n.state} title={n.last_problem || n.work || undefined}>
           <div>
             <span class={`dot ${n.last_problem ? "problem" : n.state}`} aria-hidden="true" />
-            <strong>{SHORT[n.node] ?? words(n.node)}</strong>
+            <strong>{nameOf(n.node)}</strong>
             <span class="quiet">
               {n.state === "running" ? (n.eta_s !== null && n.eta_s > 0 ? `${duration(n.eta_s)} left` : "") : n.state}
             </span>
@@ -34,7 +28,7 @@ export function NodeStrip({ live }: { live: Live }) {
           <p class="phase" title={n.phase || undefined}>
             <Phase node={n} />
           </p>
-          <Bar share={n.state === "finished" || n.state === "ended" ? 1 : n.progress} label={`progress of ${words(n.node)}`} />
+          <Bar share={n.state === "finished" || n.state === "ended" ? 1 : n.progress} label={`progress of the ${nameOf(n.node)}`} />
         </li>
       ))}
     </ul>
@@ -45,7 +39,7 @@ const name: Column<NodeState> = {
   heading: "node",
   hint: "A process with one task.",
   words: true,
-  show: (n) => words(n.node),
+  show: (n) => nameOf(n.node),
   value: (n) => n.node,
 };
 

@@ -80,7 +80,7 @@ export function Proposals({
     if (isTaken) setWhy((now) => (now === why ? "" : now));
     return isTaken;
   };
-  const answerTo = (design: string, approved: boolean) =>
+  const approveOrReject = (design: string, approved: boolean) =>
     approve(design, offer!.round, approved, `${design} is ${approved ? "approved" : "rejected"}.`);
   const isOpen = (design: string) => (stateOf(design)?.state ?? "pending") === "pending";
   if (!offer)
@@ -121,10 +121,10 @@ export function Proposals({
                 </p>
                 {waits && isOpen(p.design) && (
                   <div class="buttons">
-                    <button type="button" disabled={busy || !by} onClick={() => answerTo(p.design, true)}>
+                    <button type="button" disabled={busy || !by} onClick={() => approveOrReject(p.design, true)}>
                       Approve
                     </button>
-                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => answerTo(p.design, false)}>
+                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => approveOrReject(p.design, false)}>
                       Reject
                     </button>
                   </div>
