@@ -100,7 +100,8 @@ build_page() {
   [ "${NACRE_PAGE:-1}" != 0 ] || { say "page: left out"; return 0; }
   local web="$NACRE_ROOT/web" log="$NACRE_ROOT/build/page.log" page="$NACRE_ROOT/build/web/page.js"
   [ -f "$page" ] &&
-    [ -z "$(find "$web" -path "$web/node_modules" -prune -o -type f -newer "$page" -print -quit)" ] &&
+    [ -z "$(find "$web" "$NACRE_ROOT/docs/GLOSSARY.md" -path "$web/node_modules" -prune -o -type f -newer "$page" \
+      -print -quit)" ] &&
     { [ "${1:-}" != required ] || [ -d "$web/node_modules/playwright-core" ]; } && return 0
   mkdir -p "$NACRE_ROOT/build"
   say "page: bundling web/"

@@ -1,6 +1,5 @@
-// One design, from everything that was said of it.
+#include "dashboard/design_view.hpp"
 
-#include "dashboard/views.hpp"
 #include "game/standings.hpp"
 #include "measurement/conditions.hpp"
 #include "pattern/constraints.hpp"

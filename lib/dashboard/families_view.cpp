@@ -1,6 +1,5 @@
-// The families of a run: what the stage after the game says of them, and how designs are grouped now.
+#include "dashboard/families_view.hpp"
 
-#include "dashboard/views.hpp"
 #include "game/family_errors.hpp"
 #include "store/measured_patterns.hpp"
 

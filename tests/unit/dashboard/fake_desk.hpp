@@ -1,5 +1,5 @@
 #pragma once
-// A desk without a run behind it: it keeps what is handed in.
+// A desk without a run behind it: it keeps what is entered.
 
 #include <optional>
 #include <string>
