@@ -13,8 +13,9 @@
 namespace nacre::fem::NACRE_SIMD {
 
 // clang-format off: the packs come first
-#include "fem/explicit_law.ipp"
 #include "fem/simd_packs.hpp"
+
+#include "fem/explicit_law.ipp"
 // clang-format on
 
 /// v(i-1) + v(i) + v(i+1), symmetric to the last bit.
