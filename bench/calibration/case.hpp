@@ -7,7 +7,7 @@
 #include "commands.hpp"
 #include "laboratory/truth.hpp"
 #include "measurement/measurement.hpp"
-#include "sysid/offline.hpp"
+#include "sysid/local_simulator.hpp"
 
 namespace nacre::calibration_study {
 

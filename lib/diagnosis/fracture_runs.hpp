@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diagnosis/observations.hpp"
+#include "sysid/local_simulator.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::diagnosis {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::game {
 

@@ -10,7 +10,7 @@
 
 #include "measurement/measurement.hpp"
 #include "optimize/pareto.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::game {
 

@@ -1,9 +1,8 @@
-// How far the result of a calibration can be trusted.
+#include "sysid/provenance.hpp"
 
 #include <algorithm>
 #include <iterator>
 
-#include "sysid/calibration.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::sysid {

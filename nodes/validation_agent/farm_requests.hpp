@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "measurement/measurement.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
+#include "sysid/wanted_evaluation.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::validation_agent {

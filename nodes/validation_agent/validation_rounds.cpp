@@ -8,6 +8,8 @@
 #include "base/random.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/provenance.hpp"
 #include "validation_agent/validation_core.hpp"
 #include "wire/schema.hpp"
 

@@ -13,7 +13,9 @@
 #include "base/random.hpp"
 #include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
+#include "sysid/base_calibration.hpp"
 #include "sysid/objective.hpp"
+#include "sysid/provenance.hpp"
 
 namespace nacre::sysid {
 namespace {
