@@ -2,7 +2,7 @@
 
 #include "analyser/works.hpp"
 #include "base/expected.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "material/extensions.hpp"
 #include "runtime/journal.hpp"
 
