@@ -22,10 +22,9 @@ namespace nacre::sysid {
 struct CalibrationSettings {
   material::FitTarget target = material::FitTarget::microstructures;
   material::ParameterRanges ranges = material::thesis_ranges();  ///< no fitted parameter leaves them
-  material::ParameterSet start;  ///< initial guess; its extensions are kept as they are
-  std::vector<material::ParameterSet>
-      other_starts;                       ///< further initial guesses for eta, in its first batch; empty: chosen in the
-                                          ///< ranges
+  material::ParameterSet start;                                  ///< initial guess; its extensions are kept as they are
+  std::vector<material::ParameterSet> other_starts;  ///< further initial guesses for eta, in its first batch; empty:
+                                                     ///< chosen in the ranges
   int modulus_budget = 120;               ///< evaluations of the modulus set; 0 keeps theta
   int toughness_budget = 25;              ///< evaluations of the toughness set, of each search; 0 keeps eta
   int batch = thesis::kCalibrationBatch;  ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)

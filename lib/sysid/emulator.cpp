@@ -295,8 +295,8 @@ std::vector<double> toughness_deviations(const FitData& data, const std::vector<
   std::vector<double> deviations(kEtaCount, kUnknownDeviation);
   if (trials.size() < 2) return deviations;
   const ToughnessModel model = toughness_model(data, trials, best, spans, poisson_searched);
-  const std::vector<double> searched = parameter_deviations(model.slopes, model.residuals, model.weights, kSmallestNoise,
-                                                        shared_fracture_errors(data.measured, floor));
+  const std::vector<double> searched = parameter_deviations(
+      model.slopes, model.residuals, model.weights, kSmallestNoise, shared_fracture_errors(data.measured, floor));
   for (std::size_t k = 0; k < model.searched.size(); ++k) deviations[model.searched[k]] = searched[k];
   return deviations;
 }

@@ -2,10 +2,10 @@
 // Predictions of the toughness tester at parameters where it was not run yet, from the runs that there are: two
 // features per design, log T and log peak stress, each a Gaussian process over the logarithms of the parameters.
 //
-// The prior mean and the linear part of the covariance follow from dimensional analysis of a brittle elastic body pulled
-// slowly: scaling all moduli by a and all failure energies by b scales toughness by b, stress by sqrt(a b), strain by
-// sqrt(b / a). How the sums split over the three materials, and everything else, is learnt. All designs share one
-// covariance, so that a refit costs one factorisation whatever their number.
+// The prior mean and the linear part of the covariance follow from dimensional analysis of a brittle elastic body
+// pulled slowly: scaling all moduli by a and all failure energies by b scales toughness by b, stress by sqrt(a b),
+// strain by sqrt(b / a). How the sums split over the three materials, and everything else, is learnt. All designs share
+// one covariance, so that a refit costs one factorisation whatever their number.
 
 #include <Eigen/Dense>
 #include <span>

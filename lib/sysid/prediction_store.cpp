@@ -56,7 +56,8 @@ PredictionStore::PredictionStore(const std::filesystem::path& file) {
   if (!exists && file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   file_.emplace(file, std::ios::binary | std::ios::app);
   if (!is_store) file_->write(kMagic.data(), static_cast<std::streamsize>(kMagic.size())).flush();
-  if (!*file_) throw InputError::format("{}: the store of predictions cannot be written; is the folder writable?", file.string());
+  if (!*file_)
+    throw InputError::format("{}: the store of predictions cannot be written; is the folder writable?", file.string());
 }
 
 bool PredictionStore::read(const std::filesystem::path& file) {
