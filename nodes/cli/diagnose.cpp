@@ -6,8 +6,9 @@
 
 #include "base/files.hpp"
 #include "command.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "diagnosis/included_specimens.hpp"
+#include "diagnosis/json.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/table_trends.hpp"
 #include "material/effect_words.hpp"
