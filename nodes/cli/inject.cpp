@@ -1,4 +1,4 @@
-// nacre inject: measurements from anywhere into a running game.
+// Part of the command line (command.hpp): nacre inject, measurements from anywhere into a running game.
 
 #include <algorithm>
 #include <chrono>
@@ -30,7 +30,7 @@ struct Options {
   bool json = false;
 };
 
-/// What became of the specimens of a set.
+/// How many specimens of a set arrived.
 struct Delivery {
   int accepted = 0;    ///< new to the validation agent
   int repeated = 0;    ///< it had them already
@@ -155,10 +155,11 @@ int inject(const Options& options) {
 
 void add_inject(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
-  CLI::App& command = add_command(app, action, "inject", "Bring measurements into a running game", options, inject);
+  CLI::App& command = add_command(app, action, "inject", "Hand measurements to a running game", options, inject);
   command.add_option("SET", options->set, "Measurement set: a folder with measurements.csv")->required();
   add_run_option(command, options->run);
-  command.add_option("--timeout-s", options->timeout_s, "How long to wait for the nodes that take measurements")
+  command
+      .add_option("--timeout-s", options->timeout_s, "How many seconds to wait for the nodes that take measurements")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

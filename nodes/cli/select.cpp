@@ -1,4 +1,4 @@
-// nacre select: which samples of a gamut are worth a measurement.
+// Part of the command line (command.hpp): nacre select, the samples of a gamut that are worth a measurement.
 
 #include "select/select.hpp"
 
@@ -23,7 +23,7 @@ struct Options {
   bool json = false;
 };
 
-/// What is measured already: patterns, and the homogeneous line l1 as a game draws it.
+/// Patterns that are measured already, and the line of homogeneous mixtures (l1 of the thesis) as a game draws it.
 struct Measured {
   std::vector<pattern::Pattern> patterns;  ///< sorted
   std::vector<optimize::Performance> benchmark;
@@ -48,7 +48,7 @@ std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const Meas
   if (std::ranges::all_of(
           gamut, [&](const auto& each) { return std::ranges::binary_search(measured.patterns, each.pattern); }))
     return "nothing to select: every sample of the gamut was measured already";
-  return "nothing to select: no sample of the gamut lies above the benchmark lines";
+  return "nothing to select: no sample of the gamut is better than the homogeneous mixtures and the measured designs";
 }
 
 int select_samples(const Options& options) {
@@ -63,10 +63,8 @@ int select_samples(const Options& options) {
                         {"reason", one.reason},
                         {"bin", one.bin}});
     if (options.json) continue;
-    // As in the reason, bins count from 1; what fills up has none.
-    const std::string bin = one.bin < 0 ? "-" : std::to_string(one.bin + 1);
-    fmt::print("{}  E {} GPa  T {} MPa  bin {:>2}  {}\n", one.pattern.key(), shown(1e-9 * one.predicted.modulus_pa),
-               shown(1e-6 * one.predicted.toughness_pa), bin, one.reason);
+    fmt::print("{}  E {} GPa  T {} MPa  {}\n", one.pattern.key(), shown(1e-9 * one.predicted.modulus_pa),
+               shown(1e-6 * one.predicted.toughness_pa), one.reason);
   }
   if (options.json) print_json(document);
   if (!selected.empty() && selected.size() < static_cast<std::size_t>(options.count))
@@ -82,9 +80,12 @@ void add_select(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = add_command(app, action, "select", "Choose the samples of a gamut that are worth a measurement",
                                   options, select_samples);
-  command.add_option("GAMUT", options->gamut, "gamut.csv of nacre explore")->required();
-  command.add_option("--measured", options->measured, "Measurement set: patterns to stay away from, homogeneous line");
-  command.add_option("--count", options->count, "How many")->check(CLI::Range(1, 1000))->capture_default_str();
+  command.add_option("GAMUT", options->gamut, "gamut.csv, as nacre explore writes it")->required();
+  command.add_option("--measured", options->measured,
+                     "Measurement set: patterns that are measured already, and homogeneous mixtures to beat");
+  command.add_option("--count", options->count, "How many to choose")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");
 }
 
