@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "laboratory/truth.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::calibration_study {

@@ -12,9 +12,8 @@
 #include "diagnosis/fracture_discretisation.hpp"
 #include "diagnosis/modulus_floor.hpp"
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::diagnosis {
 

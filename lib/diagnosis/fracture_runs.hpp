@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "diagnosis/observations.hpp"
+#include "measurement/observe.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::diagnosis {

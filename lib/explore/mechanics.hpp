@@ -2,7 +2,8 @@
 // What elasticity says of patterns, for searches that may ask for it: hundredths of what a fracture costs and less.
 
 #include "explore/search.hpp"
-#include "tester/tester.hpp"
+#include "material/parameters.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::explore {
 

@@ -44,7 +44,7 @@ struct PaperSource {
   std::vector<measurement::Replicates> base_materials;  ///< that round 0 was fitted to
   std::vector<SearchPath> searches;                     ///< by round and branch
   ModelPredictions predictions;
-  std::vector<families::Family> groups;
+  std::vector<families::SeedFamily> groups;
   std::string groups_from;         ///< where they come from, in words
   std::vector<SubfamilyMap> maps;  ///< by family and seed
 };

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "measurement/summary.hpp"
 #include "sysid/calibration.hpp"
 #include "sysid/ratio_search.hpp"
 

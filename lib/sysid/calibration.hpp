@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
+#include "measurement/summary.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::sysid {

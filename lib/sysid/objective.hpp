@@ -1,6 +1,7 @@
 #pragma once
 // Pieces of objective (2.8) that the fits share.
 
+#include "measurement/observe.hpp"
 #include "measurement/reduction.hpp"
 #include "sysid/calibration.hpp"
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measurement/read_set.hpp"
 #include "sysid/calibration.hpp"
 
 namespace nacre::sysid {

@@ -8,6 +8,7 @@
 
 #include "base/counted.hpp"
 #include "command.hpp"
+#include "measurement/write_import.hpp"
 #include "output.hpp"
 
 namespace nacre::cli {

@@ -7,6 +7,7 @@
 #include "base/counted.hpp"
 #include "command.hpp"
 #include "laboratory/laboratory.hpp"
+#include "laboratory/measure_set.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "pattern/design.hpp"

@@ -12,6 +12,7 @@
 #include "laboratory_view.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/history.hpp"
 #include "measurement/set_table.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
@@ -105,7 +106,7 @@ std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<Spe
   measurement::SetTable table(options.set);
   for (const SpecimenReview& review : reviews) {
     if (!table.holds(review.specimen)) throw unknown_specimen(review.specimen, options.set, table.size());
-    table.judge(review.specimen, review.valid, fmt::format("{} ({})", review.why, options.by));
+    table.review(review.specimen, review.valid, fmt::format("{} ({})", review.why, options.by));
     reviewed.push_back({review, std::nullopt});
   }
   table.write(options.set);

@@ -10,7 +10,6 @@
 #include "command.hpp"
 #include "explore/gamut_csv.hpp"
 #include "game/standings.hpp"
-#include "measurement/measurement.hpp"
 #include "output.hpp"
 
 namespace nacre::cli {
