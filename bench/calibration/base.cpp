@@ -6,6 +6,7 @@
 
 #include "case.hpp"
 #include "game/reference_tables.hpp"
+#include "sysid/offline.hpp"
 #include "table.hpp"
 
 namespace nacre::calibration_study {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/statistics.hpp"
+#include "sysid/offline.hpp"
 
 namespace nacre::calibration_study {
 namespace {

@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "laboratory/truth.hpp"
 #include "measurement/summary.hpp"
+#include "sysid/local_simulator.hpp"
 #include "sysid/offline.hpp"
 
 namespace nacre::calibration_study {

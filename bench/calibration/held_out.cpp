@@ -9,6 +9,7 @@
 
 #include "baselines.hpp"
 #include "case.hpp"
+#include "sysid/offline.hpp"
 #include "table.hpp"
 
 namespace nacre::calibration_study {

@@ -7,6 +7,10 @@
 #include "case.hpp"
 #include "material/ranges.hpp"
 #include "optimize/batch_optimizer.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/objective.hpp"
+#include "sysid/offline.hpp"
+#include "sysid/weights.hpp"
 #include "table.hpp"
 
 namespace nacre::calibration_study {

@@ -55,7 +55,7 @@ std::vector<std::size_t> parts_of_rows(const Observations& observations) {
   constexpr std::size_t kTests = 3;
   std::map<std::string, std::size_t> materials;
   std::vector<std::size_t> parts;
-  for (const Row& row : observations.rows) {
+  for (const DataRow& row : observations.rows) {
     parts.push_back(static_cast<std::size_t>(row.test));
     if (row.group < 0 || row.test != tester::TestKind::tensile) continue;
     const std::string material = observations.groups[row.group].material();

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kFewestReadings = 128;
 constexpr double kFewestPieces = 8, kMostPieces = 64;
 
-/// Standard deviation of single readings, from how far each lies beside the line between its neighbours; the median, so
+/// Standard deviation of single readings, from the distance of each to the line between its neighbours; the median, so
 /// that bends do not count.
 double scatter_of(const tester::Curve& curve) {
   std::vector<double> deviations;

@@ -12,9 +12,10 @@
 
 namespace nacre::fem::NACRE_SIMD {
 
-// clang-format off: the packs come first
-#include "fem/explicit_law.ipp"
+// The packs come first.
+// clang-format off
 #include "fem/simd_packs.hpp"
+#include "fem/explicit_law.ipp"
 // clang-format on
 
 /// v(i-1) + v(i) + v(i+1), symmetric to the last bit.

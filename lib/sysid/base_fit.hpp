@@ -1,16 +1,19 @@
 #pragma once
-// Round 0 (thesis 3.2) for one material: the parameters that its own tests depend on.
+// Round 0 (thesis 3.2) for one material: the parameters that its own tests depend on. T grows with W at constant E;
+// peak stress with sqrt(E W).
 
 #include <optional>
 #include <vector>
 
+#include "material/ranges.hpp"
 #include "measurement/summary.hpp"
 #include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 #include "sysid/ratio_search.hpp"
 
 namespace nacre::sysid {
 
-/// Relative error of a base material's toughness at which its fit has done what round 0 asks.
+/// Relative error of a base material's toughness at which its fit has done its task.
 inline constexpr double kToughnessAim = 0.01;
 
 /// The parameters of one material in the toughness tester.

@@ -18,6 +18,7 @@
 #include "shipped_files.hpp"
 #include "specimen_doubts.hpp"
 #include "sysid/offline.hpp"
+#include "sysid/provenance.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::cli {

@@ -18,7 +18,7 @@
 #include "output.hpp"
 #include "output_path.hpp"
 #include "run_access.hpp"
-#include "sysid/offline.hpp"
+#include "sysid/local_simulator.hpp"
 
 namespace nacre::cli {
 namespace {

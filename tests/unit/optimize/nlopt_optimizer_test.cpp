@@ -8,7 +8,7 @@
 #include "base/hash.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
-#include "optimize/batch_optimizer.hpp"
+#include "optimize/nlopt_optimizer.hpp"
 #include "optimize/space_filling.hpp"
 
 namespace nacre::optimize {

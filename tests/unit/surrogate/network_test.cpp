@@ -29,7 +29,7 @@ struct Problem {
   Samples samples() const { return {patterns, values}; }
 };
 
-/// Soft pixels beside rigid ones.
+/// Soft pixels next to rigid ones.
 Problem some_problem(int count, std::uint64_t seed) {
   RandomStream random(seed, "test");
   Problem problem;
@@ -82,8 +82,8 @@ TEST_F(WithNetworks, MembersDisagreeFarFromWhatTheyLearnt) {
   std::vector<pattern::Pattern> far;  // nearly all soft, where the design space has half and more rigid
   for (int b = 0; b < pattern::kFreePixels; ++b) far.emplace_back(std::uint64_t{1} << b);
   double at_samples = 0.0, elsewhere = 0.0;
-  for (const Prediction& each : ensemble->predict(learnt.patterns)) at_samples += each.deviation / 150.0;
-  for (const Prediction& each : ensemble->predict(far)) elsewhere += each.deviation / pattern::kFreePixels;
+  for (const PatternPrediction& each : ensemble->predict(learnt.patterns)) at_samples += each.deviation / 150.0;
+  for (const PatternPrediction& each : ensemble->predict(far)) elsewhere += each.deviation / pattern::kFreePixels;
   EXPECT_GT(elsewhere, 1.5 * at_samples);
 }
 

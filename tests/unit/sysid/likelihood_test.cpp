@@ -7,6 +7,8 @@
 
 #include "base/files.hpp"
 #include "base/random.hpp"
+#include "base/result.hpp"
+#include "sysid/discretisation_floor.hpp"
 #include "sysid/feature_posterior.hpp"
 #include "sysid/features.hpp"
 
@@ -181,7 +183,7 @@ TEST(DiscretisationFloor, IsReadFromTheTableOfItsFidelity) {
   EXPECT_THROW(read_discretisation_floor(file, tester::Fidelity::tiny), InputError);
 }
 
-TEST(DiscretisationFloor, NoneLeavesNothingOfAnyQuantity) {
+TEST(DiscretisationFloor, NoneIsZeroForEveryQuantity) {
   const DiscretisationFloor none = DiscretisationFloor::none();
   for (const double sd : {none.log_modulus_sd, none.log_toughness_sd, none.log_peak_sd, none.log_modulus_common_sd,
                           none.log_toughness_common_sd, none.log_peak_common_sd, none.log_modulus_trend_sd,

@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "sysid/emulator.hpp"
-#include "sysid/fit.hpp"
+#include "sysid/least_squares_fit.hpp"
 
 namespace nacre::sysid {
 namespace {

@@ -1,6 +1,7 @@
-#include <algorithm>
+#include "sysid/toughness_search.hpp"
 
-#include "sysid/calibration.hpp"
+#include <algorithm>
+#include <string>
 
 namespace nacre::sysid {
 namespace {
