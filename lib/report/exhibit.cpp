@@ -18,8 +18,8 @@ constexpr int kPictureInTable = 34;  // px
 
 std::string kept_number(const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : ""; }
 
-RowKind kind_of(const ExhibitTable& table, std::size_t row) {
-  return row < table.kinds.size() ? table.kinds[row] : RowKind::own;
+TableRowKind kind_of(const ExhibitTable& table, std::size_t row) {
+  return row < table.kinds.size() ? table.kinds[row] : TableRowKind::own;
 }
 
 std::string heading_cell(std::string_view attributes, const std::string& text, const std::string& hint) {
@@ -49,9 +49,9 @@ std::string table_head(const ExhibitTable& table) {
 }
 
 std::string_view row_classes(const ExhibitTable& table, std::size_t row) {
-  if (kind_of(table, row) == RowKind::aside) return "aside";
-  if (kind_of(table, row) == RowKind::own) return "";
-  return row > 0 && kind_of(table, row - 1) != RowKind::thesis ? "reference first-reference" : "reference";
+  if (kind_of(table, row) == TableRowKind::aside) return "aside";
+  if (kind_of(table, row) == TableRowKind::own) return "";
+  return row > 0 && kind_of(table, row - 1) != TableRowKind::thesis ? "reference first-reference" : "reference";
 }
 
 std::string files_of(const Exhibit& exhibit) {
@@ -111,7 +111,7 @@ Cell share_cell(const std::optional<double>& share) { return {percent_or_dash(sh
 Cell error_cell(int count, double error) { return share_cell(game::error_over(count, error)); }
 Cell number_cell(const std::optional<double>& value) { return {value ? figure(*value) : "–", kept_number(value)}; }
 
-void ExhibitTable::add(std::vector<Cell> row, RowKind kind) {
+void ExhibitTable::add(std::vector<Cell> row, TableRowKind kind) {
   rows.push_back(std::move(row));
   kinds.resize(rows.size() - 1);
   kinds.push_back(kind);
@@ -143,7 +143,7 @@ std::string csv_of(const ExhibitTable& table) {
   text += ",whose\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     for (const Cell& cell : table.rows[i]) text += csv_cell(cell.kept) + ",";
-    text += kind_of(table, i) == RowKind::thesis ? "thesis\n" : "run\n";
+    text += kind_of(table, i) == TableRowKind::thesis ? "thesis\n" : "run\n";
   }
   return text;
 }

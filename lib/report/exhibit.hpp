@@ -33,16 +33,16 @@ struct TableColumn {
 };
 
 /// Whose row it is; what stands aside is shown, but counts nowhere.
-enum class RowKind { own, thesis, aside };
+enum class TableRowKind { own, thesis, aside };
 
 struct ExhibitTable {
   std::string name;  ///< of the file, without .csv; empty: no file
   std::vector<TableColumn> columns;
   std::vector<std::vector<Cell>> rows = {};
-  std::vector<RowKind> kinds = {};  ///< per row
-  bool on_page = true;              ///< false: the data of a figure
-  std::string look = {};            ///< CSS classes: "words" for text, "words wrapped" for sentences
-  void add(std::vector<Cell> row, RowKind kind = RowKind::own);
+  std::vector<TableRowKind> kinds = {};  ///< per row
+  bool on_page = true;                   ///< false: the data of a figure
+  std::string look = {};                 ///< CSS classes: "words" for text, "words wrapped" for sentences
+  void add(std::vector<Cell> row, TableRowKind kind = TableRowKind::own);
 };
 
 struct ExhibitFigure {

@@ -84,7 +84,7 @@ ExhibitTable errors_table(const PaperSource& source, const std::string& name, bo
          error_cell(global.toughness_count, global.toughness_mean),
          error_cell(global.toughness_count, global.toughness_max), error_cell(own.toughness_count, own.toughness_mean),
          error_cell(own.toughness_count, own.toughness_max)},
-        family.is_thesis ? RowKind::thesis : RowKind::own);
+        family.is_thesis ? TableRowKind::thesis : TableRowKind::own);
   }
   return table;
 }

@@ -82,7 +82,7 @@ ExhibitTable hypervolume_data(const PaperSource& source) {
     if (measured)
       table.add({text_cell(fmt::format("thesis {}", round)), number_cell(measured), number_cell(std::nullopt),
                  number_cell(std::nullopt), number_cell(std::nullopt), number_cell(std::nullopt), text_cell("")},
-                RowKind::thesis);
+                TableRowKind::thesis);
   }
   return table;
 }
@@ -147,7 +147,7 @@ ExhibitTable best_table(const std::vector<ComparedDesign>& best, const std::opti
     table.add({text_cell(fmt::format("thesis {}", ++number)), share_cell(0.01 * t.rigid_percent),
                gpa_cell(1e9 * t.modulus_gpa), mpa_cell(1e6 * t.toughness_mpa), times_cell(t.gain_modulus),
                times_cell(t.gain_toughness), times_cell(t.gain_base)},
-              RowKind::thesis);
+              TableRowKind::thesis);
   return table;
 }
 
@@ -251,7 +251,7 @@ ExhibitTable error_table(const PaperSource& source) {
                                  {"toughness_held_out_mean", "T", kNew, "out-of-sample"}}};
   const auto add = [&](const std::string& round, int count, const sysid::PredictionErrors& before,
                        const sysid::PredictionErrors& after, const sysid::PredictionErrors& out_of_sample,
-                       RowKind kind) {
+                       TableRowKind kind) {
     table.add(
         {text_cell(round), text_cell(std::to_string(count)), error_cell(before.modulus_count, before.modulus_mean),
          error_cell(before.modulus_count, before.modulus_max), error_cell(after.modulus_count, after.modulus_mean),
@@ -266,11 +266,11 @@ ExhibitTable error_table(const PaperSource& source) {
   for (const auto& [number, round] : source.run.rounds)
     if (round.summary)
       add(std::to_string(number), round.summary->calibration_count, round.summary->before, round.summary->after,
-          round.summary->held_out, RowKind::own);
+          round.summary->held_out, TableRowKind::own);
   for (int round = 1; round <= 4 && !source.thesis.samples.empty(); ++round) {
     const auto before = thesis_errors(source, round, 0),
                after = thesis_errors(source, round, static_cast<std::size_t>(round));
-    add(fmt::format("thesis {}", round), before.modulus_count, before, after, {}, RowKind::thesis);
+    add(fmt::format("thesis {}", round), before.modulus_count, before, after, {}, TableRowKind::thesis);
   }
   return table;
 }
@@ -355,7 +355,7 @@ Exhibit base_material_exhibit(const PaperSource& source) {
                                  {"simulated_toughness_pa", "simulated", "", "T (MPa)"},
                                  {"toughness_error", "error", "", "T (MPa)"}}};
   const auto add = [&](const std::string& name, const game::DesignValues& measured, const game::DesignValues& simulated,
-                       RowKind kind) {
+                       TableRowKind kind) {
     table.add({text_cell(name), gpa_cell(measured.modulus_pa), gpa_cell(simulated.modulus_pa),
                share_cell(error_of(simulated.modulus_pa, measured.modulus_pa)), mpa_cell(measured.toughness_pa),
                mpa_cell(simulated.toughness_pa), share_cell(error_of(simulated.toughness_pa, measured.toughness_pa))},
@@ -369,10 +369,10 @@ Exhibit base_material_exhibit(const PaperSource& source) {
       continue;
     found = true;
     add(name, {.modulus_pa = material->modulus_pa, .toughness_pa = material->toughness_pa}, model->second.at(design),
-        RowKind::own);
+        TableRowKind::own);
   }
   for (const game::ThesisMaterial& material : source.thesis.materials)
-    add("thesis " + material.name, material.measured, material.simulated, RowKind::thesis);
+    add("thesis " + material.name, material.measured, material.simulated, TableRowKind::thesis);
   exhibit.notes.push_back(
       found ? "The model of round 0 on the measurements that it was fitted to (<code>base_materials_file</code>)."
             : "The base materials, or the predictions of round 0's model for them, are not in this folder "

@@ -262,18 +262,18 @@ Exhibit growth_appendix(const PaperSource& source) {
                                  {"after", "patterns after"},
                                  {"growth", "increase"}}};
   std::size_t before = 0, after = 0;
-  const auto row = [&](const std::string& family, Cell seed, std::size_t sampled, std::size_t all, RowKind kind) {
+  const auto row = [&](const std::string& family, Cell seed, std::size_t sampled, std::size_t all, TableRowKind kind) {
     table.add({text_cell(family), std::move(seed), text_cell(std::to_string(sampled)), text_cell(std::to_string(all)),
                share_cell(static_cast<double>(all - sampled) / static_cast<double>(sampled))},
               kind);
   };
   for (const SubfamilyMap& map : source.maps) {
-    row(map.family, design_cell(map.seed), count_of(map, false), map.points.size(), RowKind::own);
+    row(map.family, design_cell(map.seed), count_of(map, false), map.points.size(), TableRowKind::own);
     before += count_of(map, false);
     after += map.points.size();
   }
-  row("all", text_cell(""), before, after, RowKind::own);
-  row("thesis, all 11", text_cell(""), 24656, 25771, RowKind::thesis);
+  row("all", text_cell(""), before, after, TableRowKind::own);
+  row("thesis, all 11", text_cell(""), 24656, 25771, TableRowKind::thesis);
   exhibit.notes.push_back(
       "Growth depends on how dense the map is: few patterns leave wide triangles, with more room in them.");
   exhibit.tables.push_back(std::move(table));

@@ -30,7 +30,7 @@ std::string performance_table(const store::RecordedProposal& proposal, const Mea
     table.add({text_cell("prediction error"), shown_cell(deviation(p.modulus_pa, measured->mean.modulus_pa)),
                shown_cell(deviation(p.toughness_pa, measured->mean.toughness_pa))});
   } else {
-    table.add({text_cell("measured"), text_cell(missing), text_cell(missing)}, RowKind::aside);
+    table.add({text_cell("measured"), text_cell(missing), text_cell(missing)}, TableRowKind::aside);
   }
   return html_of(table);
 }
@@ -118,7 +118,7 @@ Exhibit specimen_exhibit(const store::RunRecord& run) {
   table.look = "words";
   int invalid = 0;
   for (const store::MeasuredSpecimen& m : run.specimens) {
-    table.add(specimen_row(m), m.record.valid ? RowKind::own : RowKind::aside);
+    table.add(specimen_row(m), m.record.valid ? TableRowKind::own : TableRowKind::aside);
     if (!m.record.valid) ++invalid;
   }
   exhibit.notes.push_back(

@@ -98,7 +98,7 @@ Exhibit error_exhibit(const store::RunRecord& run) {
     if (round.summary) table.add(own_row(run, number, *round.summary));
   if (table.rows.empty()) exhibit.notes.push_back(awaited("the end of round 0"));
   for (const ThesisRound& t : kThesisRounds)
-    table.add(thesis_row(t, &t == std::end(kThesisRounds) - 1), RowKind::thesis);
+    table.add(thesis_row(t, &t == std::end(kThesisRounds) - 1), TableRowKind::thesis);
   exhibit.tables.push_back(std::move(table));
   exhibit.fine_print.push_back(
       "Mean relative errors, in brackets the largest. Out-of-sample errors of the thesis follow from its Tables A.3 "

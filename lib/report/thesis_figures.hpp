@@ -1,6 +1,5 @@
 #pragma once
-// What the thesis reports of its own game, where it does not follow from data/thesis: the run's figures stand beside
-// it.
+// What the thesis reports of its own game, where it does not follow from data/thesis: shown with the run's figures.
 
 #include <algorithm>
 

@@ -23,13 +23,13 @@ struct Options {
 };
 
 /// Patterns that are measured already, and the line of homogeneous mixtures (l1 of the thesis) as a game draws it.
-struct Measured {
+struct MeasuredDesigns {
   std::vector<pattern::Pattern> patterns;  ///< sorted
   std::vector<optimize::Performance> benchmark;
 };
 
-Measured read_measured(const std::string& folder) {
-  Measured measured;
+MeasuredDesigns read_measured(const std::string& folder) {
+  MeasuredDesigns measured;
   if (folder.empty()) return measured;
   const measurement::MeasurementSet set = measurement::read_measurement_set(folder);
   warn_about(set, folder);
@@ -42,7 +42,7 @@ Measured read_measured(const std::string& folder) {
   return measured;
 }
 
-std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const Measured& measured) {
+std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const MeasuredDesigns& measured) {
   if (gamut.empty()) return "nothing to select: the gamut holds no sample";
   if (std::ranges::all_of(
           gamut, [&](const auto& each) { return std::ranges::binary_search(measured.patterns, each.pattern); }))
@@ -52,7 +52,7 @@ std::string why_nothing(const std::vector<explore::Evaluated>& gamut, const Meas
 
 int select_samples(const Options& options) {
   const std::vector<explore::Evaluated> gamut = explore::read_gamut_csv(options.gamut);
-  const Measured measured = read_measured(options.measured);
+  const MeasuredDesigns measured = read_measured(options.measured);
   const auto selected = select::select_designs(gamut, measured.patterns, measured.benchmark, {.count = options.count});
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const select::Selected& one : selected) {

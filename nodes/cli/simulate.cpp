@@ -91,11 +91,11 @@ bool is_first_of_its_design(const SimulatedSpecimen& specimen, const std::vector
 
 void run_tests(std::vector<SimulatedSpecimen>& specimens, const Options& options,
                const material::ParameterSet& parameters) {
-  struct Task {
+  struct SpecimenTest {
     SimulatedSpecimen* specimen;
     tester::TestKind test;
   };
-  std::vector<Task> tasks;  // the long tests first
+  std::vector<SpecimenTest> tasks;  // the long tests first
   for (const auto test : {tester::TestKind::toughness, tester::TestKind::modulus}) {
     if (options.test != "both" && options.test != tester::to_string(test)) continue;
     for (SimulatedSpecimen& specimen : specimens) tasks.push_back({&specimen, test});
@@ -103,7 +103,7 @@ void run_tests(std::vector<SimulatedSpecimen>& specimens, const Options& options
   const tester::Fidelity fidelity = fidelity_from_option(options.fidelity);
   Progress progress("simulate: tests", static_cast<std::int64_t>(tasks.size()));
   parallel_for(static_cast<int>(tasks.size()), [&](int i) {
-    const Task& task = tasks[i];
+    const SpecimenTest& task = tasks[i];
     SimulatedSpecimen& specimen = *task.specimen;
     const tester::Simulation simulation{specimen.design, parameters, {}, fidelity};
     if (task.test == tester::TestKind::modulus) {

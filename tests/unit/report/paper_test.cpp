@@ -103,7 +103,7 @@ TEST(Paper, TheThesisErrorsComeOutOfItsAppendixAsItsTableSays) {
   EXPECT_NEAR(std::stod(last[4].kept), 0.0650, 0.001);
   EXPECT_NEAR(std::stod(last[6].kept), 0.8238, 0.003);
   EXPECT_NEAR(std::stod(last[8].kept), 0.2710, 0.002);
-  EXPECT_EQ(table.kinds.back(), RowKind::thesis);
+  EXPECT_EQ(table.kinds.back(), TableRowKind::thesis);
 }
 
 TEST(Paper, ErrorsOfAPropertyThatWasNotMeasuredAreNoPoints) {
