@@ -1,4 +1,5 @@
-// Bundles the page into one folder without any reference to elsewhere. usage: node build.mjs [FOLDER]   (default: ../build/web)
+// Bundles the page and docs/GLOSSARY.md into one folder without any reference to elsewhere.
+// usage: node build.mjs [FOLDER]   (default: ../build/web)
 import { build } from "esbuild";
 import { copyFile, mkdir } from "node:fs/promises";
 import { dirname, resolve } from "node:path";
@@ -16,6 +17,7 @@ await build({
   target: "es2022",
   jsx: "automatic",
   jsxImportSource: "preact",
+  loader: { ".md": "text" },
   legalComments: "inline",
   logLevel: "warning",
 });

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "laboratory/effect_kinds.hpp"
 #include "laboratory/truth.hpp"
 #include "material/extensions.hpp"
 

@@ -15,7 +15,12 @@
 #include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "material/extensions.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 
@@ -79,7 +84,7 @@ std::vector<lab::Experiment> pulled_coupons(std::span<const double> fractions, s
 /// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
 std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
                                                  const std::vector<lab::Experiment>& experiments,
-                                                 const std::vector<Result<lab::Response>>& responses) {
+                                                 const std::vector<Result<lab::TrueResponse>>& responses) {
   std::vector<measurement::SpecimenRecord> records;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const lab::Experiment& q = experiments[i];
@@ -101,9 +106,9 @@ std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
 }
 
 /// Responses of the laboratory, on all cores.
-std::vector<Result<lab::Response>> responses_of(const lab::Truth& truth,
-                                                const std::vector<lab::Experiment>& experiments) {
-  std::vector<Result<lab::Response>> responses(experiments.size(), fail("not yet"));
+std::vector<Result<lab::TrueResponse>> responses_of(const lab::Truth& truth,
+                                                    const std::vector<lab::Experiment>& experiments) {
+  std::vector<Result<lab::TrueResponse>> responses(experiments.size(), fail("not yet"));
   parallel_for(static_cast<int>(experiments.size()),
                [&](int i) { responses[i] = lab::respond(truth, experiments[i]); });
   return responses;
@@ -119,7 +124,7 @@ Specimens without_fractures(Specimens specimens) {
 
 /// The planned specimens with values without scatter.
 Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& experiments,
-                          const std::vector<Result<lab::Response>>& responses, const Specimens& planned) {
+                          const std::vector<Result<lab::TrueResponse>>& responses, const Specimens& planned) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
   Specimens records;
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -292,7 +297,7 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
 void generate(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Experiment> experiments = experiments_of(trial, options);
-  const std::vector<Result<lab::Response>> responses = responses_of(truth, experiments);
+  const std::vector<Result<lab::TrueResponse>> responses = responses_of(truth, experiments);
   Specimens records = planned(trial, experiments, responses);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
@@ -340,7 +345,7 @@ void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options
     experiment.conditions = {.orientation_deg = ordered["orientation_deg"],
                              .strain_rate_per_s = ordered["strain_rate_per_s"],
                              .thickness_mm = ordered["thickness_mm"]};
-    const Result<lab::Response> response = lab::respond(truth, experiment);
+    const Result<lab::TrueResponse> response = lab::respond(truth, experiment);
     for (int i = 0; i < ordered["replicates"]; ++i) {
       const std::string number = std::to_string(records.size() + 1);
       records.push_back(lab::record_specimen(truth, experiment, response,

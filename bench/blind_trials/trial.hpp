@@ -8,6 +8,7 @@
 
 #include "diagnosis/plan.hpp"
 #include "laboratory/laboratory.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::blind_trials {
 

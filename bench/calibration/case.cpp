@@ -6,6 +6,8 @@
 #include <set>
 
 #include "designs.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "study_laboratory.hpp"
 
 namespace nacre::calibration_study {

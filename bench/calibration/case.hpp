@@ -6,8 +6,9 @@
 
 #include "commands.hpp"
 #include "laboratory/truth.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/local_simulator.hpp"
+#include "sysid/offline.hpp"
 
 namespace nacre::calibration_study {
 

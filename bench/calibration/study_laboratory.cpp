@@ -6,13 +6,16 @@
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "sysid/prediction_store.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::calibration_study {
 namespace {
 
 using laboratory::Experiment;
-using laboratory::Response;
+using laboratory::TrueResponse;
 using tester::TestKind;
 
 constexpr TestKind kTests[] = {TestKind::modulus, TestKind::toughness};
@@ -79,8 +82,8 @@ std::vector<measurement::SpecimenRecord> measure(const laboratory::Truth& truth,
     for (const TestKind test : kTests) {
       const Experiment experiment = experiment_of(truth, design, test);
       const sysid::Prediction& known = *store.find(key_of(truth, experiment));
-      Result<Response> response =
-          Response{.modulus_pa = known.modulus_pa.value_or(0.0), .curve = known.curve, .remark = {}};
+      Result<TrueResponse> response =
+          TrueResponse{.modulus_pa = known.modulus_pa.value_or(0.0), .curve = known.curve, .remark = {}};
       if (!known.modulus_pa && !known.toughness_pa) response = fail("the simulation failed");
       for (int k = 1; k <= truth.replicates; ++k) {
         const std::string name = fmt::format("{}-{}-{}", design.name(), tester::to_string(test), k);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "laboratory/laboratory.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::calibration_study {
 

@@ -16,10 +16,12 @@
 #include "base/result.hpp"
 #include "base/statistics.hpp"
 #include "base_refit.hpp"
+#include "laboratory/draw.hpp"
 #include "laboratory/laboratory.hpp"
 #include "pattern/random_pattern.hpp"
 #include "study/study_command.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace {
 

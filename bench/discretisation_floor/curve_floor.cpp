@@ -11,6 +11,7 @@
 #include "diagnosis/features.hpp"
 #include "floor_rows.hpp"
 #include "study/study_command.hpp"
+#include "tester/toughness.hpp"
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "material/ranges.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::discretisation_floor {
 namespace {

@@ -8,7 +8,7 @@
 #include "pattern/layout.hpp"
 #include "study/study_command.hpp"
 #include "study/study_table.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::discretisation_floor {
 

@@ -8,6 +8,7 @@
 
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::verification {
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "measurement/specimen_record.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::verification {

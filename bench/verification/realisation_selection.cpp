@@ -11,6 +11,7 @@
 #include "fracture_row.hpp"
 #include "game/model.hpp"
 #include "laboratory/laboratory.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "optimize/pareto.hpp"
 #include "played_game.hpp"
 #include "proposal_agent/realisations.hpp"

@@ -83,7 +83,7 @@ void Background::run() {
     task->state.stage = Stage::working;
     task->begun_us = runtime::steady_us();
     lock.unlock();
-    Result<std::string> result = tl::unexpected(Error{"it was not done"});
+    Result<std::string> result = tl::unexpected(Error{"it did not run"});
     try {
       result = task->work([&](double share) {
         const std::lock_guard told(mutex_);

@@ -1,5 +1,5 @@
 #pragma once
-// Work that takes seconds, done beside the answering of requests: asked for once, looked for until it is there.
+// Work that takes seconds, done on a thread of its own: asked for once, polled until it is there.
 
 #include <condition_variable>
 #include <deque>
@@ -14,10 +14,10 @@
 
 namespace nacre::dashboard {
 
-/// One thread and what it has done; the newest results are kept, by key.
+/// One thread and its results; the newest are kept, by key.
 class Background {
  public:
-  /// Makes the result; tells its progress, 0..1, to the function it is given.
+  /// Makes the result, and reports its progress, 0..1, to the function it is given.
   using Work = std::function<Result<std::string>(const std::function<void(double)>& progress)>;
 
   enum class Stage { unknown, queued, working, ready, failed };
@@ -29,7 +29,7 @@ class Background {
     std::string problem = {};                        ///< when failed
   };
 
-  /// Keeps `kept` results, and takes `longest_queue` tasks that wait.
+  /// Keeps `kept` results, and lets at most `longest_queue` tasks wait.
   explicit Background(std::size_t kept = 24, std::size_t longest_queue = 8);
   ~Background();
 

@@ -4,8 +4,14 @@
 #include <charconv>
 
 #include "base/files.hpp"
+#include "dashboard/design_view.hpp"
+#include "dashboard/diagnosis_view.hpp"
 #include "dashboard/entries.hpp"
+#include "dashboard/families_view.hpp"
 #include "dashboard/gamut_view.hpp"
+#include "dashboard/laboratory_view.hpp"
+#include "dashboard/nodes_view.hpp"
+#include "dashboard/rounds_view.hpp"
 #include "runtime/bus.hpp"
 #include "store/measured_patterns.hpp"
 
@@ -14,24 +20,24 @@ namespace {
 
 constexpr std::size_t kMostReportBytes = 64u << 20;
 
-/// A request that cannot be answered as it is; becomes its status.
-struct Unanswerable {
+/// Why a request is refused: a status, and a sentence for the person.
+struct Refusal {
   int status;
   std::string message;
 };
 
 std::string parameter(const Request& request, const char* name) {
   const auto found = request.query.find(name);
-  if (found == request.query.end()) throw Unanswerable{400, fmt::format("expected the parameter {}", name)};
+  if (found == request.query.end()) throw Refusal{400, fmt::format("the parameter {} is missing", name)};
   return found->second;
 }
 
-/// A whole number from 0 to a million; `name` says in errors what it is of.
+/// A whole number from 0 to a million; errors call it `name`.
 int number(const std::string& text, const char* name) {
   int value = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (fault != std::errc{} || end != text.data() + text.size() || value < 0 || value > 1'000'000)
-    throw Unanswerable{400, fmt::format("{}: expected a whole number from 0 on", name)};
+    throw Refusal{400, fmt::format("{}: `{}`, expected a whole number from 0 to 1000000", name, text)};
   return value;
 }
 
@@ -39,19 +45,20 @@ int round_of(const Request& request) { return number(parameter(request, "round")
 
 pattern::Design design_of(const Request& request) {
   const auto design = pattern::design_from_word(parameter(request, "design"));
-  if (!design) throw Unanswerable{400, "design: " + design.error().message};
+  if (!design) throw Refusal{400, "design: " + design.error().message};
   return *design;
 }
 
 /// `model`: the number of a round or the name of a family.
 std::string model_of(const Request& request) {
   const std::string model = parameter(request, "model");
-  if (!is_model_name(model)) throw Unanswerable{400, "model: expected the number of a round or the name of a family"};
+  if (!is_model_name(model))
+    throw Refusal{400, fmt::format("model: `{}`, expected the number of a round or the name of a family", model)};
   return model;
 }
 
-/// What would change nothing.
-Response void_response(const std::string& reason) {
+/// The response to an entry that would change nothing.
+Response conflict_response(const std::string& reason) {
   return json_response({{"answer", to_string(Delivery::conflicting)}, {"error", reason}}, 409);
 }
 
@@ -59,12 +66,12 @@ bool is_round(const std::string& model) { return model.find_first_not_of("012345
 
 template <class T>
 T or_refuse(Result<T> result) {
-  if (!result) throw Unanswerable{400, result.error().message};
+  if (!result) throw Refusal{400, result.error().message};
   return std::move(*result);
 }
 
-/// A database that cannot be read must not take the nodes from the page.
-bool knows_that_it_is_over(RunData& data) {
+/// Where the database cannot be read, no: the page shall go on showing the nodes.
+bool is_known_to_be_over(RunData& data) {
   try {
     return store::is_over(*data.record());
   } catch (const InputError&) {
@@ -86,7 +93,7 @@ Dashboard::Dashboard(DashboardSettings settings, Desk& desk)
       family_folder_(settings_.family_folder),
       films_(settings_.run_folder, settings_.scenario.fidelity) {}
 
-const std::map<std::string, Dashboard::Route>& Dashboard::readings() {
+const std::map<std::string, Dashboard::Route>& Dashboard::get_routes() {
   static const std::map<std::string, Route> routes = {{"/api/run", &Dashboard::run},
                                                       {"/api/live", &Dashboard::live},
                                                       {"/api/rounds", &Dashboard::rounds},
@@ -104,7 +111,7 @@ const std::map<std::string, Dashboard::Route>& Dashboard::readings() {
   return routes;
 }
 
-const std::map<std::string, Dashboard::Route>& Dashboard::entries() {
+const std::map<std::string, Dashboard::Route>& Dashboard::post_routes() {
   static const std::map<std::string, Route> routes = {{"/api/measurement", &Dashboard::enter},
                                                       {"/api/review", &Dashboard::review},
                                                       {"/api/approval", &Dashboard::decide},
@@ -115,14 +122,14 @@ const std::map<std::string, Dashboard::Route>& Dashboard::entries() {
 
 Response Dashboard::handle(const Request& request) {
   try {
-    const bool writes = request.method == "POST";
-    const auto& routes = writes ? entries() : readings();
+    const bool is_post = request.method == "POST";
+    const auto& routes = is_post ? post_routes() : get_routes();
     if (const auto route = routes.find(request.path); route != routes.end()) return (this->*route->second)(request);
-    if (auto file = writes ? std::nullopt : page_.find(request.path)) return *file;
-    if ((writes ? readings() : entries()).contains(request.path))
-      return error_response(405, writes ? "expected GET" : "expected POST");
+    if (auto file = is_post ? std::nullopt : page_.find(request.path)) return *file;
+    if ((is_post ? get_routes() : post_routes()).contains(request.path))
+      return error_response(405, is_post ? "expected GET" : "expected POST");
     return error_response(404, "there is nothing here");
-  } catch (const Unanswerable& refusal) {
+  } catch (const Refusal& refusal) {
     return error_response(refusal.status, refusal.message);
   } catch (const std::exception& error) {
     return error_response(500, error.what());
@@ -149,7 +156,7 @@ Response Dashboard::live(const Request&) {
   const auto nodes = desk_.nodes();
   return json_response({{"playing", is_playing(nodes)},
                         {"data", data_.version()},
-                        {"nodes", nodes_json(nodes, knows_that_it_is_over(data_))}});
+                        {"nodes", nodes_json(nodes, is_known_to_be_over(data_))}});
 }
 
 Response Dashboard::rounds(const Request&) { return json_response(rounds_json(*data_.record(), data_.gamut_sizes())); }
@@ -172,14 +179,14 @@ Response Dashboard::design(const Request& request) {
   return json_response(design_json(*data_.record(), design_of(request)));
 }
 
-Dashboard::Breaking Dashboard::breaking_of(const Request& request, const pattern::Design& design,
-                                           const std::string& model) {
+Dashboard::FractureRequest Dashboard::fracture_request(const Request& request, const pattern::Design& design,
+                                                       const std::string& model) {
   const auto map = request.query.find("map");
   return {design, model, map != request.query.end() && map->second.starts_with(model + "/")};
 }
 
-Dashboard::Breaking Dashboard::breaking_of(const Request& request) {
-  return breaking_of(request, design_of(request), model_of(request));
+Dashboard::FractureRequest Dashboard::fracture_request(const Request& request) {
+  return fracture_request(request, design_of(request), model_of(request));
 }
 
 std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string& model) {
@@ -191,57 +198,60 @@ std::optional<material::ParameterSet> Dashboard::model_of_game(const std::string
   return parameters;
 }
 
-Result<material::ParameterSet> Dashboard::parameters_of(const Breaking& breaking) {
-  if (!breaking.is_of_folder)
-    if (const auto parameters = model_of_game(breaking.model)) return *parameters;
-  if (is_round(breaking.model)) return fail("round {} has no model yet", breaking.model);
-  return family_folder_.model(breaking.model);  // of a family grouped otherwise the folder alone knows
+Result<material::ParameterSet> Dashboard::parameters_of(const FractureRequest& fracture) {
+  if (!fracture.is_of_folder)
+    if (const auto parameters = model_of_game(fracture.model)) return *parameters;
+  if (is_round(fracture.model)) return fail("round {} has no model yet", fracture.model);
+  return family_folder_.model(fracture.model);  // of a family grouped otherwise the folder alone knows
 }
 
-bool Dashboard::is_by_game(const Breaking& breaking) {
-  if (!breaking.is_of_folder) return true;
-  const auto of_folder = family_folder_.model(breaking.model);
-  return of_folder && model_of_game(breaking.model) == *of_folder;  // `nacre families` takes models from the stage
+bool Dashboard::is_by_game(const FractureRequest& fracture) {
+  if (!fracture.is_of_folder) return true;
+  const auto of_folder = family_folder_.model(fracture.model);
+  return of_folder && model_of_game(fracture.model) == *of_folder;  // `nacre families` takes models from the stage
 }
 
-Background::State Dashboard::made(const Breaking& breaking) {
-  const auto parameters = parameters_of(breaking);
-  return parameters ? films_.made(breaking.design, *parameters) : Background::State{};
+Background::State Dashboard::made(const FractureRequest& fracture) {
+  const auto parameters = parameters_of(fracture);
+  return parameters ? films_.made(fracture.design, *parameters) : Background::State{};
 }
 
-Json Dashboard::simulation_state(const Breaking& breaking) {
-  if (films_.name_in_run(*data_.record(), breaking.design.name(), breaking.model) && is_by_game(breaking))
+Json Dashboard::simulation_state(const FractureRequest& fracture) {
+  if (films_.name_in_run(*data_.record(), fracture.design.name(), fracture.model) && is_by_game(fracture))
     return {{"state", "ready"}, {"source", "run"}};
-  const Background::State state = made(breaking);
+  const Background::State state = made(fracture);
   Json json = {{"state", to_string(state.stage)}, {"source", "here"}, {"working_s", state.working_s}};
   if (state.result) json["modulus_pa"] = json_or_null(unpacked(*state.result).modulus_pa);
   if (!state.problem.empty()) json["problem"] = state.problem;
   return json;
 }
 
-Response Dashboard::simulation(const Request& request) { return json_response(simulation_state(breaking_of(request))); }
+Response Dashboard::simulation(const Request& request) {
+  return json_response(simulation_state(fracture_request(request)));
+}
 
 Response Dashboard::film(const Request& request) {
-  const Breaking breaking = breaking_of(request);
-  auto film = films_.of_run(*data_.record(), breaking.design.name(), breaking.model);
-  if (film && is_by_game(breaking)) return binary(*std::move(film));
-  const Background::State state = made(breaking);
+  const FractureRequest fracture = fracture_request(request);
+  auto film = films_.of_run(*data_.record(), fracture.design.name(), fracture.model);
+  if (film && is_by_game(fracture)) return binary(*std::move(film));
+  const Background::State state = made(fracture);
   if (!state.result) return error_response(404, "there is no film of this design yet");
   return binary(std::string(unpacked(*state.result).film));
 }
 
 Response Dashboard::simulate(const Request& request) {
-  const SimulationWish wish = or_refuse(wish_from_json(request.body));
-  const Breaking breaking = breaking_of(request, wish.design, wish.model);
-  const auto parameters = parameters_of(breaking);
+  const SimulationRequest wanted = or_refuse(simulation_request_from_json(request.body));
+  const FractureRequest fracture = fracture_request(request, wanted.design, wanted.model);
+  const auto parameters = parameters_of(fracture);
   if (!parameters) return error_response(409, parameters.error().message);
-  if (!films_.make(wish.design, *parameters)) return error_response(503, "too many simulations are waiting already");
-  return json_response(simulation_state(breaking), 202);
+  if (!films_.make(wanted.design, *parameters))
+    return error_response(503, "too many simulations are waiting: try again in a minute");
+  return json_response(simulation_state(fracture), 202);
 }
 
 Response Dashboard::laboratory(const Request&) {
   constexpr std::int64_t kLeastFresh_us = 500'000,
-                         kFreshPerCost = 10;  // however long the journal, most of the time is for others
+                         kFreshPerCost = 10;  // a long journal is read for at most a tenth of the time
   const std::lock_guard lock(desk_mutex_);
   const std::int64_t begun_us = runtime::steady_us();
   if (begun_us >= laboratory_fresh_until_us_) {
@@ -304,59 +314,61 @@ Response Dashboard::report(const Request&) {
   const std::filesystem::path file = settings_.run_folder / "report.html";
   std::error_code unreadable;
   if (std::filesystem::symlink_status(file, unreadable).type() != std::filesystem::file_type::regular)
-    return error_response(404, "there is no report yet; the analyser writes it after the first round");
+    return error_response(404, "There is no report yet: the analyser writes it after the first round.");
   return {.type = "text/html; charset=utf-8",
           .body = read_file_up_to(file, kMostReportBytes),
           .headers = {
               {"Content-Security-Policy", "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}}};
 }
 
-Response Dashboard::answered(Delivery answer, const std::vector<std::string>& doubts) {
+Response Dashboard::delivery_response(Delivery delivery, const std::vector<std::string>& doubts) {
   laboratory_fresh_until_us_ = 0;
-  const int status = answer == Delivery::unanswered ? 504 : answer == Delivery::conflicting ? 409 : 200;
-  Json json = {{"answer", to_string(answer)}};
+  const int status = delivery == Delivery::unanswered ? 504 : delivery == Delivery::conflicting ? 409 : 200;
+  Json json = {{"answer", to_string(delivery)}};
   if (!doubts.empty()) json["doubts"] = doubts;
-  if (answer == Delivery::unanswered)
-    json["error"] = "not every node answered: does the game play? Handing it in again is safe.";
-  if (answer == Delivery::conflicting)
-    json["error"] = "the run has another measurement of this name, which stays: take a new name, or judge the old one";
+  if (delivery == Delivery::unanswered)
+    json["error"] = "Not every node has confirmed it: is the game still running? Entering it again is safe.";
+  if (delivery == Delivery::conflicting)
+    json["error"] =
+        "The run already has another measurement of this name, and keeps it: enter yours under a new name, or review "
+        "the old one.";
   return json_response(json, status);
 }
 
 Response Dashboard::enter(const Request& request) {
   const auto specimen = or_refuse(specimen_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  return answered(desk_.enter(specimen), desk_.doubts_about(specimen));
+  return delivery_response(desk_.enter(specimen), desk_.doubts_about(specimen));
 }
 
 Response Dashboard::review(const Request& request) {
   const auto review = or_refuse(specimen_review_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  if (const auto reason = desk_.against(review)) return void_response(*reason);
-  return answered(desk_.review(review));
+  if (const auto reason = desk_.against(review)) return conflict_response(*reason);
+  return delivery_response(desk_.review(review));
 }
 
 Response Dashboard::decide(const Request& request) {
   const auto approval = or_refuse(approval_from_json(request.body));
   const std::lock_guard lock(desk_mutex_);
-  if (const auto reason = desk_.against(approval)) return void_response(*reason);
-  return answered(desk_.decide(approval));
+  if (const auto reason = desk_.against(approval)) return conflict_response(*reason);
+  return delivery_response(desk_.decide(approval));
 }
 
 Response Dashboard::group(const Request& request) {
   const auto grouping = or_refuse(grouping_from_json(request.body));
   const auto measured = measured_members(*data_.record());
-  for (const families::Family& family : grouping)
+  for (const families::SeedFamily& family : grouping)
     for (const pattern::Pattern& seed : family.seeds)
-      if (std::ranges::count(measured, seed, &families::Member::pattern) == 0)
-        throw Unanswerable{400, fmt::format("{}: seed {} is not measured in both tests", family.name, seed.key())};
+      if (std::ranges::count(measured, seed, &families::MeasuredPattern::pattern) == 0)
+        throw Refusal{400, fmt::format("{}: seed {} is not measured in both tests yet", family.name, seed.key())};
   const std::lock_guard lock(desk_mutex_);
   desk_.keep_grouping(family_folder_.path(), grouping);
-  return answered(Delivery::accepted);
+  return delivery_response(Delivery::accepted);
 }
 
-std::string_view to_string(Delivery answer) {
-  switch (answer) {
+std::string_view to_string(Delivery delivery) {
+  switch (delivery) {
     case Delivery::accepted:
       return "accepted";
     case Delivery::repeated:

@@ -1,5 +1,5 @@
 #pragma once
-// The dashboard of one run: requests in, answers out. The routes are listed in docs/FORMATS.md.
+// The dashboard of one run: requests in, responses out. The routes are listed in docs/FORMATS.md.
 
 #include <filesystem>
 #include <map>
@@ -23,11 +23,11 @@ struct DashboardSettings {
   std::filesystem::path page_folder;
   std::filesystem::path family_folder;  ///< of `nacre families`; need not exist
   std::string run_id, started, nacre_version, commit;
-  std::string user;  ///< who hands in, unless the page says otherwise
+  std::string user;  ///< who enters things, unless the page says otherwise
   game::Scenario scenario;
 };
 
-/// Answers requests from any number of threads.
+/// Responds to requests from any number of threads.
 class Dashboard {
  public:
   /// `desk` must outlive it.
@@ -37,8 +37,8 @@ class Dashboard {
 
  private:
   using Route = Response (Dashboard::*)(const Request&);
-  static const std::map<std::string, Route>& readings();
-  static const std::map<std::string, Route>& entries();
+  static const std::map<std::string, Route>& get_routes();
+  static const std::map<std::string, Route>& post_routes();
 
   Response run(const Request&);
   Response live(const Request&);
@@ -60,31 +60,32 @@ class Dashboard {
   Response simulate(const Request&);
   Response group(const Request&);
 
-  /// A design, and the model that is to break it: the number of a round or the name of a family.
-  struct Breaking {
+  /// A design whose fracture is asked for, and with which model: the number of a round or the name of a family.
+  struct FractureRequest {
     pattern::Design design;
     std::string model;
     bool is_of_folder = false;  ///< the model of `nacre families`, not that of the game's family stage
   };
   /// The query may say `map`, FAMILY/SEED: the map of the folder that the design was picked on.
-  static Breaking breaking_of(const Request& request, const pattern::Design& design, const std::string& model);
-  static Breaking breaking_of(const Request& request);
-  /// The error says what there is no model of.
-  Result<material::ParameterSet> parameters_of(const Breaking& breaking);
+  static FractureRequest fracture_request(const Request& request, const pattern::Design& design,
+                                          const std::string& model);
+  static FractureRequest fracture_request(const Request& request);
+  /// The error says which model is missing.
+  Result<material::ParameterSet> parameters_of(const FractureRequest& fracture);
   std::optional<material::ParameterSet> model_of_game(const std::string& model);
-  /// Whether the film that the game has under this model's name is by the model that is meant.
-  bool is_by_game(const Breaking& breaking);
-  Background::State made(const Breaking& breaking);
-  Json simulation_state(const Breaking& breaking);
-  Response answered(Delivery answer, const std::vector<std::string>& doubts = {});
+  /// Whether the film that the game keeps under this model's name was made with the model that is meant.
+  bool is_by_game(const FractureRequest& fracture);
+  Background::State made(const FractureRequest& fracture);
+  Json simulation_state(const FractureRequest& fracture);
+  Response delivery_response(Delivery delivery, const std::vector<std::string>& doubts = {});
 
   DashboardSettings settings_;
   Desk& desk_;
-  std::mutex desk_mutex_;  ///< the desk serves one at a time
+  std::mutex desk_mutex_;  ///< the desk serves one request at a time
   Json laboratory_;        ///< as last read; reading a long journal takes a while
   std::int64_t laboratory_fresh_until_us_ = 0;
   std::mutex models_mutex_;                                       ///< taken before the desk's
-  std::map<std::string, material::ParameterSet> models_of_game_;  ///< once there they stay as they are
+  std::map<std::string, material::ParameterSet> models_of_game_;  ///< never change once they are there
   RunData data_;
   PageFiles page_;
   FamilyFolder family_folder_;

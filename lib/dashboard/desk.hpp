@@ -1,6 +1,6 @@
 #pragma once
-// What the dashboard asks of a run beside its database, and hands in on behalf of a person. A small interface, so that
-// routes are tested without a network.
+// What the dashboard asks of a run in addition to its database, and what it enters for a person. A small interface, so
+// that routes are tested without a network.
 
 #include <algorithm>
 #include <filesystem>
@@ -11,22 +11,23 @@
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "material/parameters.hpp"
+#include "measurement/specimen_record.hpp"
 #include "nacre/diagnosis_t.hpp"
 #include "nacre/node_status_t.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::dashboard {
 
-/// What became of something that was handed in.
+/// What became of something that a person entered.
 enum class Delivery {
-  accepted,     ///< every node that listens has it
+  accepted,     ///< every node that listens has confirmed it
   repeated,     ///< the validation agent had it already
   conflicting,  ///< it has a specimen of this name with other content, which stays
-  unanswered,   ///< a node did not answer in time
+  unanswered,   ///< a node did not confirm it in time
 };
-std::string_view to_string(Delivery answer);
+std::string_view to_string(Delivery delivery);
 
-/// A person's yes or no to a proposed design; round -1: a design of the person's own, to be measured too.
+/// A person's yes or no to a proposed design. Round -1: a design of the person's own, to be measured as well.
 struct Approval {
   std::string design;
   int round = -1;
@@ -34,7 +35,7 @@ struct Approval {
   std::string by, why;
 };
 
-/// A person's judgement on one specimen.
+/// A person's review of one specimen: whether it is valid, and why.
 struct SpecimenReview {
   std::string specimen;
   bool valid = true;
@@ -47,14 +48,14 @@ struct Laboratory {
   std::optional<wire::Proposal> open_proposal;
 };
 
-/// What a node last said of itself.
+/// The last STATUS of a node.
 struct NodeReport {
   std::string node;
   node_status_t status{};
-  double age_s = 0.0;  ///< since it said so
+  double age_s = 0.0;  ///< since it came
 };
 
-/// Whether any node has spoken within the last seconds.
+/// Whether any node has reported within the last seconds.
 inline bool is_playing(const std::vector<NodeReport>& nodes) {
   constexpr double kPlaying_s = 5.0;
   return std::ranges::any_of(nodes, [](const NodeReport& report) { return report.age_s < kPlaying_s; });
@@ -69,22 +70,23 @@ class Desk {
   virtual std::optional<material::ParameterSet> model(int round) = 0;
   /// The own model of a family of the stage after the game; nothing when there is no such family.
   virtual std::optional<material::ParameterSet> family_model(const std::string& family) = 0;
-  /// The analyser's newest word on a round.
+  /// The analyser's newest diagnosis of a round.
   virtual std::optional<diagnosis_t> diagnosis(int round) = 0;
-  /// Nodes that have spoken within the last minute.
+  /// Nodes that have reported within the last minute.
   virtual std::vector<NodeReport> nodes() = 0;
-  /// What a person should look at again in a specimen that was handed in, as sentences.
+  /// What a person should check again in a specimen that was entered, as sentences.
   virtual std::vector<std::string> doubts_about(const measurement::SpecimenRecord& specimen) = 0;
-  // Handing in: waits for the validation agent for some seconds.
+  // Entering: waits some seconds for the validation agent.
   virtual Delivery enter(const measurement::SpecimenRecord& specimen) = 0;
   virtual Delivery review(const SpecimenReview& review) = 0;
   virtual Delivery decide(const Approval& approval) = 0;
-  /// Why a judgement or a decision would change nothing, as a sentence; nothing where it counts.
+  /// Why a review or an approval would change nothing, as a sentence; nothing where it counts.
   virtual std::optional<std::string> against(const SpecimenReview& review) = 0;
   virtual std::optional<std::string> against(const Approval& approval) = 0;
-  /// Writes families.toml into `folder`: a game's family stage takes it when it begins, `nacre families` whenever it is
+  /// Writes families.toml into `folder`: a game's family stage uses it when it begins, `nacre families` whenever it is
   /// called.
-  virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;
+  virtual void keep_grouping(const std::filesystem::path& folder,
+                             const std::vector<families::SeedFamily>& families) = 0;
 };
 
 }  // namespace nacre::dashboard

@@ -1,13 +1,12 @@
-// What the analyser says the simulation gets wrong.
+#include "dashboard/diagnosis_view.hpp"
 
-#include "dashboard/views.hpp"
 #include "material/extensions.hpp"
 #include "store/misfit.hpp"
 
 namespace nacre::dashboard {
 namespace {
 
-/// Family and explanation of an effect of the library.
+/// Adds family and explanation of an effect.
 void explain(Json& effect, const std::string& name) {
   const material::Effect* known = material::find_effect(name);
   if (known == nullptr) return;

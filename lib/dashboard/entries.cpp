@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/names.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
-#include "measurement/entry.hpp"
+#include "measurement/typed_specimen.hpp"
 #include "pattern/design.hpp"
 #include "pattern/pattern_key.hpp"
 
@@ -19,11 +20,18 @@ constexpr std::size_t kLongestText = 500;
 constexpr int kLastRound = 1'000'000;
 constexpr int kDeepest = 4;
 
+/// A value as it was typed, for errors; long ones cut.
+std::string typed(const Json& value) {
+  constexpr std::size_t kMostShown = 60;
+  const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "...";
+}
+
 /// The object in `text`; nested values are refused before they are built.
 Result<Json> object_in(std::string_view text) {
   const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; };
   const Json document = Json::parse(text, shallow, false);
-  if (!document.is_object()) return fail("expected a JSON object");
+  if (!document.is_object()) return fail("the request is no JSON object");
   return document;
 }
 
@@ -34,9 +42,9 @@ Result<std::string> text_of(const Json& object, const char* name, bool required 
     if (required) return fail("{}: is missing, expected a text", name);
     return std::string();
   }
-  if (!found->is_string()) return fail("{}: expected a text", name);
+  if (!found->is_string()) return fail("{}: {}, expected a text", name, typed(*found));
   const auto& text = found->get_ref<const std::string&>();
-  if (text.size() > kLongestText) return fail("{}: is longer than {} bytes", name, kLongestText);
+  if (text.size() > kLongestText) return fail("{}: has {} bytes, expected at most {}", name, text.size(), kLongestText);
   if (std::ranges::any_of(text, is_control)) return fail("{}: holds a control character", name);
   if (required && text.find_first_not_of(' ') == std::string::npos) return fail("{}: is empty, expected a text", name);
   return text;
@@ -44,19 +52,20 @@ Result<std::string> text_of(const Json& object, const char* name, bool required 
 
 Result<bool> flag_of(const Json& object, const char* name) {
   const auto found = object.find(name);
-  if (found == object.end() || !found->is_boolean()) return fail("{}: expected true or false", name);
+  if (found == object.end()) return fail("{}: is missing, expected true or false", name);
+  if (!found->is_boolean()) return fail("{}: {}, expected true or false", name, typed(*found));
   return found->get<bool>();
 }
 
 Result<int> round_of(const Json& object, int absent) {
   const auto found = object.find("round");
   if (found == object.end() || found->is_null()) return absent;
-  if (!found->is_number_integer()) return fail("round: expected a whole number");
+  if (!found->is_number_integer()) return fail("round: {}, expected a whole number", typed(*found));
   // A number beyond int64 is unsigned, and would wrap.
   if (found->is_number_unsigned() && found->get<std::uint64_t>() > static_cast<std::uint64_t>(kLastRound))
-    return fail("round: {} is too large", found->get<std::uint64_t>());
+    return fail("round: {}, expected at most {}", found->get<std::uint64_t>(), kLastRound);
   const auto round = found->get<std::int64_t>();
-  if (round < -1 || round > kLastRound) return fail("round: {}, expected -1 or more", round);
+  if (round < -1 || round > kLastRound) return fail("round: {}, expected -1 to {}", round, kLastRound);
   return static_cast<int>(round);
 }
 
@@ -82,7 +91,7 @@ Result<std::string> cell_of(const std::string& name, const Json& value) {
   if (value.is_number_integer()) return value.dump();
   if (value.is_number()) return fmt::format("{}", value.get<double>());
   if (value.is_null()) return std::string();
-  return fail("{}: expected a text or a number", name);
+  return fail("{}: {}, expected a text or a number", name, typed(value));
 }
 
 }  // namespace
@@ -129,34 +138,38 @@ Result<Approval> approval_from_json(std::string_view text) {
   if (!approved) return tl::unexpected(approved.error());
   if (!by) return tl::unexpected(by.error());
   if (!why) return tl::unexpected(why.error());
-  if (*round < 0 && !*approved) return fail("approved: a design of one's own is only ever asked for, expected true");
+  if (*round < 0 && !*approved)
+    return fail("approved: false, expected true: a design of your own is added, never rejected");
   return Approval{design->name(), *round, *approved, *by, *why};
 }
 
-Result<std::vector<families::Family>> grouping_from_json(std::string_view text) {
+Result<std::vector<families::SeedFamily>> grouping_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
   const auto listed = object->find("families");
-  if (listed == object->end() || !listed->is_array() || listed->empty()) return fail("families: expected a list");
-  std::vector<families::Family> families;
+  if (listed == object->end()) return fail("families: is missing, expected a list");
+  if (!listed->is_array() || listed->empty())
+    return fail("families: {}, expected a list of one family at least", typed(*listed));
+  std::vector<families::SeedFamily> families;
   for (const Json& each : *listed) {
-    if (!each.is_object()) return fail("families: expected objects with name and seeds");
+    if (!each.is_object()) return fail("families: {}, expected objects with name and seeds", typed(each));
     const auto name = text_of(each, "name", true);
     if (!name) return tl::unexpected(name.error());
     if (!families::is_family_name(*name))
-      return fail("name '{}': expected at most {} letters, digits, - and _, not digits alone", *name,
+      return fail("name: '{}', expected at most {} letters, digits, - and _, not digits alone", *name,
                   families::kLongestFamilyName);
-    families::Family& family = families.emplace_back(families::Family{.name = *name, .seeds = {}});
+    families::SeedFamily& family = families.emplace_back(families::SeedFamily{.name = *name, .seeds = {}});
     const auto seeds = each.find("seeds");
-    if (seeds == each.end() || !seeds->is_array()) return fail("{}: seeds: expected a list of pattern keys", *name);
+    if (seeds == each.end() || !seeds->is_array())
+      return fail("family {}: seeds: expected a list of pattern keys", *name);
     for (const Json& seed : *seeds) {
       const auto pattern = seed.is_string() ? pattern::pattern_from_key(seed.get<std::string>()) : fail("not a text");
-      if (!pattern) return fail("{}: seeds: expected keys of 14 hex digits", *name);
+      if (!pattern) return fail("family {}: seeds: {}, expected a key of 14 hex digits", *name, typed(seed));
       family.seeds.push_back(*pattern);
     }
   }
   try {
-    return families::parse_families(families::to_toml(families), "families");  // its rules are the file's
+    return families::parse_families(families::to_toml(families), "families");  // the same rules as for the file
   } catch (const InputError& error) {
     return fail("{}", error.what());
   }
@@ -164,15 +177,16 @@ Result<std::vector<families::Family>> grouping_from_json(std::string_view text) 
 
 bool is_model_name(std::string_view name) { return is_plain_name(name, families::kLongestFamilyName); }
 
-Result<SimulationWish> wish_from_json(std::string_view text) {
+Result<SimulationRequest> simulation_request_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
   const auto design = design_of(*object, "design");
   const auto model = model_of(*object);
   if (!design) return tl::unexpected(design.error());
   if (!model) return tl::unexpected(model.error());
-  if (!is_model_name(*model)) return fail("model: expected the number of a round or the name of a family");
-  return SimulationWish{*design, *model};
+  if (!is_model_name(*model))
+    return fail("model: `{}`, expected the number of a round or the name of a family", *model);
+  return SimulationRequest{*design, *model};
 }
 
 }  // namespace nacre::dashboard

@@ -1,16 +1,15 @@
 #pragma once
-// What people hand in, from JSON that may be anything.
+// What people enter, from JSON that may be anything. Every error names the field and what was typed there.
 
 #include <string_view>
 
 #include "base/result.hpp"
 #include "dashboard/desk.hpp"
-#include "measurement/measurement.hpp"
 
 namespace nacre::dashboard {
 
 /// A specimen: the columns of a measurement set as members (text or numbers; `valid` may be a boolean), and
-/// `curve_csv`, the text of a curve file. The error names the column and what was expected.
+/// `curve_csv`, the text of a curve file. Errors are `COLUMN: what is wrong, what was expected`.
 Result<measurement::SpecimenRecord> specimen_from_json(std::string_view text);
 
 /// `specimen`, `valid`, `by`, `why` (not empty).
@@ -19,17 +18,17 @@ Result<SpecimenReview> specimen_review_from_json(std::string_view text);
 /// `design` (canonical name), `round` (-1 or absent: a design of the person's own), `approved`, `by`, `why`.
 Result<Approval> approval_from_json(std::string_view text);
 
-/// What a model is asked for by: the number of a round or the name of a family.
+/// Whether a text names a model: the number of a round or the name of a family.
 bool is_model_name(std::string_view name);
 
 /// Which design to simulate with which model: `design`, `model` (the number of a round, or the name of a family).
-struct SimulationWish {
+struct SimulationRequest {
   pattern::Design design;
   std::string model;
 };
-Result<SimulationWish> wish_from_json(std::string_view text);
+Result<SimulationRequest> simulation_request_from_json(std::string_view text);
 
 /// Families, a list of `name` and `seeds` (pattern keys): each name once, each seed in one family.
-Result<std::vector<families::Family>> grouping_from_json(std::string_view text);
+Result<std::vector<families::SeedFamily>> grouping_from_json(std::string_view text);
 
 }  // namespace nacre::dashboard

@@ -4,7 +4,8 @@
 
 #include "base/files.hpp"
 #include "film/film_file.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::dashboard {
 namespace {
@@ -18,13 +19,13 @@ bool is_film_name(const std::string& name) {
   return length > 0 && length <= 64 && name.ends_with(kSuffix) && name.find_first_not_of("0123456789abcdef") == length;
 }
 
-/// By the questions, parameters included: a family keeps its name when another grouping gives it another model.
+/// By the whole request, parameters included: a family keeps its name when another grouping gives it another model.
 std::string key_of(const tester::Simulation& simulation) {
   return tester::simulation_key(simulation, tester::TestKind::modulus) +
          tester::simulation_key(simulation, tester::TestKind::toughness);
 }
 
-/// How the model lets designs break, where the run knows; nullptr where it has no such model.
+/// The cracks that a model predicts, by design; nullptr where the run has no such model.
 const std::map<std::string, store::RecordedCrack>* cracks_by(const store::RunRecord& run, const std::string& model) {
   for (const auto& [number, round] : run.rounds)
     if (std::to_string(number) == model) return &round.cracks;
@@ -33,13 +34,13 @@ const std::map<std::string, store::RecordedCrack>* cracks_by(const store::RunRec
   return nullptr;
 }
 
-/// Both tests, and the specimen pulled once more for its film.
+/// Simulates both tests, then the fracture once more for its film.
 Result<std::string> simulated_film(const tester::Simulation& simulation) {
   const auto modulus = tester::test_modulus(simulation);
   const auto toughness = tester::test_toughness(simulation);
-  if (!toughness) return fail("the fracture test gives no result: {}", toughness.error().message);
+  if (!toughness) return fail("the fracture simulation failed: {}", toughness.error().message);
   const auto film = film::record_film(simulation, *toughness);
-  if (!film) return fail("no film: {}", film.error().message);
+  if (!film) return fail("the film could not be made: {}", film.error().message);
   const double modulus_pa = modulus ? modulus->modulus_pa : 0.0;
   std::string made(sizeof(double), '\0');
   std::memcpy(made.data(), &modulus_pa, sizeof(double));

@@ -1,14 +1,13 @@
 #pragma once
-// Fracture films: those of the run's folder, by design and the name of the model that broke it, and those that are made
-// here because somebody looks, by design and parameters.
+// Fracture films: those in the run's folder, by design and model, and those that are made here on request, by design
+// and parameters.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "dashboard/background.hpp"
-#include "dashboard/views.hpp"
-#include "tester/tester.hpp"
+#include "store/run_record.hpp"
 
 namespace nacre::dashboard {
 
@@ -17,7 +16,7 @@ class Films {
   Films(std::filesystem::path run_folder, tester::Fidelity fidelity)
       : folder_(std::move(run_folder) / "films"), fidelity_(fidelity) {}
 
-  /// The film that the farm made of a design by a model, the number of a round or the name of a family; nothing when
+  /// The film that the farm made of a design with a model (the number of a round or the name of a family); nothing when
   /// there is none or its file cannot be read.
   std::optional<std::string> of_run(const store::RunRecord& run, const std::string& design,
                                     const std::string& model) const;
@@ -25,7 +24,7 @@ class Films {
   std::optional<std::string> name_in_run(const store::RunRecord& run, const std::string& design,
                                          const std::string& model) const;
 
-  /// Starts simulating and filming. False when too much waits already.
+  /// Starts simulating and filming. False when too many tasks wait already.
   bool make(const pattern::Design& design, const material::ParameterSet& parameters);
   Background::State made(const pattern::Design& design, const material::ParameterSet& parameters) const;
 
@@ -38,7 +37,7 @@ class Films {
   Background background_;
 };
 
-/// Modulus, as text before the film of a made result, and the film's bytes.
+/// The modulus that stands before the film in a made result, and the film's bytes.
 struct MadeFilm {
   std::optional<double> modulus_pa;
   std::string_view film;

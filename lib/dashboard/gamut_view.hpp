@@ -1,4 +1,5 @@
 #pragma once
+// Gamuts as bytes, and their best patterns.
 
 #include <string>
 

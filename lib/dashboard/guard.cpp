@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestPath = 512;
 
-/// Takes as long for every answer of one length.
+/// Takes as long for every text of one length.
 bool same_secret(const std::string& a, const std::string& b) {
   if (a.size() != b.size()) return false;
   unsigned char difference = 0;
@@ -38,7 +38,7 @@ std::string cookie(const std::string& header, const std::string& name) {
   return "";
 }
 
-/// An IP address with or without port: nobody can make a name of theirs look like one.
+/// An IP address with or without port: no foreign name can look like one.
 bool is_address(const std::string& host) {
   const bool brackets = !host.empty() && host.front() == '[';
   return !host.empty() &&
@@ -46,7 +46,7 @@ bool is_address(const std::string& host) {
 }
 
 bool is_named(const AccessRules& rules, const std::string& host) {
-  // Names have no case; browsers send small letters.
+  // Names have no case; browsers send lower case.
   if (std::ranges::find(rules.hosts, lower_case(host), lower_case) != rules.hosts.end()) return true;
   return !rules.token.empty() && is_address(host);
 }
@@ -91,7 +91,7 @@ std::string own_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// As it stands in an address: colons of IPv6 in brackets.
+/// As written in a URL: IPv6 in brackets.
 std::string in_address(const std::string& host) {
   return host.find(':') == std::string::npos ? host : "[" + host + "]";
 }
@@ -118,7 +118,7 @@ std::vector<std::string> host_names(const std::string& host, int port) {
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw InputError("the system gives no random numbers");
+    throw InputError("no token: the system gives no random numbers");
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;
@@ -126,7 +126,8 @@ std::string random_token() {
 
 std::optional<Response> refused(const AccessRules& rules, const Request& request) {
   if (request.path.size() > kLongestPath) return error_response(414, "the path is too long");
-  if (!is_named(rules, request.header("host"))) return error_response(421, "this server does not go by that name");
+  if (!is_named(rules, request.header("host")))
+    return error_response(421, "this server has no such name: open the address that nacre dashboard printed");
   if (!rules.token.empty()) {
     if (auto answer = welcome(rules, request)) return answer;
     if (!knows_token(rules, request))

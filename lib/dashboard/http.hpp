@@ -1,5 +1,5 @@
 #pragma once
-// Requests and answers as values: routes are functions of them and know nothing of sockets.
+// Requests and responses as values: routes are functions of them and know nothing of sockets.
 
 #include <map>
 #include <string>
@@ -13,8 +13,8 @@ namespace nacre::dashboard {
 struct Request {
   std::string method;
   std::string path;                            ///< decoded, without query
-  std::map<std::string, std::string> query;    ///< decoded; of names that stand twice the first
-  std::map<std::string, std::string> headers;  ///< names in lower case; of names that stand twice the first
+  std::map<std::string, std::string> query;    ///< decoded; of a name that occurs twice, the first
+  std::map<std::string, std::string> headers;  ///< names in lower case; of a name that occurs twice, the first
   std::string body;
 
   /// The header's value; empty when absent.

@@ -1,6 +1,5 @@
-// The laboratory's work: what is proposed, ordered, printed, measured, and which replicates agree.
+#include "dashboard/laboratory_view.hpp"
 
-#include "dashboard/views.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Listens to the STATUS messages of a run that plays.
+// Listens to the STATUS messages of a run that is playing.
 
 #include <atomic>
 #include <functional>
@@ -19,15 +19,15 @@ class LiveFeed {
   struct Source {
     /// Opens a bus that listens to STATUS. May throw InputError.
     std::function<std::unique_ptr<runtime::Bus>()> open;
-    /// Which bus it would be: a resumed run may play on another port.
+    /// Identifies the bus: a resumed run may play on another port.
     std::function<std::string()> identity;
   };
   explicit LiveFeed(Source source);
   ~LiveFeed();
 
-  /// Nodes that have spoken within a minute, by name, with the age of what they said.
+  /// Nodes that have reported within a minute, by name, with the age of their last report.
   std::vector<NodeReport> nodes() const;
-  /// Why nothing can be heard; empty when all is well.
+  /// Why nothing can be received; empty when all is well.
   std::string problem() const;
 
  private:

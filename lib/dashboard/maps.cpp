@@ -7,7 +7,9 @@
 #include "base/files.hpp"
 #include "dashboard/gamut_view.hpp"
 #include "families/barycentre.hpp"
+#include "families/families_file.hpp"
 #include "families/isomap.hpp"
+#include "material/parameter_file.hpp"
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "pattern/pattern_key.hpp"
@@ -118,7 +120,8 @@ Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round,
     map.toughness_pa.push_back(gamut.performances[i].toughness_pa);
   }
   if (map.patterns.size() < kFewestMapped)
-    return fail("a map needs {} patterns, round {} has {}", kFewestMapped, round, map.patterns.size());
+    return fail("a map needs at least {} patterns, the gamut of round {} has {}", kFewestMapped, round,
+                map.patterns.size());
   const families::Embedding embedding =
       families::isomap(families::earth_movers_distances(map.patterns, progress), kNeighbours);
   map.points = embedding.points;
@@ -150,27 +153,28 @@ Json FamilyFolder::families() const {
 Result<PatternMap> FamilyFolder::map(const std::string& id) const {
   const std::size_t slash = id.find('/');
   const std::string family = id.substr(0, slash), seed = slash == std::string::npos ? "" : id.substr(slash + 1);
-  if (!families::is_family_name(family) || !pattern::pattern_from_key(seed)) return fail("expected FAMILY/SEED");
+  if (!families::is_family_name(family) || !pattern::pattern_from_key(seed))
+    return fail("map: `{}`, expected FAMILY/SEED", id);
   try {
     auto map = map_from_csv(read_file_up_to(folder_ / family / (seed + ".csv"), kMostFileBytes), id);
     if (map) map->id = id;
     return map;
   } catch (const InputError&) {
-    return fail("there is no map {}", id);
+    return fail("there is no map `{}`", id);
   }
 }
 
-Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int rank) const {
+Grouping FamilyFolder::grouping(std::span<const families::MeasuredPattern> measured, int rank) const {
   Grouping grouping{.families = {}, .near_pareto = {}, .from = "proposal", .problem = ""};
-  const std::vector<families::Member> near = families::near_pareto(measured, rank);
-  for (const families::Member& member : near) grouping.near_pareto.push_back(member.pattern);
+  const std::vector<families::MeasuredPattern> near = families::near_pareto(measured, rank);
+  for (const families::MeasuredPattern& member : near) grouping.near_pareto.push_back(member.pattern);
   if (!near.empty()) grouping.families = families::proposed_families(near);
   std::error_code unreadable;
   const std::filesystem::path file = folder_ / "families.toml";
   if (std::filesystem::is_regular_file(file, unreadable)) {
     try {
       auto kept = families::parse_families(read_file_up_to(file, kMostFileBytes), "families.toml");
-      if (kept == grouping.families) return grouping;  // the programs write their proposals down, too
+      if (kept == grouping.families) return grouping;  // the programs write their proposals into the file, too
       grouping.families = std::move(kept);
       grouping.from = "file";
     } catch (const InputError& error) {
@@ -181,11 +185,11 @@ Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int 
 }
 
 Result<material::ParameterSet> FamilyFolder::model(const std::string& family) const {
-  if (!families::is_family_name(family)) return fail("family: expected a name");
+  if (!families::is_family_name(family)) return fail("family: `{}` is no name of a family", family);
   try {
     return material::read_parameters(folder_ / family / "parameters.toml", material::default_parameters());
   } catch (const InputError&) {
-    return fail("family {}: its model cannot be read", family);
+    return fail("family {}: its model (parameters.toml) cannot be read", family);
   }
 }
 
@@ -193,22 +197,23 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
   constexpr std::size_t kMost = 3;
   const auto keys = parts(patterns), shares = parts(weights);
   if (keys.size() > kMost || keys.size() != shares.size())
-    return fail("expected up to {} patterns and a weight for each", kMost);
+    return fail("{} patterns and {} weights, expected up to {} patterns and a weight for each", keys.size(),
+                shares.size(), kMost);
   std::vector<pattern::Pattern> sources;
   std::vector<double> amounts;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto pattern = pattern::pattern_from_key(keys[i]);
     const auto amount = number_from_text(shares[i]);
-    if (!pattern) return fail("patterns: expected keys of 14 hex digits");
-    if (!amount || *amount < 0.0 || *amount > 1.0) return fail("weights: expected numbers from 0 to 1");
-    if (*amount <= 1e-6) continue;  // weights are positive
+    if (!pattern) return fail("patterns: `{}`, expected a key of 14 hex digits", keys[i]);
+    if (!amount || *amount < 0.0 || *amount > 1.0)
+      return fail("weights: `{}`, expected a number from 0 to 1", shares[i]);
+    if (*amount <= 1e-6) continue;  // barycentre() asks for positive weights
     sources.push_back(*pattern);
     amounts.push_back(*amount);
   }
-  if (sources.empty()) return fail("weights: expected one above 0");
-  const auto pattern = families::barycentre(sources, amounts, families::Cut::amount);
-  if (!pattern)
-    return Json{{"pattern", nullptr}, {"violation", "there is no soft material to move between these patterns"}};
+  if (sources.empty()) return fail("weights: all are 0, expected one above 0");
+  const auto pattern = families::barycentre(sources, amounts, families::BarycentreCut::amount);
+  if (!pattern) return Json{{"pattern", nullptr}, {"violation", "these patterns have no soft material to move"}};
   return Json{{"pattern", pattern->key()},
               {"rigid_fraction", pattern->rigid_fraction()},
               {"violation", json_or_null(pattern::violation(*pattern))}};

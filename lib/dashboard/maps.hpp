@@ -1,5 +1,5 @@
 #pragma once
-// Maps of patterns in the plane, for the explorer: those that `nacre families` wrote, and one of a gamut's best
+// Maps of patterns in the plane, for the explorer: those that `nacre families` wrote, and those of a gamut's best
 // patterns, made here.
 
 #include <filesystem>
@@ -11,13 +11,14 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "dashboard/views.hpp"
+#include "dashboard/families_view.hpp"
+#include "dashboard/json_parts.hpp"
 #include "families/delaunay.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::dashboard {
 
-/// Patterns of a gamut that a map shows at most: their distances take some seconds.
+/// A map shows at most so many patterns of a gamut: their distances take some seconds.
 inline constexpr std::size_t kMostMapped = 400;
 
 /// One map: columns of equal length; NaN where a pattern was not simulated.
@@ -27,7 +28,7 @@ struct PatternMap {
   std::vector<std::string> source;  ///< `seed`, `sampled`, `interpolated`, `gamut`
   Eigen::MatrixX2d points;
   std::vector<double> modulus_pa, toughness_pa;
-  double residual_variance = -1.0;  ///< of the Isomap; -1 where a file does not say
+  double residual_variance = -1.0;  ///< of the Isomap; -1: unknown
 };
 
 /// Columns, and the triangles between which one interpolates.
@@ -37,7 +38,7 @@ Json to_json(const PatternMap& map);
 Result<PatternMap> map_of_gamut(const store::RecordedGamut& gamut, int round,
                                 const std::function<void(double)>& progress);
 
-/// What `nacre families` wrote into a folder.
+/// The folder that `nacre families` writes.
 class FamilyFolder {
  public:
   explicit FamilyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -45,8 +46,8 @@ class FamilyFolder {
   Json families() const;
   /// The map `FAMILY/SEED`. The error says what is wrong with the id or the file.
   Result<PatternMap> map(const std::string& id) const;
-  /// families.toml where there is one that can be read, else a proposal; of designs up to `rank`.
-  Grouping grouping(std::span<const families::Member> measured, int rank) const;
+  /// families.toml where it can be read, else a proposal; of designs up to `rank`.
+  Grouping grouping(std::span<const families::MeasuredPattern> measured, int rank) const;
   const std::filesystem::path& path() const { return folder_; }
   /// The family's own model.
   Result<material::ParameterSet> model(const std::string& family) const;
@@ -55,8 +56,8 @@ class FamilyFolder {
   std::filesystem::path folder_;
 };
 
-/// The pattern between up to three others, as the page asks for it: keys and weights separated by commas. Its key, and
-/// what of the constraints it violates.
+/// The pattern between up to three others, from keys and weights separated by commas: its key, and the constraint that
+/// it violates.
 Result<Json> between(std::string_view patterns, std::string_view weights);
 
 }  // namespace nacre::dashboard

@@ -1,15 +1,14 @@
-// The nodes of a run as they last spoke.
+#include "dashboard/nodes_view.hpp"
 
-#include "dashboard/views.hpp"
 #include "wire/status_json.hpp"
 
 namespace nacre::dashboard {
 namespace {
 
-/// A node that has been silent for so long is not running.
+/// A node that has been silent for so long does not run.
 constexpr double kSilent_s = 4.0;
 
-/// A node that has finished, or whose run is over, has every right to be silent.
+/// A node that has finished, or whose run is over, may be silent.
 std::string_view state_of(const NodeReport& report, bool is_over) {
   if (report.status.finished) return "finished";
   if (report.age_s > kSilent_s) return is_over ? "ended" : "silent";

@@ -1,4 +1,5 @@
 #pragma once
+// The page's own files.
 
 #include <filesystem>
 #include <map>

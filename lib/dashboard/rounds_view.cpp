@@ -1,15 +1,12 @@
-// The game by rounds.
+#include "dashboard/rounds_view.hpp"
 
 #include <set>
 
-#include "dashboard/views.hpp"
 #include "store/adopted_model.hpp"
 #include "store/measured_patterns.hpp"
 
 namespace nacre::dashboard {
 namespace {
-
-constexpr int kCurvePoints = 400;
 
 Json point_json(const optimize::Performance& point) { return {point.modulus_pa, point.toughness_pa}; }
 
@@ -64,39 +61,16 @@ Json measured_json(const store::MeasuredPattern& m) {
 
 }  // namespace
 
-Json curve_json(const tester::Curve& curve) {
-  if (curve.empty()) return nullptr;
-  const std::size_t count = curve.size(), most = kCurvePoints, shown = std::min(count, most);
-  Json strain = Json::array(), stress = Json::array();
-  for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t k = count <= most ? i : i * (count - 1) / (most - 1);
-    strain.push_back(curve.strain[k]);
-    stress.push_back(curve.stress_pa[k]);
-  }
-  return {{"strain", strain}, {"stress_pa", stress}};
-}
-
-Json errors_json(const sysid::PredictionErrors& e) {
-  if (e.modulus_count == 0 && e.toughness_count == 0) return nullptr;
-  return {{"modulus_count", e.modulus_count},
-          {"modulus_mean", e.modulus_mean},
-          {"modulus_max", e.modulus_max},
-          {"toughness_count", e.toughness_count},
-          {"toughness_mean", e.toughness_mean},
-          {"toughness_max", e.toughness_max},
-          {"toughness_spearman", e.toughness_spearman}};
-}
-
 Json rounds_json(const store::RunRecord& run, const std::map<int, int>& gamut_sizes) {
   const auto gamut_size = [&](int round) { return gamut_sizes.contains(round) ? gamut_sizes.at(round) : 0; };
   Json rounds = Json::array();
   std::set<int> numbers;
   for (const auto& [number, round] : run.rounds) numbers.insert(number);
   for (const auto& [number, size] : gamut_sizes) numbers.insert(number);
-  static const store::RoundRecord kUnheard;
+  static const store::RoundRecord kUnknown;
   for (const int number : numbers) {
     const auto known = run.rounds.find(number);
-    const store::RoundRecord& round = known == run.rounds.end() ? kUnheard : known->second;
+    const store::RoundRecord& round = known == run.rounds.end() ? kUnknown : known->second;
     Json proposals = Json::array(), parameters = Json::object();
     for (const auto& proposal : round.proposals) proposals.push_back(proposal_json(proposal));
     for (const auto& [name, value] : round.parameters) parameters[name] = value;

@@ -32,8 +32,7 @@ std::string wal_index_header(const std::filesystem::path& database) {
 }  // namespace
 
 std::string RunData::version() const {
-  // Without asking SQLite. Times of files do not do alone: two writes within a tick of the kernel's clock have the
-  // same.
+  // Without SQLite. Times of files are not enough: two writes within a tick of the kernel's clock have the same.
   std::string version;
   struct stat status {};
   if (::stat(database_.c_str(), &status) == 0)
@@ -42,7 +41,7 @@ std::string RunData::version() const {
 }
 
 void RunData::refresh() {
-  // The version is taken before reading: what is written meanwhile is read once more, never missed.
+  // The version is taken before reading, so that a write in between is read once more, never missed.
   const std::string now = version();
   if (now == read_version_ || !std::filesystem::exists(database_)) return;
   std::map<int, int> before;
@@ -50,7 +49,7 @@ void RunData::refresh() {
     record_ = std::make_shared<const store::RunRecord>(store::read_run_record(database_, false));
     before = std::exchange(gamut_sizes_, store::read_gamut_sizes(database_));
   } catch (const InputError&) {
-    if (read_version_.empty() && is_young(database_)) return;  // the analyser is still making the file
+    if (read_version_.empty() && is_young(database_)) return;  // the analyser is still creating the file
     throw;
   }
   std::erase_if(gamuts_, [&](const auto& kept) {

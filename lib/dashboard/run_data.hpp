@@ -1,5 +1,5 @@
 #pragma once
-// A run's database as it stands, read again only when it has changed.
+// A run's database, read again only when it has changed.
 
 #include <filesystem>
 #include <map>
@@ -17,15 +17,14 @@ class RunData {
 
   /// Changes with every write of the analyser.
   std::string version() const;
-  /// The record without its gamuts; empty before the analyser's first word. Throws InputError.
+  /// The record without its gamuts; empty before the analyser's first write. Throws InputError.
   std::shared_ptr<const store::RunRecord> record();
   std::shared_ptr<const store::RecordedGamut> gamut(int round);
   /// Patterns in the gamut of each round that has any.
   std::map<int, int> gamut_sizes();
 
  private:
-  /// Forgets what another version of the file says otherwise: a gamut only grows, so that one of the same size is the
-  /// same.
+  /// Reads the file again if it has changed. Gamuts of unchanged size are kept: a gamut only grows.
   void refresh();
   std::filesystem::path database_;
   std::mutex mutex_;

@@ -27,7 +27,7 @@ Request request_of(const httplib::Request& from) {
   return request;
 }
 
-void answer(const Response& from, httplib::Response& to) {
+void send(const Response& from, httplib::Response& to) {
   to.status = from.status;
   to.set_header("X-Content-Type-Options", "nosniff");
   to.set_header("Referrer-Policy", "no-referrer");
@@ -47,7 +47,7 @@ void answer(const Response& from, httplib::Response& to) {
   to.set_content(from.body, from.type);
 }
 
-/// Why nothing can listen there, when `reason` is what the system said last.
+/// Why nothing can listen there; `reason` is the system's last error.
 std::string why_not_listening(const std::string& host, int reason) {
   addrinfo* addresses = nullptr;
   if (const int unknown = ::getaddrinfo(host.c_str(), nullptr, nullptr, &addresses); unknown != 0)
@@ -70,7 +70,7 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
   server.set_keep_alive_timeout(kIdle_s);
   server.set_keep_alive_max_count(kRequestsPerConnection);
   server.set_tcp_nodelay(true);
-  // Not SO_REUSEPORT, the library's default: a second dashboard would take half of the first one's visitors.
+  // Not SO_REUSEPORT, the library's default: a second dashboard would get half of the first one's requests.
   server.set_socket_options([](socket_t socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -88,18 +88,18 @@ void serve(Dashboard& dashboard, const ServerSettings& settings, const std::func
   server.set_pre_routing_handler([&](const httplib::Request& from, httplib::Response& to) {
     const auto refusal = refused(rules, request_of(from));
     if (!refusal) return httplib::Server::HandlerResponse::Unhandled;
-    answer(*refusal, to);
+    send(*refusal, to);
     return httplib::Server::HandlerResponse::Handled;
   });
   const auto handle = [&](const httplib::Request& from, httplib::Response& to) {
-    answer(dashboard.handle(request_of(from)), to);
+    send(dashboard.handle(request_of(from)), to);
   };
-  // What the library refuses itself, a body that is too large, gets a word as well.
+  // The library's own refusals, such as a body that is too large, get a sentence as well.
   server.set_error_handler([](const httplib::Request&, httplib::Response& to) {
     if (!to.body.empty()) return;
     const std::string reason = to.status == 413 ? fmt::format("too large, expected at most {} MB", kMostBodyBytes >> 20)
-                                                : "the request cannot be answered";
-    answer(error_response(to.status, reason), to);
+                                                : "the request cannot be read";
+    send(error_response(to.status, reason), to);
   });
   server.Get(".*", handle);
   server.Post(".*", handle);

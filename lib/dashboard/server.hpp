@@ -1,5 +1,5 @@
 #pragma once
-// The socket side: the only file that knows the HTTP library is server.cpp.
+// The sockets; server.cpp alone includes the HTTP library.
 
 #include <functional>
 #include <string>
@@ -15,8 +15,8 @@ struct ServerSettings {
   std::string token;  ///< see AccessRules
 };
 
-/// Serves until `stop` returns true (asked ten times a second). `ready` is told the port. Bodies are at most 4 MiB,
-/// requests slower than five seconds are cut off. Throws InputError when the port cannot be had.
+/// Serves until `stop` returns true (called ten times a second). `ready` gets the port. Bodies have at most 4 MiB,
+/// requests slower than five seconds are cut off. Throws InputError when it cannot listen there.
 void serve(Dashboard& dashboard, const ServerSettings& settings, const std::function<void(int port)>& ready,
            const std::function<bool()>& stop);
 

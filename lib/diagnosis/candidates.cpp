@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/result.hpp"
+#include "material/effect_library.hpp"
 
 namespace nacre::diagnosis {
 namespace {

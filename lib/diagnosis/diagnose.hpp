@@ -5,7 +5,7 @@
 
 #include "diagnosis/diagnosis.hpp"
 #include "diagnosis/settings.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "diagnosis/features.hpp"
+#include "diagnosis/fracture_discretisation.hpp"
+#include "diagnosis/modulus_floor.hpp"
 #include "material/parameters.hpp"
+#include "material/ranges.hpp"
+#include "measurement/specimen_record.hpp"
 #include "pattern/design.hpp"
 #include "tester/curve.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::diagnosis {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diagnosis/features.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::diagnosis {
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "diagnosis/observations.hpp"
+#include "measurement/observe.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/local_simulator.hpp"
 #include "sysid/offline.hpp"
 

@@ -8,6 +8,7 @@
 #include "base/matern.hpp"
 #include "base/parallel.hpp"
 #include "diagnosis/coordinates.hpp"
+#include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
 
 namespace nacre::diagnosis {

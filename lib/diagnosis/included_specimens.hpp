@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 

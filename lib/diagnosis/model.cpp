@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::diagnosis {
 namespace {

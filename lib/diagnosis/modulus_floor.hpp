@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::diagnosis {
 

@@ -10,6 +10,8 @@
 #include "diagnosis/history_rows.hpp"
 #include "diagnosis/scatter.hpp"
 #include "measurement/conditions.hpp"
+#include "measurement/observe.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::diagnosis {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "diagnosis/features.hpp"
 #include "diagnosis/fracture_discretisation.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 

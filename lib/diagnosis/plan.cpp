@@ -12,6 +12,9 @@
 #include "diagnosis/features.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/scatter.hpp"
+#include "material/effect_library.hpp"
+#include "tester/modulus.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::diagnosis {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "diagnosis/scatter.hpp"
 #include "diagnosis/settings.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 

@@ -5,6 +5,8 @@
 
 #include "base/parallel.hpp"
 #include "measurement/reduction.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::diagnosis {
 namespace {

@@ -7,6 +7,8 @@
 
 #include "base/parallel.hpp"
 #include "measurement/consistency.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::diagnosis {
 namespace {

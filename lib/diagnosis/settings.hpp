@@ -9,7 +9,8 @@
 #include "diagnosis/fracture_discretisation.hpp"
 #include "diagnosis/modulus_floor.hpp"
 #include "material/ranges.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::diagnosis {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::diagnosis {
 

@@ -7,6 +7,7 @@
 #include "base/random.hpp"
 #include "base/result.hpp"
 #include "diagnosis/candidate_effects.hpp"
+#include "material/effect_library.hpp"
 #include "sysid/eta.hpp"
 #include "sysid/objective.hpp"
 

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "base/parallel.hpp"
+#include "tester/modulus.hpp"
 #include "tester/unit_cell.hpp"
 
 namespace nacre::explore {

@@ -2,7 +2,8 @@
 // Elastic quantities of patterns, for searches that use them: a hundredth of the cost of a fracture test and less.
 
 #include "explore/search.hpp"
-#include "tester/tester.hpp"
+#include "material/parameters.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::explore {
 

@@ -9,6 +9,7 @@
 
 #include "families/grouping.hpp"
 #include "game/thesis_tables.hpp"
+#include "measurement/summary.hpp"
 #include "store/run_record.hpp"
 
 namespace nacre::report {
@@ -41,7 +42,7 @@ struct PaperSource {
   std::vector<measurement::Replicates> base_materials;               ///< that round 0 was fitted to
   std::vector<SearchPath> searches;                                  ///< by round and branch
   std::map<int, std::map<std::string, game::DesignValues>> answers;  ///< round of the model -> design -> what it says
-  std::vector<families::Family> groups;
+  std::vector<families::SeedFamily> groups;
   std::string groups_from;         ///< where they come from, in words
   std::vector<SubfamilyMap> maps;  ///< by family and seed
 };

@@ -53,7 +53,7 @@ PaperTable seed_table(const PaperSource& source, const std::vector<MeasuredPatte
                    .rows = {},
                    .is_thesis = {},
                    .on_page = true};
-  for (const families::Family& group : source.groups) {
+  for (const families::SeedFamily& group : source.groups) {
     for (const pattern::Pattern& seed : group.seeds) {
       const MeasuredPattern* m = find_measured(measured, seed.key());
       table.add({text_cell(group.name), design_cell(seed.key()), share_cell(seed.rigid_fraction()),
@@ -84,7 +84,7 @@ PaperTable curve_table(const PaperSource& source, const MeasuredCurves& curves) 
     for (const PlotPoint& p : curve_of(curves, design))
       table.add({text_cell(family), text_cell(design), number_cell(p.x), number_cell(p.y)});
   };
-  for (const families::Family& group : source.groups)
+  for (const families::SeedFamily& group : source.groups)
     for (const pattern::Pattern& seed : group.seeds) keep(group.name, seed.key());
   if (!table.rows.empty()) keep("", "rigid");
   return table;
@@ -92,7 +92,7 @@ PaperTable curve_table(const PaperSource& source, const MeasuredCurves& curves) 
 
 std::pair<Range, Range> ranges_of_curves(const PaperSource& source, const MeasuredCurves& curves) {
   std::vector<PlotPoint> all = curve_of(curves, "rigid");
-  for (const families::Family& group : source.groups) {
+  for (const families::SeedFamily& group : source.groups) {
     for (const pattern::Pattern& seed : group.seeds) {
       const std::vector<PlotPoint> points = curve_of(curves, seed.key());
       all.insert(all.end(), points.begin(), points.end());
@@ -101,7 +101,7 @@ std::pair<Range, Range> ranges_of_curves(const PaperSource& source, const Measur
   return {range_of(all, &PlotPoint::x), range_of(all, &PlotPoint::y)};
 }
 
-std::string curve_figure(const families::Family& group, Ink ink, const MeasuredCurves& curves, const Range& x,
+std::string curve_figure(const families::SeedFamily& group, Ink ink, const MeasuredCurves& curves, const Range& x,
                          const Range& y) {
   Plot plot({.title = group.name,
              .x_label = "nominal strain (%)",
@@ -158,7 +158,7 @@ Exhibit family_curve_exhibit(const PaperSource& source) {
   const auto [x, y] = ranges_of_curves(source, curves);
   int without = 0;
   for (std::size_t f = 0; f < source.groups.size(); ++f) {
-    const families::Family& group = source.groups[f];
+    const families::SeedFamily& group = source.groups[f];
     const auto measured =
         std::ranges::count_if(group.seeds, [&](const pattern::Pattern& seed) { return curves.contains(seed.key()); });
     without += static_cast<int>(group.seeds.size()) - static_cast<int>(measured);

@@ -6,6 +6,7 @@
 
 #include "base/named_table.hpp"
 #include "base/names.hpp"
+#include "families/families_file.hpp"
 #include "game/model.hpp"
 #include "game/reference_tables.hpp"
 #include "game/standings.hpp"
@@ -155,7 +156,7 @@ std::map<int, material::ParameterSet> adopted_models(const fs::path& run_dir) {
 /// The families: of the stage; of the file that a person may have edited; else proposed from what was measured.
 void find_groups(const fs::path& run_dir, PaperSource& source) {
   for (const store::RecordedFamily& family : source.run.families) {
-    families::Family& group = source.groups.emplace_back();
+    families::SeedFamily& group = source.groups.emplace_back();
     group.name = family.stated.name;
     for (const game::FamilyDesign& design : family.stated.designs)
       if (design.is_seed) group.seeds.push_back(design.pattern);
@@ -168,7 +169,7 @@ void find_groups(const fs::path& run_dir, PaperSource& source) {
     source.groups_from = "the families of families/families.toml";
     return;
   }
-  std::vector<families::Member> measured;
+  std::vector<families::MeasuredPattern> measured;
   for (const MeasuredPattern& each : measured_patterns(source.run, newest_round(source.run).value_or(0)))
     measured.push_back({each.pattern, each.mean});
   source.groups = families::proposed_families(families::near_pareto(measured));
@@ -206,7 +207,7 @@ SubfamilyMap read_map(const fs::path& file, const std::string& family) {
 }
 
 void read_maps(const fs::path& run_dir, PaperSource& source) {
-  for (const families::Family& group : source.groups) {
+  for (const families::SeedFamily& group : source.groups) {
     for (const pattern::Pattern& seed : group.seeds) {
       const fs::path file = run_dir / "families" / group.name / (seed.key() + ".csv");
       if (fs::exists(file)) source.maps.push_back(read_map(file, group.name));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "game/standings.hpp"
+#include "measurement/observe.hpp"
 #include "optimize/pareto.hpp"
 #include "report/report_text.hpp"
 #include "report/svg.hpp"

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/result.hpp"
 #include "select/beam.hpp"
@@ -77,34 +76,87 @@ void fill_up(std::vector<Choice>& choices, const std::vector<explore::Evaluated>
   }
 }
 
-std::string empty_bins_clause(const std::vector<Choice>& choices, int count) {
+/// "1", "1 and 2", "1, 2 and 3".
+std::string list_in_words(const std::vector<int>& numbers) {
+  std::string words = std::to_string(numbers.front());
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    words += (i + 1 < numbers.size() ? ", " : " and ") + std::to_string(numbers[i]);
+  return words;
+}
+
+/// Where along the front a bin lies: they run from the least stiff candidates to the stiffest.
+std::string part_in_words(int bin, int count) {
+  if (count == 1) return "";
+  const bool first = bin == 0, last = bin + 1 == count;
+  if (count == 2) return first ? " in the least stiff half" : " in the stiffest half";
+  if (first || last)
+    return fmt::format(" in the {} of {} parts of the front", first ? "least stiff" : "stiffest", count);
+  return fmt::format(" in part {} of {} of the front, counted from the least stiff", bin + 1, count);
+}
+
+/// Why a design fills up, as a clause: which parts of the front hold no candidate.
+std::string empty_parts_in_words(const std::vector<Choice>& choices, int count) {
   std::vector<int> empty;
   for (int bin = 0; bin < count; ++bin) {
     if (std::none_of(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.bin == bin; })) {
       empty.push_back(bin + 1);
     }
   }
-  return fmt::format("{} {} of {} {} no candidate, so this one fills up", empty.size() == 1 ? "bin" : "bins",
-                     fmt::join(empty, ", "), count, empty.size() == 1 ? "holds" : "hold");
+  if (empty.empty()) return "";
+  return fmt::format(", taken because {} {} of {} of the front {} no candidate", empty.size() == 1 ? "part" : "parts",
+                     list_in_words(empty), count, empty.size() == 1 ? "holds" : "hold");
 }
 
-std::string difference_clause(const pattern::Pattern& pattern, std::span<const pattern::Pattern> measured,
-                              std::span<const pattern::Pattern> other_choices) {
-  const bool alone = other_choices.empty();
-  const int from_choices = alone ? 0 : smallest_difference(pattern, other_choices);
-  if (measured.empty()) {
-    constexpr const char* kNothing = "nothing is measured yet";
-    return alone ? kNothing
-                 : fmt::format("{}; differs by {} pixels or more from the other choices", kNothing, from_choices);
-  }
-  const std::string clause =
-      fmt::format("differs by {} pixels or more from everything measured", smallest_difference(pattern, measured));
-  return alone ? clause : fmt::format("{}, by {} or more from the other choices", clause, from_choices);
+/// How a design differs from what is known, as a clause.
+std::string difference_in_words(const pattern::Pattern& pattern, std::span<const pattern::Pattern> measured,
+                                std::span<const pattern::Pattern> other_proposals) {
+  constexpr int kUnlike = pattern::kPixels / 10;  // from here on "unlike", below it "close to"
+  const int from_measured = smallest_difference(pattern, measured),
+            from_others = smallest_difference(pattern, other_proposals);
+  if (measured.empty() && other_proposals.empty()) return "nothing is measured yet";
+  if (measured.empty())
+    return fmt::format("nothing is measured yet ({} of {} pixels differ from the other proposals)", from_others,
+                       pattern::kPixels);
+  return fmt::format("{} ({} of {} pixels differ{})",
+                     from_measured >= kUnlike ? "unlike anything measured so far" : "close to a measured design",
+                     from_measured, pattern::kPixels,
+                     other_proposals.empty() ? "" : fmt::format(", {} from the other proposals", from_others));
 }
 
 void erase_patterns(std::vector<explore::Evaluated>& samples, const std::vector<pattern::Pattern>& patterns) {
   const std::set<pattern::Pattern> gone(patterns.begin(), patterns.end());
   std::erase_if(samples, [&](const explore::Evaluated& sample) { return gone.contains(sample.pattern); });
+}
+
+/// select_designs() that stays away from what is chosen already, too.
+std::vector<Selected> select_apart(std::span<const explore::Evaluated> gamut,
+                                   std::span<const pattern::Pattern> measured,
+                                   std::span<const pattern::Pattern> chosen_before,
+                                   std::span<const optimize::Performance> benchmark,
+                                   const SelectionSettings& settings) {
+  check_settings(settings);
+  std::vector<pattern::Pattern> known(measured.begin(), measured.end());
+  known.insert(known.end(), chosen_before.begin(), chosen_before.end());
+  const std::vector<explore::Evaluated> pool = candidates(gamut, known, benchmark, settings.maximum_rank);
+  if (pool.empty()) return {};
+  std::vector<Choice> choices = choose_from_bins(pool, known, settings);
+  fill_up(choices, pool, known, settings.count);
+
+  const std::string empty_parts = empty_parts_in_words(choices, settings.count);
+  std::vector<Selected> selected;
+  for (const Choice& choice : choices) {
+    const auto& [pattern, performance] = pool[choice.candidate];
+    std::vector<pattern::Pattern> others(chosen_before.begin(), chosen_before.end());
+    for (const Choice& other : choices) {
+      if (other.candidate != choice.candidate) others.push_back(pool[other.candidate].pattern);
+    }
+    const std::string place = choice.bin >= 0 ? part_in_words(choice.bin, settings.count) : empty_parts;
+    selected.push_back({pattern, performance,
+                        fmt::format("one of the toughest predicted for its stiffness{}; {}", place,
+                                    difference_in_words(pattern, measured, others)),
+                        choice.bin});
+  }
+  return selected;
 }
 
 }  // namespace
@@ -113,29 +165,7 @@ std::vector<Selected> select_designs(std::span<const explore::Evaluated> gamut,
                                      std::span<const pattern::Pattern> measured,
                                      std::span<const optimize::Performance> benchmark,
                                      const SelectionSettings& settings) {
-  check_settings(settings);
-  const std::vector<explore::Evaluated> pool = candidates(gamut, measured, benchmark, settings.maximum_rank);
-  if (pool.empty()) return {};
-  std::vector<Choice> choices = choose_from_bins(pool, measured, settings);
-  fill_up(choices, pool, measured, settings.count);
-
-  const std::string empty_bins = empty_bins_clause(choices, settings.count);
-  std::vector<Selected> selected;
-  for (const Choice& choice : choices) {
-    const auto& [pattern, performance] = pool[choice.candidate];
-    std::vector<pattern::Pattern> others;
-    for (const Choice& other : choices) {
-      if (other.candidate != choice.candidate) others.push_back(pool[other.candidate].pattern);
-    }
-    const std::string place =
-        choice.bin >= 0 ? fmt::format("bin {} of {}", choice.bin + 1, settings.count) : empty_bins;
-    selected.push_back(
-        {pattern, performance,
-         fmt::format("{} (toughness {:.3g} MPa, modulus {:.3g} GPa): {}", place, performance.toughness_pa / 1e6,
-                     performance.modulus_pa / 1e9, difference_clause(pattern, measured, others)),
-         choice.bin});
-  }
-  return selected;
+  return select_apart(gamut, measured, {}, benchmark, settings);
 }
 
 std::vector<Selected> select_with_reserve(std::vector<explore::Evaluated> gamut, std::vector<pattern::Pattern> measured,
@@ -144,9 +174,10 @@ std::vector<Selected> select_with_reserve(std::vector<explore::Evaluated> gamut,
   std::vector<Selected> chosen = select_designs(gamut, measured, benchmark, {.count = count});
   const int missing = count - static_cast<int>(chosen.size());
   if (missing <= 0 || benchmark.empty()) return chosen;
-  for (const Selected& each : chosen) measured.push_back(each.pattern);
-  for (Selected& each : select_designs(gamut, measured, {}, {.count = missing})) {
-    each.reason.insert(0, "below the homogeneous line, where too few samples lie above it: ");
+  std::vector<pattern::Pattern> chosen_before;
+  for (const Selected& each : chosen) chosen_before.push_back(each.pattern);
+  for (Selected& each : select_apart(gamut, measured, chosen_before, {}, {.count = missing})) {
+    each.reason += "; warning: a plain mixture is as stiff and as tough as predicted here";
     chosen.push_back(std::move(each));
   }
   return chosen;

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
+#include "sysid/calibration.hpp"
 #include "sysid/prediction.hpp"
 #include "sysid/ratio_search.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/discretisation_floor.hpp"
 #include "sysid/errors.hpp"
 #include "sysid/likelihood.hpp"
@@ -25,8 +25,8 @@ struct CalibrationSettings {
   material::ParameterSet start;                                  ///< initial guess; its extensions are kept as they are
   std::vector<material::ParameterSet> other_starts;  ///< further initial guesses for eta, in its first batch; empty:
                                                      ///< chosen in the ranges
-  int modulus_budget = 120;               ///< evaluations of the modulus set; 0 keeps theta
-  int toughness_budget = 25;              ///< evaluations of the toughness set, of each search; 0 keeps eta
+  int modulus_budget = 120;                          ///< evaluations of the modulus set; 0 keeps theta
+  int toughness_budget = 25;                         ///< evaluations of the toughness set, of each search; 0 keeps eta
   int batch = thesis::kCalibrationBatch;  ///< parameter sets asked for at once (a Jacobian of the modulus fit: six)
   ToughnessSearch toughness_search = ToughnessSearch::posterior;
   int searches = 1;  ///< for eta, side by side, each with a seed of its own; the best is kept and their spread reported

@@ -6,7 +6,8 @@
 #include <filesystem>
 
 #include "material/parameters.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::sysid {
 

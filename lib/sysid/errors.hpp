@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/prediction.hpp"
 
 namespace nacre::sysid {

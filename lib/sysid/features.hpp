@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/discretisation_floor.hpp"
 #include "sysid/prediction.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "optimize/batch_optimizer.hpp"
 #include "sysid/discretisation_floor.hpp"
 #include "sysid/prediction.hpp"

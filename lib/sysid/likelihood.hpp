@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/discretisation_floor.hpp"
 #include "sysid/prediction.hpp"
 

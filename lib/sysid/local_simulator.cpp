@@ -5,6 +5,9 @@
 
 #include "base/parallel.hpp"
 #include "sysid/prediction_store.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::sysid {
 namespace {

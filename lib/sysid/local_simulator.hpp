@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/prediction.hpp"
 #include "sysid/wanted_evaluation.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::sysid {
 

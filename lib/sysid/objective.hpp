@@ -4,9 +4,8 @@
 
 #include <optional>
 #include <vector>
-
 #include "material/parameters.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/observe.hpp"
 #include "measurement/reduction.hpp"
 #include "sysid/prediction.hpp"
 

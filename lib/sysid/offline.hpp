@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measurement/read_set.hpp"
 #include "sysid/calibration.hpp"
 #include "sysid/local_simulator.hpp"
 

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/discretisation_floor.hpp"
 
 namespace nacre::sysid {

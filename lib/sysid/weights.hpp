@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::sysid {
 

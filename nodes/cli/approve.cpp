@@ -32,9 +32,9 @@ struct ApproveOptions {
 
 /// The designs of the family stage, once it has chosen them; decided on under the round that they are ordered in.
 std::optional<wire::Proposal> variants_to_approve(const RunAccess& run) {
-  std::map<int, wire::Family> families;
+  std::map<int, wire::CalibratedFamily> families;
   for (const std::string& payload : sent_by_validation_agent(run, "FAMILY"))
-    if (auto family = wire::read<wire::Family>(payload)) families[family->number] = std::move(*family);
+    if (auto family = wire::read<wire::CalibratedFamily>(payload)) families[family->number] = std::move(*family);
   if (families.empty() || static_cast<int>(families.size()) < families.begin()->second.count) return std::nullopt;
   wire::Proposal proposal;
   for (const auto& [number, family] : families) {

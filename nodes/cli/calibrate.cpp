@@ -8,8 +8,8 @@
 
 #include "base/files.hpp"
 #include "command.hpp"
+#include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
-#include "measurement/measurement.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"

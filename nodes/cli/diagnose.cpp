@@ -13,8 +13,6 @@
 #include "diagnosis/table_trends.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
-#include "measurement/measurement.hpp"
-#include "measurement/planned_set.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "pattern/coupons.hpp"

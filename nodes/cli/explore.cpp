@@ -16,13 +16,13 @@
 #include "explore/gamut_csv.hpp"
 #include "explore/mechanics.hpp"
 #include "explore/search.hpp"
+#include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "runtime/interrupts.hpp"
 #include "store/kept_simulation.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::cli {
 namespace {

@@ -18,12 +18,11 @@
 #include "pattern/coupons.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::cli {
 namespace {
 
-using fabricate::Wanted;
+using fabricate::WantedSpecimens;
 using tester::TestKind;
 
 struct Options {
@@ -77,11 +76,11 @@ tester::Loading loading_of(const Options& options) {
   return *loading;
 }
 
-std::vector<Wanted> wanted_by_name(const Options& options) {
+std::vector<WantedSpecimens> wanted_by_name(const Options& options) {
   const tester::Loading loading = loading_of(options);
   std::vector<std::string> names = options.designs;
   if (options.coupons) names.insert(names.end(), std::begin(kCoupons), std::end(kCoupons));
-  std::vector<Wanted> wanted;
+  std::vector<WantedSpecimens> wanted;
   std::set<std::string> taken;
   for (const std::string& name : names) {
     const pattern::Design design = pattern::design_from_argument(name);
@@ -110,8 +109,8 @@ std::vector<Wanted> wanted_by_name(const Options& options) {
 }
 
 /// What a game has ordered and nobody has printed or measured yet.
-std::vector<Wanted> wanted_by_game(const LaboratoryView& view) {
-  std::vector<Wanted> wanted;
+std::vector<WantedSpecimens> wanted_by_game(const LaboratoryView& view) {
+  std::vector<WantedSpecimens> wanted;
   for (const OrderState& order : view.orders) {
     const int missing = order.order.replicates - std::max(order.arrived, order.printed);
     if (order.complete || missing <= 0) continue;
@@ -164,7 +163,7 @@ fabricate::JobRequest request_of(const Options& options) {
   }
   request.printer = {options.dpi[0], options.dpi[1], options.dpi[2], options.tray_mm[0], options.tray_mm[1]};
   request.interface = options.interface == "sharp" ? fabricate::Interface::sharp : fabricate::Interface::engineered;
-  request.grips = options.grips == "rigid" ? fabricate::Grips::rigid : fabricate::Grips::pattern;
+  request.grips = options.grips == "rigid" ? fabricate::GripMaterial::rigid : fabricate::GripMaterial::pattern;
   request.notch.print_cut = options.print_cut;
   request.gap_mm = options.gap_mm;
   request.seed = options.seed;
@@ -174,7 +173,7 @@ fabricate::JobRequest request_of(const Options& options) {
 void print_job(const fabricate::Job& job, const std::vector<fabricate::WrittenModel>& written,
                const std::string& folder) {
   for (std::size_t i = 0; i < job.models.size(); ++i) {
-    const fabricate::Model& model = job.models[i];
+    const fabricate::PrintModel& model = job.models[i];
     const fabricate::StackCount& count = written[i].count;
     fmt::print("{}: {} slices of {} x {} droplets, rigid {:.4f} (designed {:.4f}), {} copies\n", model.name,
                count.layers, count.columns, count.rows, fabricate::rigid_fraction(count.total),

@@ -8,6 +8,7 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "command.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
 #include "family_data.hpp"
 #include "family_work.hpp"
@@ -20,7 +21,7 @@
 namespace nacre::cli {
 namespace {
 
-using families::Family;
+using families::SeedFamily;
 using pattern::Pattern;
 
 constexpr double kEstablished = 0.05;  // family-wise
@@ -31,11 +32,12 @@ std::filesystem::path folder_of(const FamilyOptions& options) {
 }
 
 /// families.toml of the folder when a person or a former call left one, else a proposal, which is written there.
-std::vector<Family> families_in(const std::filesystem::path& folder, const std::vector<families::Member>& designs) {
+std::vector<SeedFamily> families_in(const std::filesystem::path& folder,
+                                    const std::vector<families::MeasuredPattern>& designs) {
   const std::filesystem::path file = folder / "families.toml";
-  const std::vector<Family> proposed = families::proposed_families(designs);
+  const std::vector<SeedFamily> proposed = families::proposed_families(designs);
   if (std::filesystem::exists(file)) {
-    std::vector<Family> known = families::read_families(file);
+    std::vector<SeedFamily> known = families::read_families(file);
     remark(fmt::format("families and their seeds are those of {}", file.string()));
     if (known != proposed)
       warn(fmt::format("{}: other families than these measurements propose; without this file they are proposed anew",
@@ -65,9 +67,9 @@ void print_family(const nlohmann::ordered_json& family) {
   }
 }
 
-void print_proposed(const std::vector<Family>& proposed, const std::filesystem::path& file, bool json) {
+void print_proposed(const std::vector<SeedFamily>& proposed, const std::filesystem::path& file, bool json) {
   nlohmann::ordered_json document = {{"file", file.string()}, {"families", nlohmann::ordered_json::array()}};
-  for (const Family& family : proposed) {
+  for (const SeedFamily& family : proposed) {
     if (!json) fmt::print("{}: {} seeds\n", family.name, family.seeds.size());
     auto& entry = document["families"].emplace_back(nlohmann::ordered_json{{"name", family.name}});
     for (const Pattern& seed : family.seeds) entry["seeds"].push_back(seed.key());
@@ -77,10 +79,10 @@ void print_proposed(const std::vector<Family>& proposed, const std::filesystem::
 
 int find_families(const FamilyOptions& options) {
   FamilyData data = family_data(options);
-  std::vector<families::Member> members;
+  std::vector<families::MeasuredPattern> members;
   for (const measurement::Replicates& group : data.measured)
     members.push_back({*game::eightfold_pattern(group.design), {group.modulus_pa, group.toughness_pa}});
-  const std::vector<families::Member> near = families::near_pareto(members, options.rank);
+  const std::vector<families::MeasuredPattern> near = families::near_pareto(members, options.rank);
   if (near.empty()) {
     remark("no pattern has been measured in both tests yet");
     nlohmann::ordered_json none = nlohmann::ordered_json::array();
@@ -90,7 +92,7 @@ int find_families(const FamilyOptions& options) {
   }
   const std::filesystem::path folder = folder_of(options);
   prepare_output_folder(folder.string());
-  const std::vector<Family> found = families_in(folder, near);
+  const std::vector<SeedFamily> found = families_in(folder, near);
   if (options.propose) {
     print_proposed(found, folder / "families.toml", options.json);
     return 0;
@@ -98,12 +100,13 @@ int find_families(const FamilyOptions& options) {
   // Seeds stay, also where designs measured since have pushed them from the front.
   std::erase_if(data.measured, [&](const measurement::Replicates& group) {
     const Pattern pattern = *game::eightfold_pattern(group.design);
-    return std::ranges::count(near, pattern, &families::Member::pattern) == 0 &&
-           std::ranges::none_of(found, [&](const Family& each) { return std::ranges::count(each.seeds, pattern) > 0; });
+    return std::ranges::count(near, pattern, &families::MeasuredPattern::pattern) == 0 &&
+           std::ranges::none_of(found,
+                                [&](const SeedFamily& each) { return std::ranges::count(each.seeds, pattern) > 0; });
   });
   sysid::LocalSimulator simulator(data.fidelity, 0, folder / "simulations.bin");
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
-  for (const Family& family : found) {
+  for (const SeedFamily& family : found) {
     document.push_back(work_out(family, data, options, folder / family.name, simulator));
     if (!options.json) print_family(document.back());
   }

@@ -25,7 +25,7 @@ FamilyData data_of_set(const FamilyOptions& options) {
 std::vector<StagedFamily> staged_families(const RunAccess& run) {
   std::map<int, StagedFamily> families;
   const auto take_family = [&](const std::string& payload) {
-    if (auto family = wire::read<wire::Family>(payload)) families[family->number].stated = std::move(*family);
+    if (auto family = wire::read<wire::CalibratedFamily>(payload)) families[family->number].stated = std::move(*family);
   };
   const auto take_variants = [&](const std::string& payload) {
     const auto chunk = wire::read<wire::FamilyGamut>(payload);
@@ -59,7 +59,7 @@ FamilyData family_data(const FamilyOptions& options) {
   return data;
 }
 
-const StagedFamily* staged(const families::Family& family, const FamilyData& data) {
+const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data) {
   for (const StagedFamily& each : data.staged) {
     std::vector<pattern::Pattern> seeds;
     for (const game::FamilyDesign& design : each.stated.designs)

@@ -9,8 +9,6 @@
 #include "explore/search.hpp"
 #include "families/grouping.hpp"
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::cli {
@@ -35,7 +33,7 @@ struct FamilyOptions {
 /// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated
 /// again.
 struct StagedFamily {
-  wire::Family stated;
+  wire::CalibratedFamily stated;
   std::vector<explore::Evaluated> variants;
 };
 
@@ -51,6 +49,6 @@ struct FamilyData {
 FamilyData family_data(const FamilyOptions& options);
 
 /// The stage's word on this family, when its seeds are the same.
-const StagedFamily* staged(const families::Family& family, const FamilyData& data);
+const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data);
 
 }  // namespace nacre::cli

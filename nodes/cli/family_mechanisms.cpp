@@ -37,8 +37,8 @@ std::vector<Cracked> broken(const std::string& task, const std::vector<pattern::
 nlohmann::ordered_json mechanisms_of_family(const std::vector<Cracked>& cracked, const std::filesystem::path& file,
                                             std::uint64_t seed) {
   std::string text = "pattern,rigid_fraction,modulus_pa,toughness_pa";
-  std::vector<families::Column> features, controls = {{"rigid_fraction", {}}, {"modulus_pa", {}}};
-  families::Column outcome{"toughness_pa", {}};
+  std::vector<families::FeatureColumn> features, controls = {{"rigid_fraction", {}}, {"modulus_pa", {}}};
+  families::FeatureColumn outcome{"toughness_pa", {}};
   for (const crack::Mechanism& mechanism : crack::mechanism_names()) {
     text += fmt::format(",{}", mechanism.name);
     features.push_back({std::string(mechanism.name), {}});

@@ -12,7 +12,6 @@
 #include "material/parameters.hpp"
 #include "optimize/pareto.hpp"
 #include "pattern/layout.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::cli {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "measurement/write_import.hpp"
 #include "output.hpp"
 
 namespace nacre::cli {

@@ -9,7 +9,7 @@
 
 #include "base/result.hpp"
 #include "command.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "run_access.hpp"

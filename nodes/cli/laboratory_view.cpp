@@ -92,7 +92,7 @@ void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
   const auto approval = wire::decode_safe<approval_t>(payload);
   if (!approval) return;
   if (const auto design = pattern::design_from_name(approval->design))
-    facts.decisions.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
+    facts.approvals.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
     proposals[proposal.round] = proposal;
   };
-  const auto take_family = [&](const wire::Family& family) {
+  const auto take_family = [&](const wire::CalibratedFamily& family) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) facts.proposed.push_back({family.round, design.pattern});
   };
@@ -128,7 +128,7 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
                          {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
                          {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
                         {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
-                         {"FAMILY", each<wire::Family>(take_family)},
+                         {"FAMILY", each<wire::CalibratedFamily>(take_family)},
                          {"PARAMETERS", each<wire::AdoptedModel>(take_model)},
                          {"ROUND", each<wire::RoundSummary>(take_round)}});
   // Later ones may be there: an agent that begins anew without its journal is offered all of them again.

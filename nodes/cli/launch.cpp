@@ -8,6 +8,7 @@
 #include "game/reference_tables.hpp"
 #include "game/scenario.hpp"
 #include "game/starting_point.hpp"
+#include "measurement/limits.hpp"
 #include "output.hpp"
 #include "replay_laboratory.hpp"
 #include "runtime/interrupts.hpp"

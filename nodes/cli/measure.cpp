@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "laboratory/laboratory.hpp"
+#include "laboratory/measure_set.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "pattern/design.hpp"

@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
+#include "measurement/read_set.hpp"
 
 namespace nacre::cli {
 

@@ -15,7 +15,7 @@
 #include "proposal_agent/proposal_core.hpp"
 #include "proposal_agent/selection_work.hpp"
 #include "replay_laboratory.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 #include "runtime/replay.hpp"
 #include "runtime/run_folder.hpp"
 #include "simulator_farm/farm_core.hpp"

@@ -5,6 +5,7 @@
 
 #include "base/files.hpp"
 #include "command.hpp"
+#include "material/parameter_file.hpp"
 #include "output.hpp"
 #include "output_path.hpp"
 #include "report/paper.hpp"

@@ -11,6 +11,7 @@
 #include "laboratory_view.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/history.hpp"
 #include "measurement/set_table.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
@@ -107,8 +108,8 @@ std::vector<Reviewed> judge_in_set(const Options& options, const std::vector<Spe
   for (const SpecimenReview& review_of_specimen : reviews) {
     if (!table.holds(review_of_specimen.specimen))
       throw unknown_specimen(review_of_specimen.specimen, options.set, table.size());
-    table.judge(review_of_specimen.specimen, review_of_specimen.valid,
-                fmt::format("{} ({})", review_of_specimen.why, options.by));
+    table.review(review_of_specimen.specimen, review_of_specimen.valid,
+                 fmt::format("{} ({})", review_of_specimen.why, options.by));
     reviewed.push_back({review_of_specimen, std::nullopt});
   }
   table.write(options.set);

@@ -10,7 +10,6 @@
 #include "command.hpp"
 #include "explore/gamut_csv.hpp"
 #include "game/standings.hpp"
-#include "measurement/measurement.hpp"
 #include "output.hpp"
 
 namespace nacre::cli {
@@ -63,10 +62,8 @@ int select_samples(const Options& options) {
                         {"reason", one.reason},
                         {"bin", one.bin}});
     if (options.json) continue;
-    // As in the reason, bins count from 1; what fills up has none.
-    const std::string bin = one.bin < 0 ? "-" : std::to_string(one.bin + 1);
-    fmt::print("{}  E {} GPa  T {} MPa  bin {:>2}  {}\n", one.pattern.key(), shown(1e-9 * one.predicted.modulus_pa),
-               shown(1e-6 * one.predicted.toughness_pa), bin, one.reason);
+    fmt::print("{}  E {} GPa  T {} MPa  {}\n", one.pattern.key(), shown(1e-9 * one.predicted.modulus_pa),
+               shown(1e-6 * one.predicted.toughness_pa), one.reason);
   }
   if (options.json) print_json(document);
   if (!selected.empty() && selected.size() < static_cast<std::size_t>(options.count))

@@ -21,7 +21,7 @@
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "progress.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::cli {
 namespace {
@@ -47,7 +47,7 @@ struct Specimen {
   pattern::Design design;
   std::optional<Result<tester::ModulusResult>> modulus;
   std::optional<Result<tester::ToughnessResult>> toughness;
-  std::optional<crack::Record> crack;
+  std::optional<crack::CrackRecord> crack;
   crack::Mechanisms mechanisms;
   double kernel_s = 0.0;  ///< processor time of the toughness test
 
@@ -121,7 +121,7 @@ void run_tests(std::vector<Specimen>& specimens, const Options& options, const m
   });
 }
 
-nlohmann::ordered_json to_json(const crack::Record& crack, const crack::Mechanisms& mechanisms) {
+nlohmann::ordered_json to_json(const crack::CrackRecord& crack, const crack::Mechanisms& mechanisms) {
   nlohmann::ordered_json entry = {{"columns", crack.columns},
                                   {"rows", crack.rows},
                                   {"broken", crack.order.size()},

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "laboratory_view.hpp"
-#include "measurement/measurement.hpp"
 #include "run_access.hpp"
 
 namespace nacre::cli {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "run_access.hpp"
 #include "runtime/node_core.hpp"
 

@@ -14,7 +14,8 @@
 #include "../output_of.hpp"
 #include "base/random.hpp"
 #include "laboratory/laboratory.hpp"
-#include "measurement/measurement.hpp"
+#include "laboratory/laboratory_file.hpp"
+#include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 

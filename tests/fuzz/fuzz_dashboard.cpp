@@ -6,6 +6,7 @@
 #include "dashboard/entries.hpp"
 #include "dashboard/guard.hpp"
 #include "dashboard/maps.hpp"
+#include "families/families_file.hpp"
 #include "fuzz.hpp"
 
 namespace nacre::fuzz {
@@ -28,12 +29,12 @@ dashboard::Request request_from(std::string_view text) {
   return request;
 }
 
-/// One dashboard for all inputs: what is handed in goes nowhere, and no simulation is started.
+/// One dashboard for all inputs: what is entered goes nowhere, and no simulation is started.
 dashboard::Dashboard& page() {
   static dashboard::FakeDesk desk;
   static dashboard::Dashboard page(
       [] {
-        dashboard::Settings settings;
+        dashboard::DashboardSettings settings;
         settings.run_folder = memory_folder() / "run";
         settings.page_folder = memory_folder() / "page";
         settings.family_folder = memory_folder() / "families";
@@ -41,8 +42,8 @@ dashboard::Dashboard& page() {
       }(),
       desk);
   desk.specimens.clear();
-  desk.judgements.clear();
-  desk.decisions.clear();
+  desk.reviews.clear();
+  desk.approvals.clear();
   desk.groupings.clear();
   return page;
 }
@@ -64,12 +65,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                  request.header("cookie").find(closed.token) != std::string::npos);
   (void)dashboard::refused(open, request);
   if (const auto specimen = dashboard::specimen_from_json(request.body)) fuzz::expect(!specimen->specimen.empty());
-  if (const auto judgement = dashboard::judgement_from_json(request.body))
-    fuzz::expect(!judgement->why.empty() && judgement->why.size() <= 500);
-  if (const auto decision = dashboard::decision_from_json(request.body)) fuzz::expect(decision->round >= -1);
-  (void)dashboard::wish_from_json(request.body);
+  if (const auto review = dashboard::specimen_review_from_json(request.body))
+    fuzz::expect(!review->why.empty() && review->why.size() <= 500);
+  if (const auto approval = dashboard::approval_from_json(request.body)) fuzz::expect(approval->round >= -1);
+  (void)dashboard::simulation_request_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
-    for (const families::Family& family : *grouping)
+    for (const families::SeedFamily& family : *grouping)
       fuzz::expect(families::is_family_name(family.name) && !family.seeds.empty());
   if (request.path == "/api/simulate") return 0;  // would break specimens for minutes
   const dashboard::Response response = fuzz::page().handle(request);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "measurement/write_set.hpp"
 #include "persons_game.hpp"
 #include "program_test.hpp"
 #include "store/run_record.hpp"

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
+#include "measurement/read_set.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
 
@@ -139,7 +140,7 @@ TEST(ReviewProgram, ProposesTheOutlierOfTheExampleAndLeavesTheDecisionToAPerson)
   EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-19", "--invalid"}).status, 2) << "a reason is wanted";
 }
 
-TEST(ReviewProgram, ChangesNothingOfTheSetButTheJudgementAndShowsItsWarnings) {
+TEST(ReviewProgram, ChangesNothingOfTheSetButTheReviewAndShowsItsWarnings) {
   const fs::path set = fresh_folder("judged");
   std::ofstream(set / "measurements.csv") << "specimen,pattern,test,modulus_pa,curve,note,colour\n"
                                              "A,rigid,modulus,2e9,raw.csv,bent,red\n"

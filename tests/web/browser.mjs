@@ -43,7 +43,7 @@ export async function visit(url, { width = 1360, height = 900, dark = false, tou
   return page;
 }
 
-/** Closes a page and all of its context; answers that are still on their way to it are nobody's fault. */
+/** Closes a page and all of its context; responses that are still on their way to it are no fault. */
 export async function leave(page) {
   await page.unrouteAll({ behavior: "ignoreErrors" });
   await page.context().close();

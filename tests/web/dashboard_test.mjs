@@ -38,7 +38,7 @@ const painted = (on, selector) =>
 
 test("a live game is shown and followed", async () => {
   await page.locator(".nodes li").nth(4).waitFor();
-  assert.match(await page.locator(".standing").innerText(), /playing/);
+  assert.match(await page.locator(".standing").innerText(), /^round \d of 1: /);
   await page.locator(".units .unit-button").first().waitFor({ timeout: 60_000 });
   await photograph(page, "game-live");
   await view(page, "nodes");
@@ -87,18 +87,18 @@ test("a measurement is entered and reviewed", async () => {
     .setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });
   await page.locator("text=curve.csv, 5 rows").waitFor();
   await photograph(page, "laboratory", true);
-  await page.getByRole("button", { name: "Hand in" }).click();
-  await page.locator(".notice.good", { hasText: "by-hand-1 is in the game" }).waitFor();
+  await page.getByRole("button", { name: "Add measurement" }).click();
+  await page.locator(".notice.good", { hasText: "by-hand-1 was added to the run" }).waitFor();
   const row = page.locator("tr", { hasText: "by-hand-1" });
   await row.locator(".chip", { hasText: /^valid$/ }).waitFor();
-  await page.getByRole("button", { name: "judge by-hand-1" }).click();
+  await page.getByRole("button", { name: "review by-hand-1" }).click();
   await row.locator("input").fill("the grip slipped");
   await row.getByRole("button", { name: "not valid" }).click();
   await row.locator(".chip.rejected", { hasText: "not valid" }).waitFor();
   assert.match(await row.innerText(), /the grip slipped/);
 });
 
-/** The page, with what the server says changed: by path, a function of the answer. */
+/** The page, with the server's responses changed: by path, a function of the response. */
 const visitWith = async (url, changes) => {
   const other = await visit(url);
   for (const [path, change] of Object.entries(changes))
@@ -110,7 +110,7 @@ const visitWith = async (url, changes) => {
   return other;
 };
 
-test("every replicate of a turned order is handed in as a turned one", async () => {
+test("every replicate of a turned order is entered as a turned one", async () => {
   const turned = { order: "turned", round: 1, design: PUBLISHED, test: "toughness", orientation_deg: 90 };
   const usual = { strain_rate_per_s: 0.00617, thickness_mm: 6.4, loading: "monotonic", batch: "b", replicates: 3 };
   const given = [];
@@ -128,12 +128,12 @@ test("every replicate of a turned order is handed in as a turned one", async () 
   await other.locator('select[name="order"]').selectOption("turned");
   await other.locator('input[name="thickness"]').fill("6,4");
   await file.setInputFiles({ name: "curve.csv", mimeType: "text/csv", buffer: Buffer.from(CURVE) });
-  await other.getByRole("button", { name: "Hand in" }).click();
-  await other.locator(".notice.good", { hasText: "is in the game" }).waitFor();
+  await other.getByRole("button", { name: "Add measurement" }).click();
+  await other.locator(".notice.good", { hasText: "was added to the run" }).waitFor();
   assert.equal(await file.inputValue(), "");
   assert.equal(await other.locator('select[name="orientation"]').inputValue(), "90");
   await other.locator('input[name="value"]').fill("0,17");
-  await other.getByRole("button", { name: "Hand in" }).click();
+  await other.getByRole("button", { name: "Add measurement" }).click();
   await until(() => given.length === 2, 20, "the second replicate is handed in");
   const conditions = { orientation_deg: "90", strain_rate_per_s: 0.00617, thickness_mm: 6.4 };
   for (const each of given) assert.deepEqual({ ...each, ...conditions }, each);
@@ -166,12 +166,12 @@ test("a game that asks for no approvals offers none", async () => {
       designs: [],
     }),
   });
-  await other.locator("text=does not wait for a person's yes").waitFor();
+  await other.locator("text=does not wait for approval").waitFor();
   assert.equal(await other.getByRole("button", { name: /Approve|Reject/ }).count(), 0);
   await leave(other);
 });
 
-test("long names leave the remarks and the judge's button in sight, and a judgement its author", async () => {
+test("long names leave the remarks and the review's button in sight, and a review its author", async () => {
   const of = { design: `L${"c3".repeat(50)}`, test: "modulus", orientation_deg: 90, batch: "", points: 0 };
   const said = { modulus_pa: 1e9, toughness_pa: null, valid: true, note: "", by: "Ada", why: "it broke as it should" };
   const specimen = { ...of, ...said, specimen: "n".repeat(100) };
@@ -180,27 +180,38 @@ test("long names leave the remarks and the judge's button in sight, and a judgem
   });
   const row = other.locator("tr", { hasText: specimen.specimen });
   await row.waitFor();
-  const box = await row.getByRole("button", { name: "judge" }).boundingBox();
+  const box = await row.getByRole("button", { name: "review" }).boundingBox();
   assert.ok(box.x + box.width < 1360, `the button ends at ${box.x + box.width}`);
   assert.match(await row.innerText(), /Ada: it broke as it should/);
   assert.equal(await row.locator("code.key").getAttribute("title"), of.design);
   await leave(other);
 });
 
-test("what cannot be a measurement is refused with its column", async () => {
+test("what cannot be a measurement is refused with the field and what was typed", async () => {
   const other = await visit(`${live.url}#laboratory`);
   await other.locator('input[name="specimen"]').fill("nonsense");
   await other.locator('input[name="pattern"]').fill("mix:7");
   for (const typed of ["abc", "0,17 MPa", "1,234.5"]) {
     await other.locator('input[name="value"]').fill(typed);
-    await other.getByRole("button", { name: "Hand in" }).click();
-    await other.locator(".notice.bad", { hasText: `“${typed}” is not a number` }).waitFor();
+    await other.getByRole("button", { name: "Add measurement" }).click();
+    await other.locator(".notice.bad", { hasText: `Toughness: “${typed}” is not a number` }).waitFor();
+    assert.equal(await other.locator('input[aria-invalid="true"]').getAttribute("name"), "value");
   }
   await other.locator('input[name="value"]').fill("1");
-  await other.getByRole("button", { name: "Hand in" }).click();
-  await other.locator(".notice.bad", { hasText: "pattern: " }).waitFor();
+  await other.getByRole("button", { name: "Add measurement" }).click();
+  await other.locator(".notice.bad", { hasText: "Pattern, “mix:7”: " }).waitFor();
+  await other.locator('input[name="pattern"]').fill(PUBLISHED);
+  await other.locator('input[name="thickness"]').fill("-2");
+  await other.getByRole("button", { name: "Add measurement" }).click();
+  await other.locator(".notice.bad", { hasText: "Thickness, “-2” mm: -2 is not positive" }).waitFor();
+  await other.locator('input[name="thickness"]').fill("");
+  await other.locator('select[name="test"]').selectOption("modulus");
+  await other.locator('input[name="value"]').fill("4e-10");
+  await other.getByRole("button", { name: "Add measurement" }).click();
+  await other.locator(".notice.bad", { hasText: "Young's modulus, “4e-10” GPa: 0.4 Pa, expected" }).waitFor();
+  await other.locator('input[name="value"]').fill("1");
   await other.route("**/api/measurement", (route) => route.fulfill({ status: 413, body: "" }));
-  await other.getByRole("button", { name: "Hand in" }).click();
+  await other.getByRole("button", { name: "Add measurement" }).click();
   await other.locator(".notice.bad", { hasText: "too large" }).waitFor();
   assert.deepEqual(
     other.troubles.filter((t) => !/status of (400|413)/.test(t)),
@@ -209,9 +220,11 @@ test("what cannot be a measurement is refused with its column", async () => {
   await leave(other);
 });
 
-/** Says yes to everything that waits for it. */
+/** Approves everything that waits for it; the page leads there. */
 const approveAll = async () => {
   const approve = page.getByRole("button", { name: "Approve" });
+  await view(page, "game");
+  await page.locator(".standing a", { hasText: /waits for you, \d designs? to approve/ }).click({ timeout: 120_000 });
   await approve.first().waitFor({ timeout: 120_000 });
   for (let left = await approve.count(); left > 0; --left) {
     await approve.first().click();
@@ -222,7 +235,7 @@ const approveAll = async () => {
 test("designs are grouped by hand before the family stage", async () => {
   await approveAll();
   await view(page, "families");
-  const keep = page.getByRole("button", { name: "Keep this grouping" });
+  const keep = page.getByRole("button", { name: "Save this grouping" });
   await page.locator(".groups .member").first().waitFor({ timeout: 120_000 });
   assert.ok(await keep.isDisabled());
   await page.getByLabel("name of family 1").fill("not a name");
@@ -232,7 +245,7 @@ test("designs are grouped by hand before the family stage", async () => {
   await page.locator(".notice.bad", { hasText: "digits alone" }).waitFor();
   await page.getByLabel("name of family 1").fill("mine");
   await keep.click();
-  await page.locator(".notice.good", { hasText: "the family stage takes it" }).waitFor();
+  await page.locator(".notice.good", { hasText: "the family stage will use it" }).waitFor();
   assert.match(readFileSync(join(game.folder, "families/families.toml"), "utf8"), /name = "mine"/);
 });
 
@@ -325,9 +338,9 @@ test("families show their variants and whether their models were worth it", asyn
   const on = await visit(`${finished.url}#families`);
   await on.locator(".unit-button").first().click();
   await on.locator(".film canvas").waitFor({ timeout: 40_000 });
-  for (const table of [/^Mean relative errors on variants/, /^Mean relative errors on the seeds/, /^Seeds and chosen variants/])
+  for (const table of [/^Prediction errors on the variants/, /^Fit errors on the seeds/, /^Seeds and chosen variants/])
     assert.ok((await on.locator(".table", { hasText: table }).locator("tbody tr").count()) > 0, String(table));
-  assert.match(await on.locator(".table", { hasText: /on variants/ }).innerText(), /over-fit|worse than the global/);
+  assert.match(await on.locator(".table", { hasText: /on the variants/ }).innerText(), /over-fit|worse than the global/);
   await on.locator(".catcher").focus();
   assert.match(await pointWithKeys(on), /^[0-9a-f]{14}$/);
   assert.match((await savedFrom(on, on.getByLabel("families as CSV"))).toString(), /^family,what,pattern,[\s\S]*,simulated,[0-9a-f]{14},/);
@@ -368,7 +381,7 @@ test("of a family none of whose variants was measured nothing is claimed", async
       })),
     }),
   });
-  const cell = (text) => on.locator(".table", { hasText: /on variants/ }).locator("td", { hasText: text });
+  const cell = (text) => on.locator(".table", { hasText: /on the variants/ }).locator("td", { hasText: text });
   await cell(/^not measured$/).first().waitFor();
   assert.equal(await cell("does not over-fit").count(), 0);
   chosen = { ...known, toughness_count: 0 };
@@ -378,7 +391,7 @@ test("of a family none of whose variants was measured nothing is claimed", async
   await finished.close();
 });
 
-test("a grouping that nobody has kept yet outlives another proposal", async () => {
+test("a grouping that is not saved yet outlives another proposal", async () => {
   const finished = await openDashboard(game.folder);
   let name = "first";
   const on = await visitWith(`${finished.url}#families`, {
@@ -398,8 +411,8 @@ test("a grouping that nobody has kept yet outlives another proposal", async () =
   name = "third";
   await on.locator(".notice", { hasText: "The proposal has changed since you began" }).waitFor();
   assert.equal(await shown.inputValue(), "mine");
-  assert.ok(await on.getByRole("button", { name: "Keep this grouping" }).isEnabled());
-  await on.getByRole("button", { name: "take the new one" }).click();
+  assert.ok(await on.getByRole("button", { name: "Save this grouping" }).isEnabled());
+  await on.getByRole("button", { name: "use the new one" }).click();
   await showsUp("third");
   assert.equal(await on.locator(".notice", { hasText: "changed since" }).count(), 0);
   assert.deepEqual(on.troubles, []);
@@ -407,7 +420,7 @@ test("a grouping that nobody has kept yet outlives another proposal", async () =
   await finished.close();
 });
 
-test("what the server cannot answer is said in its words until it can", async () => {
+test("why the server cannot respond is said in its words until it can", async () => {
   const finished = await openDashboard(game.folder);
   const views = { laboratory: "/api/laboratory", diagnosis: "/api/diagnosis?*", families: "/api/families", explorer: "/api/maps" };
   const isSaid = async ([name, path]) => {
@@ -482,16 +495,16 @@ test("an open design follows the run's data, and its film goes on", async () => 
   });
   await on.locator("table", { hasText: "specimens" }).locator("button.link").first().click();
   await on.locator(".film canvas").waitFor({ timeout: 40_000 });
-  await on.locator(".facts tr", { hasText: /^measured\s*1\.80/ }).waitFor();
+  await on.locator(".facts tr", { hasText: /^measured mean\s*1\.80/ }).waitFor();
   await on.evaluate(() => {
     const body = document.querySelector(".panel.design");
     body.querySelector(".film canvas").dataset.seen = "yes";
     new MutationObserver(() => {
-      if (/measured\s*–/.test(body.querySelector(".facts").innerText)) body.dataset.emptied = "yes";
+      if (/measured mean\s*–/.test(body.querySelector(".facts").innerText)) body.dataset.emptied = "yes";
     }).observe(body, { childList: true, characterData: true, subtree: true });
   });
   [modulus_pa, data] = [2.5e9, "after"];
-  await on.locator(".facts tr", { hasText: /^measured\s*2\.50/ }).waitFor();
+  await on.locator(".facts tr", { hasText: /^measured mean\s*2\.50/ }).waitFor();
   assert.equal(await on.locator(".film canvas").getAttribute("data-seen"), "yes");
   assert.equal(await on.locator(".panel.design").getAttribute("data-emptied"), null);
   assert.deepEqual(on.troubles, []);
@@ -536,7 +549,7 @@ test("a mean has the digits of its error, and only specimens of the usual condit
   await on.locator("td", { hasText: /^0\.200$/ }).first().waitFor();
   await on.locator("td", { hasText: /^1\.797 ± 0\.016$/ }).first().waitFor();
   await on.locator("table", { hasText: "specimens" }).locator("button.link").first().click();
-  await on.locator(".facts tr", { hasText: /^measured\s*1\.80/ }).waitFor();
+  await on.locator(".facts tr", { hasText: /^measured mean\s*1\.80/ }).waitFor();
   await leave(on);
   await finished.close();
 });
@@ -581,9 +594,10 @@ test("the explorer breaks what lies between patterns", async () => {
   await finished.close();
 });
 
-/** The file that a button of a page saves. */
+/** The file that a button of a page saves; its name begins with the run's. */
 async function savedFrom(page, button) {
   const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
+  assert.match(download.suggestedFilename(), /^game-/);
   return readFileSync(await download.path());
 }
 
@@ -602,8 +616,11 @@ test("pictures and tables can be saved", async () => {
   const saved = (label) => savedFrom(saving, saving.getByLabel(label, { exact: true }));
   await saving.locator(".trends .chart").first().waitFor();
   await saving.locator(".catcher").waitFor();
-  const words = await textsOf(saving, await saved("gamut as SVG"));
+  const gamut = await saved("gamut as SVG");
+  const words = await textsOf(saving, gamut);
   assert.ok(words.some((w) => w.startsWith("Young's modulus")), words.join());
+  assert.match(gamut.toString(), /<title>game: Gamut: toughness against Young's modulus<\/title>/);
+  assert.ok(words.some((w) => w.startsWith("game: Gamut")), words.join());
   // On the page the keys stand outside of the chart.
   for (const key of ["front of gamut 1", "measured", "proposals"]) assert.ok(words.includes(key), key);
   assert.equal((await saved("gamut as PNG")).subarray(1, 4).toString(), "PNG");
@@ -670,7 +687,7 @@ test("everything is reached with the keyboard alone", async () => {
 test("a phone shows every view without scrolling sideways", async () => {
   const finished = await openDashboard(game.folder);
   const phone = await visit(finished.url, { width: 375, height: 740, touch: true });
-  for (const name of ["game", "laboratory", "diagnosis", "families", "explorer", "nodes"]) {
+  for (const name of ["game", "laboratory", "diagnosis", "families", "explorer", "nodes", "words"]) {
     await phone.goto(`${finished.url}#${name}`);
     await phone.locator(".panel").first().waitFor({ timeout: 40_000 });
     await phone.waitForTimeout(500);
@@ -685,7 +702,8 @@ test("a phone shows every view without scrolling sideways", async () => {
   await finished.close();
 });
 
-/** Milliseconds until the page shows its gamut of `count` points or more, and until a point is found under the pointer (median of ten). */
+/** Milliseconds until the page shows its gamut of at least `count` points, and until a point is found under the pointer
+ *  (median of ten). */
 async function shownAndPointed(run, count, picture) {
   const dashboard = await openDashboard(run);
   const begun = Date.now();
@@ -719,7 +737,7 @@ async function shownAndPointed(run, count, picture) {
 }
 
 test("100,000 points are shown and pointed at nearly as fast as a few", async () => {
-  // Beside each other, so that the load of the machine counts for both.
+  // One after the other, so that the load of the machine counts for both.
   const few = await shownAndPointed(game.folder, 10);
   const many = await shownAndPointed(withManyPatterns(game.folder, 100_000), 100_000, "many-points");
   console.log(`few points ${JSON.stringify(few)} ms, 100,000 ${JSON.stringify(many)} ms`);

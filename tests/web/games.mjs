@@ -20,7 +20,7 @@ export function endAll() {
 }
 process.on("exit", endAll);
 
-/** A program, what it has said, and how to wait for it. */
+/** A program, what it has printed, and how to wait for it. */
 function start(program, args) {
   const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, USER: "web test" } });
   children.add(child);

@@ -1,4 +1,4 @@
-// What the server says (docs/FORMATS.md, "Dashboard"). SI units.
+// The server's responses (docs/FORMATS.md, "Dashboard"). SI units.
 
 export interface RunInfo {
   run: string;
@@ -121,7 +121,7 @@ export interface Specimen {
   toughness_pa: number | null;
   valid: boolean;
   note: string;
-  /** Pulled at the usual rate, thickness and programme. */
+  /** Tested at the usual rate and thickness. */
   standard?: boolean;
   curve: Curve | null;
 }
@@ -165,7 +165,7 @@ export interface LaboratorySpecimen {
   points: number;
   valid: boolean;
   note: string;
-  /** Who judged it last and why; absent or empty: nobody has. */
+  /** Who reviewed it last and why; absent or empty: nobody has. */
   by?: string;
   why?: string;
 }
@@ -236,7 +236,7 @@ export interface Effect {
   unit: string;
 }
 
-export interface Candidate {
+export interface CandidateEffect {
   name: string;
   family?: string;
   explanation?: string;
@@ -261,10 +261,10 @@ export interface Diagnosis {
   round: number;
   verdict: string;
   summary: string;
-  /** What the calibration of the round says against the verdict; empty: nothing. */
+  /** Where the calibration of the round contradicts the verdict; empty: nowhere. */
   against: string;
   effects: Effect[];
-  candidates: Candidate[];
+  candidates: CandidateEffect[];
   gain: {
     held_out_error_before: number;
     held_out_error_after: number;
@@ -361,7 +361,7 @@ export interface Between {
   violation: string | null;
 }
 
-/** What the server refused, in its words. */
+/** A request that the server refused, with its sentence. */
 export class Refusal extends Error {
   constructor(
     readonly status: number,
@@ -371,16 +371,16 @@ export class Refusal extends Error {
   }
 }
 
-/** Why there is no answer, as a sentence for the page. */
+/** Why there is no response, as a sentence for the page. */
 export function problemOf(error: unknown): string {
   if (error instanceof Refusal) return error.message;
   // What fetch throws; anything else comes from reading what did arrive.
-  return error instanceof TypeError ? "the server does not answer" : "the server's answer cannot be read";
+  return error instanceof TypeError ? "The server does not respond." : "The server's response cannot be read.";
 }
 
-const TOO_LARGE = "This is too large to hand in: at most 4 MiB at a time, curve included.";
+const TOO_LARGE = "This is too large: at most 4 MiB at a time, curve included.";
 
-/** What a refusal says: a sentence of the server, or its text where that is not JSON. */
+/** The reason in a refusal: a sentence of the server, or its text where that is not JSON. */
 function reasonIn(text: string): string {
   try {
     const { message, error } = JSON.parse(text) as { message?: string; error?: string };
@@ -390,10 +390,11 @@ function reasonIn(text: string): string {
   }
 }
 
-async function answer(response: Response): Promise<Response> {
+/** The response; throws a Refusal where it is one. */
+async function accepted(response: Response): Promise<Response> {
   if (response.ok) return response;
   const reason = response.status === 413 ? TOO_LARGE : reasonIn(await response.text());
-  throw new Refusal(response.status, reason || response.statusText || `the server answered ${response.status}`);
+  throw new Refusal(response.status, reason || response.statusText || `The server refused: status ${response.status}.`);
 }
 
 export type Query = Record<string, string | number>;
@@ -404,14 +405,14 @@ export function address(path: string, query: Query): string {
 }
 
 export async function get<T>(path: string, query: Query = {}): Promise<T> {
-  return (await answer(await fetch(address(path, query)))).json();
+  return (await accepted(await fetch(address(path, query)))).json();
 }
 
 export async function getBytes(path: string, query: Query = {}): Promise<ArrayBuffer> {
-  return (await answer(await fetch(address(path, query)))).arrayBuffer();
+  return (await accepted(await fetch(address(path, query)))).arrayBuffer();
 }
 
 export async function post<T>(path: string, body: unknown): Promise<T> {
   const headers = { "Content-Type": "application/json", "X-Nacre": "1" };
-  return (await answer(await fetch(path, { method: "POST", headers, body: JSON.stringify(body) }))).json();
+  return (await accepted(await fetch(path, { method: "POST", headers, body: JSON.stringify(body) }))).json();
 }

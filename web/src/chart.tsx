@@ -8,6 +8,7 @@ import {
   LegendPlainComponent,
   MarkAreaComponent,
   MarkLineComponent,
+  TitleComponent,
 } from "echarts/components";
 import * as echarts from "echarts/core";
 import { CanvasRenderer, SVGRenderer } from "echarts/renderers";
@@ -15,7 +16,7 @@ import { createContext, type ComponentChildren } from "preact";
 import { useContext, useLayoutEffect, useRef } from "preact/hooks";
 import { scaleColour, themeColour } from "./colour";
 import { figure } from "./numbers";
-import { save, saveCsv, saveSvg } from "./save";
+import { save, saveCsv, saveSvg, titleOf } from "./save";
 
 echarts.use([
   LineChart,
@@ -26,6 +27,7 @@ echarts.use([
   LegendPlainComponent,
   MarkLineComponent,
   MarkAreaComponent,
+  TitleComponent,
   CanvasRenderer,
   SVGRenderer,
 ]);
@@ -33,7 +35,7 @@ echarts.use([
 export type Chart = echarts.ECharts;
 export type Option = Record<string, unknown>;
 
-/** Changes when the page turns dark or light, so that charts are drawn anew. */
+/** Changes when the page turns dark or light, so that charts are drawn again. */
 export const ThemeContext = createContext<"light" | "dark">("light");
 
 /** An axis in the page's colours. */
@@ -53,7 +55,7 @@ export function axis(name: string, more: Option = {}): Option {
   };
 }
 
-/** What every chart begins with. */
+/** The options that all charts share. */
 export function basis(more: Option = {}): Option {
   return {
     animation: false,
@@ -65,7 +67,7 @@ export function basis(more: Option = {}): Option {
   };
 }
 
-/** What the colours of a chart mean: scaleColour() from `low` to `high`, in `unit`. */
+/** The meaning of a chart's colours: scaleColour() from `low` to `high`, in `unit`. */
 export interface ColourScale {
   name: string;
   low: number;
@@ -76,9 +78,12 @@ export interface ColourScale {
 const RAMP = Array.from({ length: 9 }, (_, i) => scaleColour(i / 8));
 
 interface Props {
-  /** Name of the file, and what a screen reader says. */
+  /** Name of its files, without the run's. */
   name: string;
+  /** What the chart shows: for screen readers, and the title of its pictures. */
   label: string;
+  /** Why there is nothing to see, where there is nothing. */
+  empty: string;
   option: Option;
   height: number | string;
   table?: () => { heading: string[]; rows: unknown[][] };
@@ -88,7 +93,7 @@ interface Props {
   children?: ComponentChildren;
 }
 
-/** The family of a chart's letters. */
+/** The font family of a chart. */
 const familyOf = (option: Option) => (option.textStyle as { fontFamily: string }).fontFamily;
 
 /** Tells how wide a text is in a font. */
@@ -111,7 +116,7 @@ function rowsOf(names: string[], width: number, key: number, gap: number, font: 
   return rows;
 }
 
-/** The option with a legend above it, and by how much the picture grows: on the page the keys stand beside the chart. */
+/** The option with a legend above it, and by how much the picture grows: on the page the keys stand outside the chart. */
 function withLegend(option: Option, width: number): { legended: Option; grown: number } {
   const series = option.series as { name?: string; symbol?: string; data: ArrayLike<unknown> }[];
   const shown = new Map(series.filter((s) => s.name && s.data.length > 0).map((s) => [s.name!, s]));
@@ -164,11 +169,31 @@ function withScale(option: Option, height: number, row: number, scale: ColourSca
   return { ...option, graphic, grid: { ...grid, bottom: grid.bottom + row } };
 }
 
-/** The same picture drawn again with its keys as SVG, or as PNG at twice the size, on the page's ground. */
-function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string, scale?: ColourScale): void {
+const TITLE_ROW = 26;
+
+/** The option with a title above everything, in TITLE_ROW pixels more. */
+function withTitle(option: Option, title: string, width: number): Option {
+  const { grid, legend } = option as { grid: { left: number; top: number }; legend?: { top: number } };
+  const textStyle = { color: themeColour("ink"), fontSize: 12, width: width - grid.left - 8, overflow: "truncate" };
+  return {
+    ...option,
+    title: { text: title, left: grid.left, top: 8, padding: 0, textStyle },
+    ...(legend ? { legend: { ...legend, top: legend.top + TITLE_ROW } } : {}),
+    grid: { ...grid, top: grid.top + TITLE_ROW },
+  };
+}
+
+/** The same picture drawn again with title and keys as SVG, or as PNG at twice the size, in the page's colours. */
+function picture(
+  chart: Chart,
+  option: Option,
+  kind: "svg" | "png",
+  { name, label, scale }: Pick<Props, "name" | "label" | "scale">,
+): void {
   const width = chart.getWidth();
-  const { legended, grown } = withLegend(option, width);
-  const drawn = chart.getHeight() + grown;
+  const { legended: untitled, grown } = withLegend(option, width);
+  const legended = withTitle(untitled, titleOf(label), width);
+  const drawn = chart.getHeight() + grown + TITLE_ROW;
   const row = scale ? 24 : 0;
   const keyed = scale ? withScale(legended, drawn, row, scale) : legended;
   const height = drawn + row;
@@ -183,7 +208,7 @@ function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string
   zoom?.forEach((each, dataZoomIndex) =>
     copy.dispatchAction({ type: "dataZoom", dataZoomIndex, startValue: each.startValue, endValue: each.endValue }),
   );
-  if (kind === "svg") saveSvg(name, copy.renderToSVGString());
+  if (kind === "svg") saveSvg(name, copy.renderToSVGString(), label);
   else {
     const canvas = copy.renderToCanvas({
       backgroundColor: themeColour("panel"),
@@ -194,11 +219,15 @@ function picture(chart: Chart, option: Option, kind: "svg" | "png", name: string
   copy.dispose();
 }
 
-export function ChartBox({ name, label, option, height, table, onReady, tools, scale, children }: Props) {
+/** Whether any series has a point. */
+const hasPoints = (option: Option) =>
+  (option.series as { data?: ArrayLike<unknown> }[]).some((series) => (series.data?.length ?? 0) > 0);
+
+export function ChartBox({ name, label, empty, option, height, table, onReady, tools, scale, children }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<Chart | undefined>(undefined);
   const theme = useContext(ThemeContext);
-  // Laid out, not painted: a key or a pointer that comes with the first frame finds the chart made.
+  // In the layout effect, so that a key or a pointer that comes with the first frame finds the chart.
   useLayoutEffect(() => {
     const made = echarts.init(host.current!, null, { renderer: "canvas" });
     chart.current = made;
@@ -217,6 +246,7 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, s
     <figure class="chart">
       <div class="canvas" style={{ height: typeof height === "number" ? `${height}px` : height }}>
         <div ref={host} class="host" role="img" aria-label={label} />
+        {!hasPoints(option) && <p class="awaited nothing">{empty}</p>}
         {children}
       </div>
       <figcaption class="tools">
@@ -234,7 +264,7 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, s
         <button
           type="button"
           class="quiet"
-          onClick={() => picture(chart.current!, option, "svg", name, scale)}
+          onClick={() => picture(chart.current!, option, "svg", { name, label, scale })}
           aria-label={`${name} as SVG`}
         >
           SVG
@@ -242,7 +272,7 @@ export function ChartBox({ name, label, option, height, table, onReady, tools, s
         <button
           type="button"
           class="quiet"
-          onClick={() => picture(chart.current!, option, "png", name, scale)}
+          onClick={() => picture(chart.current!, option, "png", { name, label, scale })}
           aria-label={`${name} as PNG`}
         >
           PNG

@@ -1,4 +1,4 @@
-// Colours of films and maps, computed as lib/animation/colour.cpp does.
+// Colours of materials, films and maps, computed as lib/animation/colour.cpp does.
 
 type Three = [number, number, number];
 
@@ -78,15 +78,16 @@ export function elementColours(levels: number): Uint32Array[] {
   );
 }
 
-/** Materials as a film shows them unstrained, for its legend. */
-export const UNSTRAINED = {
-  soft: hexOf(MATERIALS[0]),
-  rigid: hexOf(MATERIALS[1]),
-  interface: hexOf(MATERIALS[2]),
+/** The colours of the materials, everywhere and in both themes: soft is dark, rigid light, as the inks TangoBlack and
+ *  VeroWhite are. */
+export const MATERIAL = {
+  soft: hexOf(MATERIALS[0]), // #22262c
+  rigid: hexOf(MATERIALS[1]), // #8d97a6
+  interface: hexOf(MATERIALS[2]), // #525a66
 };
 
-export const FAILING = 0xffd69f0a; // what broke since the frame before
-export const BREAKING = "#0a9fd6"; // the same, as a page writes colours
+export const BREAKING = "#0a9fd6"; // what broke since the frame before
+export const BREAKING_POINT = 0xffd69f0a; // the same, as ImageData holds it
 
 /** A scale from dark blue over green to yellow, of even lightness steps. */
 export function scaleColour(share: number): string {
@@ -99,7 +100,7 @@ export function themeColour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/** Colour of a round's simulated or measured points: earlier rounds paler. */
+/** Colour of a round's simulated or measured points: earlier rounds are paler. */
 export function roundColour(kind: "sim" | "meas", round: number, newest: number): string {
   const parse = (hex: string) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255) as Three;
   const age = newest > 0 ? (newest - round) / newest : 0;

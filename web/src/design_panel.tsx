@@ -1,4 +1,4 @@
-// One design: pattern, what is known of it, stress-strain curves, and how it breaks.
+// One design: pattern, E and T as predicted, simulated and measured, stress-strain curves, and its fracture.
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
@@ -7,12 +7,12 @@ import { axis, basis, ChartBox, type Option } from "./chart";
 import { themeColour } from "./colour";
 import { readFilm, type Film } from "./film";
 import { FilmPlayer } from "./film_player";
-import { duration, figure, gpa, GPA, MPA, mpa, percent } from "./numbers";
-import { Name, Problem, saveUnit, Unit, UnitButton } from "./parts";
+import { duration, gpa, MPA, mpa, percent, sentence } from "./numbers";
+import { MaterialKey, Name, Problem, saveUnit, Unit, UnitButton } from "./parts";
 import { useReading } from "./reading";
 
-/** What was pointed at. `model`: the round, or the family, whose model is to break it; `map`: of `nacre families`, which
- * may have another model of that family than the game. */
+/** A design that was chosen, and where. `model`: the round, or the family, whose model simulates it; `map`: of
+ *  `nacre families`, which may have another model of that family than the game. */
 export interface Chosen {
   design: string;
   model: number | string;
@@ -34,12 +34,12 @@ function useFilm({ design, model, map }: Pick<Chosen, "design" | "model" | "map"
     let dropped = false;
     let timer = 0;
     const look = async () => {
-      const wish = { design, model: String(model) };
+      const wanted = { design, model: String(model) };
       const origin: Query = map ? { map } : {};
-      const query = { ...wish, ...origin };
+      const query = { ...wanted, ...origin };
       try {
         let simulation = await get<Simulation>("/api/simulation", query);
-        if (simulation.state === "absent") simulation = await post<Simulation>(address("/api/simulate", origin), wish);
+        if (simulation.state === "absent") simulation = await post<Simulation>(address("/api/simulate", origin), wanted);
         if (dropped) return;
         if (simulation.state === "ready") {
           const film = await readFilm(await getBytes("/api/film", query));
@@ -82,7 +82,7 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
     if (simulated.length > 0)
       series.push({
         type: "line",
-        name: "simulated",
+        name: `simulated in round ${simulated[simulated.length - 1].round}`,
         data: points(simulated[simulated.length - 1].curve!),
         symbol: "none",
         silent: true,
@@ -91,7 +91,7 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
     if (film)
       series.push({
         type: "line",
-        name: "film",
+        name: "this film",
         data: points(film.curve),
         symbol: "none",
         silent: true,
@@ -126,7 +126,8 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
   return (
     <ChartBox
       name={`curves-${design?.design ?? "design"}`}
-      label="stress-strain curves of the design"
+      label={`Stress-strain curves of ${design?.design ?? "the design"}`}
+      empty="There is no curve of this design yet."
       option={withMarker}
       height={190}
       table={() => ({
@@ -139,10 +140,16 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
       })}
       tools={
         <ul class="keys">
-          {(film || simulated.length > 0) && (
+          {film && (
             <li>
               <span class="line" style={{ color: "var(--sim)" }} />
-              simulated
+              this film
+            </li>
+          )}
+          {simulated.length > 0 && (
+            <li>
+              <span class="line dashed" style={{ color: "var(--sim)" }} />
+              simulated in round {simulated[simulated.length - 1].round}
             </li>
           )}
           {measured.length > 0 && (
@@ -157,32 +164,62 @@ function CurveChart({ design, film, frame }: { design: Design | null; film?: Fil
   );
 }
 
-interface Told {
+interface Values {
   modulus_pa?: number | null;
   toughness_pa?: number | null;
 }
 
-/** What the model that is looked at says of the design; the newest round's only where that one says nothing. */
-function toldOf(chosen: Chosen, design: Design | null): Told {
-  const byModel = (each: { round: number }) => each.round === chosen.model;
-  const told: Told | undefined = design?.simulated.find(byModel) ?? design?.proposals.find(byModel);
-  if (told) return told;
-  if (!chosen.of.startsWith("measured") && !Number.isNaN(chosen.modulus))
-    return { modulus_pa: chosen.modulus, toughness_pa: chosen.toughness };
-  const isOfRound = typeof chosen.model === "number";
-  return (isOfRound && (design?.simulated.at(-1) ?? design?.proposals.at(-1))) || {};
+/** The prediction that was made before the design was measured, by the model that is looked at or by the newest one. */
+function predictionOf(chosen: Chosen, design: Design | null): Values | undefined {
+  const proposals = design?.proposals ?? [];
+  const byModel = proposals.find((p) => p.round === chosen.model);
+  return byModel ?? (typeof chosen.model === "number" ? proposals.at(-1) : undefined);
 }
 
-/** What was pulled faster, thicker or turned answers another question. */
+/** One simulation of the design by the model that is looked at; by the newest model only where that one has none. */
+function simulationOf(chosen: Chosen, design: Design | null): Values {
+  const byModel = design?.simulated.find((s) => s.round === chosen.model);
+  if (byModel) return byModel;
+  if (chosen.of.startsWith("proposed")) return {};
+  if (!chosen.of.startsWith("measured") && !Number.isNaN(chosen.modulus))
+    return { modulus_pa: chosen.modulus, toughness_pa: chosen.toughness };
+  return (typeof chosen.model === "number" && design?.simulated.at(-1)) || {};
+}
+
+/** Specimens tested faster, thicker or turned do not count for the mean. */
 const isStandard = (s: Design["specimens"][number]) => s.orientation_deg === 0 && s.standard !== false;
+
+const HINTS = {
+  predicted: "Predicted before it was measured. T is a mean of several simulations, each with slightly different parameters.",
+  simulated: "One simulation of one specimen: the film, where there is one. Its T differs from the predicted mean.",
+  measured: "Mean of the valid specimens, tested upright at the usual rate and thickness.",
+};
+
+function ValuesRow({ name, hint, values }: { name: string; hint: string; values: Values }) {
+  return (
+    <tr>
+      <th scope="row">
+        <span class="term" title={hint}>
+          {name}
+        </span>
+      </th>
+      <td>{gpa(values.modulus_pa)}</td>
+      <td>{mpa(values.toughness_pa)}</td>
+    </tr>
+  );
+}
 
 function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | null; state: FilmState }) {
   const counted = design?.specimens.filter((s) => s.valid && isStandard(s)) ?? [];
-  const measuredE = mean(counted.filter((s) => s.test === "modulus").map((s) => s.modulus_pa));
-  const measuredT = mean(counted.filter((s) => s.test === "toughness").map((s) => s.toughness_pa));
-  const told = toldOf(chosen, design);
-  const simE = state.simulation?.modulus_pa ?? told.modulus_pa;
-  const simT = state.film?.toughness ?? told.toughness_pa;
+  const ofTest = (test: string) => counted.filter((s) => s.test === test);
+  const [forE, forT] = [ofTest("modulus"), ofTest("toughness")];
+  const measured = { modulus_pa: mean(forE.map((s) => s.modulus_pa)), toughness_pa: mean(forT.map((s) => s.toughness_pa)) };
+  const prediction = predictionOf(chosen, design);
+  const simulated = simulationOf(chosen, design);
+  const film = {
+    modulus_pa: state.simulation?.modulus_pa ?? simulated.modulus_pa,
+    toughness_pa: state.film?.toughness ?? simulated.toughness_pa,
+  };
   return (
     <table class="facts">
       <thead>
@@ -193,18 +230,16 @@ function Facts({ chosen, design, state }: { chosen: Chosen; design: Design | nul
         </tr>
       </thead>
       <tbody>
+        {prediction && <ValuesRow name="predicted mean" hint={HINTS.predicted} values={prediction} />}
+        <ValuesRow name={state.film ? "this film" : "one simulation"} hint={HINTS.simulated} values={film} />
+        <ValuesRow name="measured mean" hint={HINTS.measured} values={measured} />
         <tr>
-          <th scope="row">simulated</th>
-          <td>{gpa(simE)}</td>
-          <td>{mpa(simT)}</td>
+          <th scope="row">specimens</th>
+          <td>{forE.length}</td>
+          <td>{forT.length}</td>
         </tr>
         <tr>
-          <th scope="row">measured</th>
-          <td>{gpa(measuredE)}</td>
-          <td>{mpa(measuredT)}</td>
-        </tr>
-        <tr>
-          <th scope="row">rigid</th>
+          <th scope="row">rigid share</th>
           <td colSpan={2}>{percent(design?.rigid_fraction)}</td>
         </tr>
       </tbody>
@@ -217,12 +252,12 @@ function mean(values: (number | null)[]): number | null {
   return known.length > 0 ? known.reduce((a, b) => a + b, 0) / known.length : null;
 }
 
-/** What stands where the film will be. */
+/** In place of the film until it is there. */
 function FilmWait({ state }: { state: FilmState }) {
   if (state.problem)
     return (
       <p class="notice bad" role="status">
-        No film: {state.problem}
+        There is no film: {state.problem}
       </p>
     );
   const s = state.simulation;
@@ -230,7 +265,7 @@ function FilmWait({ state }: { state: FilmState }) {
     ? "looking for its film"
     : s.state === "queued"
       ? "waiting for another simulation to end"
-      : `being simulated: no film of it was kept (${duration(s.working_s ?? 0)})`;
+      : `being simulated, since the game kept no film of it (${duration(s.working_s ?? 0)})`;
   return (
     <div class="waiting" role="status">
       <span class="spinner" aria-hidden="true" />
@@ -239,7 +274,7 @@ function FilmWait({ state }: { state: FilmState }) {
   );
 }
 
-/** A chosen design; what the run knows of it is read again whenever its `data` change. */
+/** A chosen design, read again whenever the run's `data` change. */
 export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | null }) {
   const { value: design, problem } = useReading<Design>("/api/design", { design: chosen.design }, data);
   const [frame, setFrame] = useState(0);
@@ -262,30 +297,32 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
       <Problem text={problem} />
       {design?.proposals.map((p) => (
         <p key={p.round} class="reason">
-          Proposed in round {p.round}: {p.reason} (E {figure(p.modulus_pa * GPA)} GPa, T {figure(p.toughness_pa * MPA)}{" "}
-          MPa foretold)
+          Proposed in round {p.round}. {sentence(p.reason)}. Predicted: E {gpa(p.modulus_pa)} GPa, T {mpa(p.toughness_pa)}{" "}
+          MPa.
         </p>
       ))}
       {design?.violation && <p class="reason">Outside the design space: {design.violation}</p>}
       <CurveChart design={design} film={state.film} frame={frame} />
       {state.film ? <FilmPlayer film={state.film} onFrame={setFrame} /> : <FilmWait state={state} />}
-      {state.film && state.simulation?.source === "here" && (
+      {state.film && (
         <p class="quiet">
-          Simulated just now with the model of{" "}
-          {typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model}; films of proposals and of a family's
-          designs come from the game.
+          The film shows one specimen, T {mpa(state.film.toughness)} MPa.
+          {state.simulation?.source === "here" &&
+            ` Simulated just now with the model of ${
+              typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model
+            }; films of proposals and of a family's designs come from the game.`}
         </p>
       )}
     </>
   );
 }
 
-/** Brings the panel into sight: on a narrow screen it stands below the chart. */
+/** Scrolls to the panel: on a narrow screen it stands below the chart. */
 export function showDesignPanel() {
   document.querySelector("section.design")?.scrollIntoView({ block: "start", behavior: "smooth" });
 }
 
-/** The design that was chosen; `children` stand there until one is. */
+/** The design that was chosen; `children` until one is. */
 export function DesignPanel({
   chosen,
   data,
@@ -299,17 +336,18 @@ export function DesignPanel({
     <section class="panel design" aria-label="design">
       <div class="panel-head">
         <h2>Design</h2>
+        <MaterialKey />
       </div>
       {chosen ? <DesignBody key={`${chosen.design}@${chosen.map ?? chosen.model}`} chosen={chosen} data={data} /> : children}
     </section>
   );
 }
 
-/** What may be chosen before anything is: what a round proposed. */
+/** Designs to choose from before anything is chosen: what a round proposed. */
 export function NewestProposals({ round, choose }: { round: Round | null; choose: (c: Chosen) => void }) {
   return (
     <>
-      <p class="quiet">Point at the gamut to see a pattern; click, or press Enter, to see it break.</p>
+      <p class="quiet">Point at the gamut to see a pattern. Click, or press Enter, to see it break.</p>
       {round && <h3>Newest proposals</h3>}
       <ul class="units">
         {round?.proposals.map((p) => (

@@ -1,29 +1,34 @@
-// What the simulation gets wrong, and why: the analyser's word, round by round.
+// What the simulation gets wrong, and why: the analyser's diagnosis of each round.
 
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import type { Candidate, Diagnosis as Word, Effect, Experiment, Rounds } from "./api";
+import type { CandidateEffect, Diagnosis, Effect, Experiment, Rounds } from "./api";
 import { figure, percent, words } from "./numbers";
 import { Name, Problem, Table, Unit } from "./parts";
 import { useReading } from "./reading";
 import { saveCsv } from "./save";
+import { TERMS } from "./terms";
 
 const VERDICTS: Record<string, string> = {
-  base_sufficient: "The base model is sufficient",
-  named: "A cause is named",
-  ambiguous: "Ambiguous: these data cannot tell yet",
-  unexplained: "Something is wrong that no known effect explains",
+  base_sufficient: "Nothing is missing: the base model explains the measurements",
+  named: "A missing effect is named",
+  ambiguous: "Something is missing: these measurements cannot tell yet what",
+  unexplained: "Something is missing that no known effect explains",
 };
 
-const STATUS: Record<string, string> = {
-  in_set: "possible",
-  excluded: "excluded",
-  invisible: "invisible on these data",
-  not_applicable: "not applicable",
+/** What a status means. */
+const STATUS: Record<string, { text: string; hint: string }> = {
+  in_set: { text: "explains the data", hint: "With this effect the model agrees with the measurements." },
+  excluded: { text: "excluded", hint: "The measurements show no sign of it, or another effect explains them better." },
+  invisible: {
+    text: "invisible in these data",
+    hint: "Its signature is too weak to be told from noise. It may be there all the same.",
+  },
+  not_applicable: { text: "not testable here", hint: "These specimens and tests cannot show it." },
 };
 
-/** A figure of an effect that took part; a dash for one that these specimens cannot show. */
-const weighed = (candidate: Candidate, text: string) => (candidate.status === "not_applicable" ? "–" : text);
+/** A number of a candidate effect; a dash for one that these specimens cannot show. */
+const weighed = (candidate: CandidateEffect, text: string) => (candidate.status === "not_applicable" ? "–" : text);
 
 /** A parameter with its 90 % interval on a scale from 0. */
 function Interval({ effect }: { effect: Effect }) {
@@ -46,7 +51,7 @@ function Interval({ effect }: { effect: Effect }) {
   );
 }
 
-function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
+function Gain({ gain }: { gain: NonNullable<Diagnosis["gain"]> }) {
   // Errors are of logarithms.
   const before = Math.expm1(gain.held_out_error_before);
   const after = Math.expm1(gain.held_out_error_after);
@@ -62,7 +67,7 @@ function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
   );
   return (
     <>
-      <h3>Gain on designs that were left out</h3>
+      <h3>Error on held-out designs: kept back from the fit to test it</h3>
       {row("base model", before, "before")}
       {row("extended", after, "after")}
       {gain.relative_reduction !== undefined && (
@@ -77,25 +82,25 @@ function Gain({ gain }: { gain: NonNullable<Word["gain"]> }) {
   );
 }
 
-/** What the picture of a verdict shows, as a table. */
-function saveWord(word: Word): void {
-  const rows: unknown[][] = word.effects.map((e) => [e.name, e.parameter, ...e.interval90, e.unit]);
-  if (word.gain) {
-    const { held_out_error_before, held_out_error_after, relative_reduction, interval90 } = word.gain;
+/** Effects and gain, as a table. */
+function saveDiagnosis(diagnosis: Diagnosis): void {
+  const rows: unknown[][] = diagnosis.effects.map((e) => [e.name, e.parameter, ...e.interval90, e.unit]);
+  if (diagnosis.gain) {
+    const { held_out_error_before, held_out_error_after, relative_reduction, interval90 } = diagnosis.gain;
     rows.push(["held_out_error_before", held_out_error_before], ["held_out_error_after", held_out_error_after]);
     if (relative_reduction !== undefined) rows.push(["relative_reduction", relative_reduction, ...(interval90 ?? [])]);
   }
-  saveCsv(`diagnosis-${word.round}`, ["what", "value", "low90", "high90", "unit"], rows);
+  saveCsv(`diagnosis-${diagnosis.round}`, ["what", "value", "low90", "high90", "unit"], rows);
 }
 
-/** What the analyser found, with the size of every effect and what it gained. */
-function Verdict({ word }: { word: Word }) {
+/** The verdict, with the size of every effect and what it gains. */
+function Verdict({ diagnosis }: { diagnosis: Diagnosis }) {
   return (
     <>
-      <h2>{VERDICTS[word.verdict] ?? words(word.verdict)}</h2>
-      <p>{word.summary}</p>
-      {word.against && <p class="doubt">{word.against}</p>}
-      {word.effects.map((e) => (
+      <h2>{VERDICTS[diagnosis.verdict] ?? words(diagnosis.verdict)}</h2>
+      <p>{diagnosis.summary}</p>
+      {diagnosis.against && <p class="doubt">{diagnosis.against}</p>}
+      {diagnosis.effects.map((e) => (
         <div key={e.name} class="effect">
           <div>
             <strong>{words(e.name)}</strong>
@@ -110,9 +115,9 @@ function Verdict({ word }: { word: Word }) {
           </div>
         </div>
       ))}
-      {word.gain && <Gain gain={word.gain} />}
-      {(word.effects.length > 0 || word.gain) && (
-        <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveWord(word)}>
+      {diagnosis.gain && <Gain gain={diagnosis.gain} />}
+      {(diagnosis.effects.length > 0 || diagnosis.gain) && (
+        <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveDiagnosis(diagnosis)}>
           CSV
         </button>
       )}
@@ -120,18 +125,18 @@ function Verdict({ word }: { word: Word }) {
   );
 }
 
-function NextTests({ word }: { word: Word }) {
+function NextTests({ diagnosis }: { diagnosis: Diagnosis }) {
   return (
     <section class="panel">
       <Table
-        name={`next-tests-${word.round}`}
-        caption="Tests that would settle what is open"
-        rows={word.next_experiments}
+        name={`next-tests-${diagnosis.round}`}
+        caption="Next tests, which would settle what is open"
+        rows={diagnosis.next_experiments}
         rowKey={(e: Experiment) => JSON.stringify(e)}
-        empty="None is asked for."
+        empty="No further test is needed."
         columns={[
           {
-            heading: "design",
+            ...TERMS.design,
             words: true,
             show: (e) => (
               <span class="with-unit">
@@ -142,7 +147,7 @@ function NextTests({ word }: { word: Word }) {
             value: (e) => e.design,
           },
           {
-            heading: "test",
+            ...TERMS.test,
             words: true,
             show: (e) => `${e.test}${e.orientation_deg ? ", turned" : ""}`,
             value: (e) => e.test,
@@ -151,7 +156,7 @@ function NextTests({ word }: { word: Word }) {
           { heading: "strain_rate_per_s", value: (e) => e.strain_rate_per_s },
           { heading: "thickness_mm", value: (e) => e.thickness_mm },
           { heading: "loading", value: (e) => e.loading },
-          { heading: "replicates", show: (e) => e.replicates, value: (e) => e.replicates },
+          { heading: "replicates", hint: "How many specimens to test.", show: (e) => e.replicates, value: (e) => e.replicates },
           { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
         ]}
       />
@@ -159,18 +164,18 @@ function NextTests({ word }: { word: Word }) {
   );
 }
 
-function Candidates({ word }: { word: Word }) {
+function Candidates({ diagnosis }: { diagnosis: Diagnosis }) {
   return (
     <section class="panel">
       <Table
-        name={`candidates-${word.round}`}
-        caption="Every effect that was weighed"
-        rows={[...word.candidates].sort((a, b) => b.statistic - a.statistic)}
-        rowKey={(c: Candidate) => c.name}
-        empty="No effect was weighed."
+        name={`candidates-${diagnosis.round}`}
+        caption="Candidate effects"
+        rows={[...diagnosis.candidates].sort((a, b) => b.statistic - a.statistic)}
+        rowKey={(c: CandidateEffect) => c.name}
+        empty="No effect was considered: there are too few measurements."
         columns={[
           {
-            heading: "effect",
+            ...TERMS.effect,
             words: true,
             show: (c) => (
               <span title={c.explanation}>
@@ -181,27 +186,30 @@ function Candidates({ word }: { word: Word }) {
             value: (c) => c.name,
           },
           {
-            heading: "status",
+            ...TERMS.effectStatus,
+            csv: "status",
             words: true,
             show: (c) => (
-              <span class={`chip ${c.status === "in_set" ? "pending" : ""}`}>{STATUS[c.status] ?? c.status}</span>
+              <span class={`chip ${c.status === "in_set" ? "approved" : ""}`} title={STATUS[c.status]?.hint}>
+                {STATUS[c.status]?.text ?? words(c.status)}
+              </span>
             ),
             value: (c) => c.status,
           },
           {
-            heading: "drop of χ²",
+            ...TERMS.fitGain,
             csv: "statistic",
             show: (c) => weighed(c, figure(c.statistic)),
             value: (c) => c.statistic,
           },
           {
-            heading: "p, family-wise",
+            ...TERMS.chance,
             csv: "p_family_wise",
             show: (c) => weighed(c, figure(c.p_family_wise, 2)),
             value: (c) => c.p_family_wise,
           },
           {
-            heading: "absorbed by the base",
+            ...TERMS.absorption,
             csv: "absorption",
             show: (c) => weighed(c, percent(c.absorption, 0)),
             value: (c) => c.absorption,
@@ -212,31 +220,31 @@ function Candidates({ word }: { word: Word }) {
   );
 }
 
-/** The word on one round; while another round is read, nothing of the one before. */
-function WordOn({ round, rounds, tabs }: { round: number; rounds: Rounds; tabs: ComponentChildren }) {
-  const { value: word, problem } = useReading<Word>("/api/diagnosis", { round }, rounds);
+/** The diagnosis of one round; while another round is read, nothing of the one before. */
+function DiagnosisOf({ round, rounds, tabs }: { round: number; rounds: Rounds; tabs: ComponentChildren }) {
+  const { value: diagnosis, problem } = useReading<Diagnosis>("/api/diagnosis", { round }, rounds);
   return (
     <>
-      <section class={`panel verdict ${word?.verdict ?? ""}`}>
+      <section class={`panel verdict ${diagnosis?.verdict ?? ""}`}>
         <div class="panel-head">
           <p class="eyebrow">diagnosis</p>
           {tabs}
         </div>
         <Problem text={problem} />
-        {word ? <Verdict word={word} /> : !problem && <p class="awaited">reading …</p>}
+        {diagnosis ? <Verdict diagnosis={diagnosis} /> : !problem && <p class="awaited">reading …</p>}
       </section>
-      {word && <NextTests word={word} />}
-      {word && <Candidates word={word} />}
+      {diagnosis && <NextTests diagnosis={diagnosis} />}
+      {diagnosis && <Candidates diagnosis={diagnosis} />}
     </>
   );
 }
 
-export function Diagnosis({ rounds }: { rounds: Rounds }) {
+export function DiagnosisView({ rounds }: { rounds: Rounds }) {
   const diagnosed = rounds.rounds.filter((r) => r.verdict).map((r) => r.round);
   const [picked, setPicked] = useState<number | null>(null);
   const round = picked ?? diagnosed.at(-1);
   if (round === undefined)
-    return <p class="awaited wait">No diagnosis yet: the first one follows the first measurements of proposals.</p>;
+    return <p class="awaited wait">There is no diagnosis yet: the first one follows the first measurements of proposed designs.</p>;
   const tabs = (
     <div class="tabs small" role="group" aria-label="round">
       {diagnosed.map((r) => (
@@ -246,5 +254,5 @@ export function Diagnosis({ rounds }: { rounds: Rounds }) {
       ))}
     </div>
   );
-  return <WordOn round={round} rounds={rounds} tabs={tabs} />;
+  return <DiagnosisOf round={round} rounds={rounds} tabs={tabs} />;
 }

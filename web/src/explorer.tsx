@@ -1,4 +1,5 @@
-// Maps of patterns: likeness as nearness, colour as modulus or toughness. A click breaks a pattern, a drag goes between patterns.
+// Maps of patterns: similar patterns are near, colour is modulus or toughness. A click shows a fracture, a drag goes
+// between patterns.
 
 import { useEffect, useState } from "preact/hooks";
 import { get, problemOf, type Maps, type PatternMap, type Rounds } from "./api";
@@ -7,7 +8,7 @@ import { MapChart, type Coloured } from "./map_chart";
 import { useBetween, type Blend, type Place } from "./map_places";
 import { MechanismTable } from "./mechanism_table";
 import { percent } from "./numbers";
-import { Awaited, Problem, Unit } from "./parts";
+import { Awaited, MaterialKey, Problem, Unit } from "./parts";
 import { AGAIN_MS, useReading } from "./reading";
 
 const LOOK_MS = 400;
@@ -18,7 +19,7 @@ interface MapState {
   problem: string;
 }
 
-/** A map, asked for until it is there. Of another map nothing is known at first. */
+/** A map, requested until it is there. Of another map nothing is known at first. */
 function useMap(id: string): MapState {
   const nothing: MapState & { id: string } = { id, map: null, progress: null, problem: "" };
   const [state, setState] = useState(nothing);
@@ -28,9 +29,9 @@ function useMap(id: string): MapState {
     const look = async () => {
       const next = { ...nothing };
       try {
-        const answer = await get<{ map?: PatternMap; progress?: number | null }>("/api/map", { id });
-        next.map = answer.map ?? null;
-        next.progress = answer.progress ?? null;
+        const response = await get<{ map?: PatternMap; progress?: number | null }>("/api/map", { id });
+        next.map = response.map ?? null;
+        next.progress = response.progress ?? null;
       } catch (error) {
         next.problem = problemOf(error);
       }
@@ -85,7 +86,9 @@ function Choices({
         {(["toughness", "modulus"] as const).map((c) => (
           <label key={c} class="toggle">
             <input type="radio" name="colour" checked={coloured === c} onChange={() => setColoured(c)} />
-            <span>{c === "modulus" ? "E" : "T"}</span>
+            <span title={c === "modulus" ? "Young's modulus: how stiff" : "toughness: how tough"}>
+              {c === "modulus" ? "E" : "T"}
+            </span>
           </label>
         ))}
       </fieldset>
@@ -140,7 +143,7 @@ function BlendCard({ blend, open }: { blend: Blend; open: (design: string, index
   );
 }
 
-/** What somebody has come to on one map. */
+/** What somebody has chosen on one map. */
 interface Visit {
   id: string;
   place: Place | null;
@@ -154,10 +157,10 @@ function useVisit(id: string): [Visit, (more: Partial<Visit>) => void] {
   return [of(kept), (more) => setKept((before) => ({ ...of(before), ...more }))];
 }
 
-/** Whose model breaks what is chosen. */
+/** Whose model simulates what is chosen. */
 type Whose = Pick<Chosen, "model" | "map">;
 
-/** What a click on a pattern of the map opens. */
+/** The choice that a click on a pattern of the map makes. */
 const chosenOn = (map: PatternMap, index: number, whose: Whose): Chosen => ({
   design: map.pattern[index],
   ...whose,
@@ -182,7 +185,7 @@ export function Explorer({ rounds, data, theme }: { rounds: Rounds; data: string
   const ids = [...maps.families.flatMap((f) => f.map_ids), ...maps.gamuts];
   const newest = maps.families[0]?.map_ids[0] ?? maps.gamuts.at(-1);
   const id = picked && ids.includes(picked) ? picked : newest;
-  if (!id) return <p class="awaited wait">No gamut yet: the map of its best patterns appears here.</p>;
+  if (!id) return <p class="awaited wait">There is no gamut yet: the map of its best patterns appears here.</p>;
   return (
     <>
       <Problem text={problem} />
@@ -211,7 +214,7 @@ function MapView({
   const [of, which] = id.split("/");
   const family = of === "gamut" ? null : of;
   const whose: Whose = family ? { model: family, map: id } : { model: Number(which) };
-  // Whoever has begun to look around stays on the map when the gamut of another round comes.
+  // Who has chosen something stays on the map when the gamut of another round comes.
   const visit = (more: Partial<Visit>) => {
     pick(id);
     setVisit(more);
@@ -229,8 +232,8 @@ function MapView({
             <Choices maps={maps} id={id} pick={pick} coloured={coloured} setColoured={setColoured} />
           </div>
           <p class="quiet">
-            Patterns that resemble each other lie near each other (earth mover's distance, Isomap). Click one to break
-            it; drag across the map to go between patterns, and break what you find.
+            Similar patterns lie near each other (earth mover's distance, Isomap). Click one to see it break. Drag across
+            the map to go between patterns, and break what you find.
           </p>
           <Problem text={problem} />
           {map ? (
@@ -257,7 +260,8 @@ function MapView({
         </section>
         <section class="panel design" aria-label="design">
           <div class="panel-head">
-            <h2>{isBetween ? "Between" : "Design"}</h2>
+            <h2>{isBetween ? "Between patterns" : "Design"}</h2>
+            <MaterialKey />
           </div>
           {isBetween && <BlendCard blend={blend} open={open} />}
           {chosen ? (

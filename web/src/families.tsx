@@ -1,10 +1,11 @@
-// The families of a run: near-Pareto designs in groups, the variants of each by its own model, and whether that model was worth it.
+// The families of a run: good designs in groups, the variants of each by its own model, and whether that model predicts
+// them better.
 
 import { useMemo, useState } from "preact/hooks";
-import type { Families as Said, Family, FamilyDesign, Maps, Rounds } from "./api";
+import type { Families, Family, FamilyDesign, Maps, Rounds } from "./api";
 import { DesignPanel, type Chosen } from "./design_panel";
 import { Grouping } from "./family_grouping";
-import { familyVariable, FORETOLD, seriesOf, spotsOf, type Shown } from "./family_points";
+import { familyVariable, PREDICTED, seriesOf, spotsOf, type Shown } from "./family_points";
 import { DesignTable, ErrorTable, SubfamilyTable, worseThanGlobal } from "./family_tables";
 import { keyAt } from "./gamut";
 import { MechanismTable } from "./mechanism_table";
@@ -14,41 +15,41 @@ import { PointChart } from "./point_chart";
 import { useGamuts, useReading } from "./reading";
 import { newestModel } from "./rounds";
 
-/** What there is to say before, or instead of, a stage. */
-function Standing({ said }: { said: Said }) {
-  const over = said.stage.filter((f) => f.over_fits.length > 0);
-  const worse = said.stage.filter((f) => worseThanGlobal(f).length > 0);
-  if (said.stage.length === 0)
+/** What the view shows, and which models not to trust. */
+function Explanation({ families }: { families: Families }) {
+  const over = families.stage.filter((f) => f.over_fits.length > 0);
+  const worse = families.stage.filter((f) => worseThanGlobal(f).length > 0);
+  if (families.stage.length === 0)
     return (
       <p class="quiet">
-        {said.enabled
-          ? "After the last round the validation agent calibrates a model of each family, chooses variants and has them measured. Until then: the best designs so far, grouped."
-          : "The best designs measured so far, grouped by pattern and properties. This game plays no family stage ([families] enabled = true asks for one); nacre families works the groups out afterwards."}
+        {families.enabled
+          ? "The best designs measured so far, grouped. After the last round each family gets a model of its own, which proposes variants to measure."
+          : "The best designs measured so far, grouped by pattern and properties. This game has no family stage ([families] enabled = true adds one); nacre families analyses the groups afterwards."}
       </p>
     );
   return (
     <>
       <p class="quiet">
         Diamonds: measured seeds. Small points: variants within 16 pixels, by the family's own model. Rings: variants
-        chosen for the laboratory, foretold; a line leads to what was measured.
+        chosen for the laboratory, as predicted; a line leads to the measured value.
       </p>
       {over.map((f) => (
         <p key={f.name} class="notice bad" role="status">
-          {f.name}: its own model over-fits {f.over_fits.join(" and ")} – nearer to the seeds than the global one, farther
-          from the variants. Trust the global model there.
+          {f.name}: its own model over-fits {f.over_fits.join(" and ")}. It is nearer to the seeds than the global model,
+          and farther from the variants: trust the global model.
         </p>
       ))}
       {worse.map((f) => (
         <p key={f.name} class="notice bad" role="status">
-          {f.name}: its own model is worse than the global model in {worseThanGlobal(f).join(" and ")} on the variants.
-          Trust the global model there.
+          {f.name}: its own model is worse than the global model in {worseThanGlobal(f).join(" and ")} on the variants:
+          trust the global model.
         </p>
       ))}
     </>
   );
 }
 
-export function Families({
+export function FamiliesView({
   rounds,
   data,
   theme,
@@ -59,26 +60,26 @@ export function Families({
   theme: string;
   run: string;
 }) {
-  const families = useReading<Said>("/api/families", {}, data);
+  const reading = useReading<Families>("/api/families", {}, data);
   const subfamilies = useReading<Maps>("/api/maps", {}, data);
-  const [said, maps] = [families.value, subfamilies.value];
-  const wanted = said?.stage.map((f) => ({ name: f.name, count: f.gamut_count, which: { family: f.name } })) ?? [];
+  const [families, maps] = [reading.value, subfamilies.value];
+  const wanted = families?.stage.map((f) => ({ name: f.name, count: f.gamut_count, which: { family: f.name } })) ?? [];
   const { gamuts, problem } = useGamuts(wanted);
   const [hidden, setHidden] = useState<Set<string>>(new Set());
   const [variants, setVariants] = useState(true);
   const [chosen, setChosen] = useState<Chosen | null>(null);
   const all = useMemo<Shown[]>(() => {
-    if (!said) return [];
-    if (said.stage.length === 0)
-      return said.grouping.families.map((g, index) => ({ ...g, index, stage: null, gamut: null }));
-    return said.stage.map((stage, index) => ({
+    if (!families) return [];
+    if (families.stage.length === 0)
+      return families.grouping.families.map((g, index) => ({ ...g, index, stage: null, gamut: null }));
+    return families.stage.map((stage, index) => ({
       name: stage.name,
       index,
       seeds: stage.designs.filter((d) => d.is_seed).map((d) => d.design),
       stage,
       gamut: gamuts.get(stage.name) ?? null,
     }));
-  }, [said, gamuts]);
+  }, [families, gamuts]);
   const shown = useMemo(() => all.filter((f) => !hidden.has(f.name)), [all, hidden]);
   const newest = newestModel(rounds);
   const series = useMemo(() => seriesOf(rounds, shown, variants), [rounds, shown, variants, theme]);
@@ -90,11 +91,11 @@ export function Families({
         : [],
     [shown, variants],
   );
-  if (!said) return <Awaited problem={families.problem} />;
+  if (!families) return <Awaited problem={reading.problem} />;
   if (all.length === 0)
     return (
       <p class="awaited wait">
-        No pattern has been measured in both tests yet: the families of the best designs appear here.
+        No pattern has been measured in both tests yet: families of the best designs appear here.
       </p>
     );
   const open = (family: Family, design: FamilyDesign) =>
@@ -126,7 +127,7 @@ export function Families({
                       <span>{f.name}</span>
                     </label>
                   ))}
-                  {said.stage.length > 0 && (
+                  {families.stage.length > 0 && (
                     <label class="toggle" style={{ "--c": "var(--homo)" } as never}>
                       <input type="checkbox" checked={variants} onChange={() => setVariants(!variants)} />
                       <span>variants</span>
@@ -135,11 +136,12 @@ export function Families({
                 </fieldset>
               </div>
             </div>
-            <Problem text={families.problem || problem} />
-            <Standing said={said} />
+            <Problem text={reading.problem || problem} />
+            <Explanation families={families} />
             <PointChart
               name="families"
-              label="Families: Young's modulus against toughness"
+              label="Families: toughness against Young's modulus"
+              empty="Every family is switched off: choose one above."
               series={series}
               clouds={clouds}
               spots={spots}
@@ -164,25 +166,25 @@ export function Families({
               })}
             />
           </section>
-          {said.stage.length > 0 && (
+          {families.stage.length > 0 && (
             <section class="panel after">
-              <ErrorTable families={said.stage} which="chosen" />
-              <ErrorTable families={said.stage} which="seeds" />
+              <ErrorTable families={families.stage} which="chosen" />
+              <ErrorTable families={families.stage} which="seeds" />
             </section>
           )}
         </div>
         <DesignPanel chosen={chosen} data={data}>
-          <p class="quiet">Click a point, or press Enter on it, to see it break by its family's model.</p>
+          <p class="quiet">Click a point, or press Enter on it, to see it break with its family's model.</p>
           {shown.map((family) => {
             const spotsOfIt = spots.filter((s) => s.family === family.name);
-            const foretold = spotsOfIt.filter((s) => s.role === FORETOLD);
+            const predicted = spotsOfIt.filter((s) => s.role === PREDICTED);
             return (
               <div key={family.name}>
                 <h3>
-                  {family.name}: {foretold.length > 0 ? "variants chosen for the laboratory" : "seeds"}
+                  {family.name}: {predicted.length > 0 ? "variants chosen for the laboratory" : "seeds"}
                 </h3>
                 <ul class="units">
-                  {(foretold.length > 0 ? foretold : spotsOfIt).map((s) => (
+                  {(predicted.length > 0 ? predicted : spotsOfIt).map((s) => (
                     <li key={s.design}>
                       <UnitButton
                         design={s.design}
@@ -197,9 +199,9 @@ export function Families({
           })}
         </DesignPanel>
       </div>
-      {said.stage.length > 0 && (
+      {families.stage.length > 0 && (
         <section class="panel">
-          <DesignTable families={said.stage} open={open} />
+          <DesignTable families={families.stage} open={open} />
         </section>
       )}
       <Problem text={subfamilies.problem} />
@@ -211,7 +213,7 @@ export function Families({
             <MechanismTable family={f.name} mechanisms={f.mechanisms!} />
           </section>
         ))}
-      <Grouping said={said} run={run} refresh={families.read} colour={familyVariable} />
+      <Grouping families={families} run={run} refresh={reading.read} colour={familyVariable} />
     </>
   );
 }

@@ -1,32 +1,44 @@
-// Which designs belong together: proposed by the program, changed by a person.
+// Which designs belong together: proposed by nacre, changed by a person.
 
-import type { Families as Said, NamedSeeds } from "./api";
-import { useHandIn } from "./hand_in";
-import { Notice, Unit, useDraft } from "./parts";
+import type { Families, NamedSeeds } from "./api";
+import { MaterialKey, Notice, Unit, useDraft } from "./parts";
+import { useSubmit } from "./submit";
 
 const NONE = -1;
 
-/** A person's grouping that nobody has kept yet, and what the server said when it was begun. */
+/** A person's grouping that is not saved yet, and the server's grouping when it was begun. */
 interface Draft {
   groups: NamedSeeds[];
   from: string;
 }
 
+/** What is wrong with the families' names, as a sentence; empty: nothing. */
+function faultIn(names: string[]): string {
+  const unfit = names.find((name) => !/^[A-Za-z0-9_-]{1,64}$/.test(name));
+  if (unfit !== undefined) return `“${unfit}”: a family's name has letters, digits, - and _, at most 64.`;
+  const number = names.find((name) => /^[0-9]+$/.test(name));
+  if (number !== undefined)
+    return `“${number}”: a family's name does not have digits alone, since numbers name the models of rounds.`;
+  const twice = names.find((name, i) => names.indexOf(name) < i);
+  if (twice !== undefined) return `“${twice}”: two families have this name.`;
+  return names.length === 0 ? "A grouping has at least one family." : "";
+}
+
 export function Grouping({
-  said,
+  families: { grouping, stage, enabled },
   run,
   refresh,
   colour,
 }: {
-  said: Said;
+  families: Families;
   run: string;
   refresh: () => Promise<void>;
   colour: (index: number) => string;
 }) {
-  const { families, near_pareto: near, from, problem } = said.grouping;
+  const { families, near_pareto: near, from, problem } = grouping;
   // Without a draft the groups follow the server; with one they stay a person's.
   const [draft, setDraft] = useDraft<Draft | null>("grouping", null);
-  const [notice, busy, handIn] = useHandIn(refresh, "writing …");
+  const [notice, busy, submit] = useSubmit(refresh, "saving …");
   const server = JSON.stringify(families);
   const groups = draft?.groups ?? families;
   const designs = [...new Set([...[...families, ...groups].flatMap((f) => f.seeds), ...near])];
@@ -35,15 +47,7 @@ export function Grouping({
   const setGroups = (next: NamedSeeds[]) =>
     setDraft(JSON.stringify(next) === server ? null : { groups: next, from: draft?.from ?? server });
   const kept = groups.filter((g) => g.seeds.length > 0);
-  const fault = kept.some((g) => !/^[A-Za-z0-9_-]{1,64}$/.test(g.name))
-    ? "A family's name has letters, digits, - and _, at most 64."
-    : kept.some((g) => /^[0-9]+$/.test(g.name))
-      ? "A family's name is not of digits alone: numbers name the models of rounds."
-      : new Set(kept.map((g) => g.name)).size < kept.length
-        ? "Two families have the same name."
-        : kept.length === 0
-          ? "A grouping has one family at least."
-          : "";
+  const fault = faultIn(kept.map((g) => g.name));
   const groupOf = (design: string) => groups.findIndex((g) => g.seeds.includes(design));
   const move = (design: string, to: number) => {
     const next = groups.map((g) => ({ ...g, seeds: g.seeds.filter((s) => s !== design) }));
@@ -57,24 +61,27 @@ export function Grouping({
     }
     setGroups(next);
   };
-  const keep = async () => {
+  const save = async () => {
     const done =
-      said.stage.length === 0 && said.enabled
-        ? "Kept: the family stage takes it."
-        : `Kept: nacre families --run ${run} works it out.`;
-    if (await handIn("/api/grouping", { families: kept }, done))
-      setDraft((now) => (now === draft ? null : now)); // what was changed meanwhile is not kept yet
+      stage.length === 0 && enabled
+        ? "Saved: the family stage will use it."
+        : `Saved: nacre families --run ${run} will use it.`;
+    if (await submit("/api/grouping", { families: kept }, done))
+      setDraft((now) => (now === draft ? null : now)); // what was changed meanwhile is not saved yet
   };
   return (
     <section class="panel">
-      <h2>Grouping</h2>
+      <div class="panel-head">
+        <h2>Grouping</h2>
+        <MaterialKey />
+      </div>
       <p class="quiet">
         {from === "file"
-          ? "As families.toml in the run's folder says."
-          : "Proposed by pattern and properties: designs of the first ranks, by likeness."}{" "}
-        {said.stage.length > 0
-          ? "The stage has been played with the families above; another grouping is for nacre families."
-          : "Move designs as you see them."}
+          ? "From families.toml in the run's folder."
+          : "Proposed by nacre: the best designs, grouped by similar patterns and properties."}{" "}
+        {stage.length > 0
+          ? "The family stage has used the families above; another grouping is for nacre families."
+          : "Move designs to other families as you like."}
       </p>
       {problem && (
         <p class="notice bad" role="status">
@@ -112,20 +119,20 @@ export function Grouping({
         )}
       </ul>
       <div class="buttons">
-        <button type="button" disabled={!changed || busy || fault !== ""} onClick={keep}>
-          Keep this grouping
+        <button type="button" disabled={!changed || busy || fault !== ""} onClick={save}>
+          Save this grouping
         </button>
         <button type="button" class="quiet" disabled={!changed} onClick={() => setDraft(null)}>
-          {isOvertaken ? "take the new one" : "as it was"}
+          {isOvertaken ? "use the new one" : "undo"}
         </button>
       </div>
       {isOvertaken && (
         <p class="notice doubt" role="status">
           {from === "file" ? "families.toml has" : "The proposal has"} changed since you began: your grouping stays until
-          you keep it or take the new one.
+          you save it or use the new one.
         </p>
       )}
-      <Notice said={fault ? { kind: "bad", text: fault } : notice} />
+      <Notice notice={fault ? { kind: "bad", text: fault } : notice} />
     </section>
   );
 }

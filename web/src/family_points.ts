@@ -1,4 +1,4 @@
-// Families as points of modulus against toughness: what is drawn of them, and what can be pointed at.
+// Families as points of toughness against modulus: their series, and what can be pointed at.
 
 import type { Family, Rounds } from "./api";
 import type { Option } from "./chart";
@@ -60,7 +60,7 @@ export function seriesOf(rounds: Rounds, families: Shown[], variants: boolean): 
     series.push(
       {
         type: "line",
-        name: `${family.name}, from foretold to measured`,
+        name: `${family.name}, from predicted to measured`,
         data: steps,
         symbol: "none",
         silent: true,
@@ -68,7 +68,7 @@ export function seriesOf(rounds: Rounds, families: Shown[], variants: boolean): 
         z: 5,
       },
       scatter(
-        `${family.name}, chosen, foretold`,
+        `${family.name}, chosen, predicted`,
         chosen.filter((d) => isKnown(d.family_model)).map((d) => pointOf(d.family_model)),
         { color: "transparent", borderColor: colour, borderWidth: 2 },
         { symbolSize: 11, z: 7 },
@@ -90,7 +90,7 @@ interface FamilySpot extends Spot {
   role: string;
 }
 
-export const FORETOLD = "variant, foretold";
+export const PREDICTED = "variant, predicted";
 
 export function spotsOf(rounds: Rounds, families: Shown[], newest: number): FamilySpot[] {
   const spots: FamilySpot[] = [];
@@ -107,7 +107,7 @@ export function spotsOf(rounds: Rounds, families: Shown[], newest: number): Fami
     for (const d of family.stage?.designs ?? []) {
       if (d.is_seed) continue;
       if (isKnown(d.measured)) add(d.design, pointOf(d.measured), family.name, "variant, measured", model);
-      if (isKnown(d.family_model)) add(d.design, pointOf(d.family_model), family.name, FORETOLD, model);
+      if (isKnown(d.family_model)) add(d.design, pointOf(d.family_model), family.name, PREDICTED, model);
       taken.add(d.design);
     }
     for (const m of rounds.measured) {

@@ -4,6 +4,7 @@ import type { Errors, Family, FamilyDesign, Maps } from "./api";
 import { showDesignPanel } from "./design_panel";
 import { gpa, mpa, percent } from "./numbers";
 import { Table, Unit } from "./parts";
+import { TERMS, type Term } from "./terms";
 
 const THESIS_GROWTH = 0.045; // Table A.7, the mean of eleven subfamilies
 
@@ -11,7 +12,7 @@ type Kind = "modulus" | "toughness";
 
 const meanError = (e: Errors | null, kind: Kind) => (e && e[`${kind}_count`] > 0 ? e[`${kind}_mean`] : null);
 
-/** Where a family's own model foretells its variants worse than the global one, and no over-fit explains it. */
+/** Where a family's own model predicts its variants worse than the global one, and no over-fit explains it. */
 export function worseThanGlobal(f: Family): string[] {
   const { global, family } = f.errors.chosen;
   const isWorse = (kind: Kind) => (meanError(family, kind) ?? 0) > (meanError(global, kind) ?? Infinity);
@@ -20,7 +21,7 @@ export function worseThanGlobal(f: Family): string[] {
   );
 }
 
-/** What speaks against a family's own model; empty: nothing. */
+/** What is wrong with a family's own model; empty: nothing. */
 function faultsOf(f: Family): string {
   const worse = worseThanGlobal(f);
   return [
@@ -31,7 +32,7 @@ function faultsOf(f: Family): string {
     .join("; ");
 }
 
-/** What keeps the models of a family from being compared in a property, as the report has it; empty: nothing. */
+/** Why the models of a family cannot be compared in a property; empty: they can. */
 function missingFor(f: Family, kind: Kind): string {
   const { seeds, chosen } = f.errors;
   const errors = [seeds.global, seeds.family, chosen.global, chosen.family];
@@ -41,11 +42,11 @@ function missingFor(f: Family, kind: Kind): string {
   return isMeasured(true) && isMeasured(false) ? "not simulated" : "not measured";
 }
 
-/** Whether a family's own model may be trusted. Where all its variants were rejected, nobody knows. */
-function standingOf(f: Family): { text: string; kind: "bad" | "quiet" | "" } {
+/** Whether a family's own model can be trusted. Where all its variants were rejected, nobody knows. */
+function trustIn(f: Family): { text: string; kind: "bad" | "quiet" | "" } {
   const faults = faultsOf(f);
   if (faults) return { text: faults, kind: "bad" };
-  if (!f.is_validated) return { text: "awaits its measurements", kind: "quiet" };
+  if (!f.is_validated) return { text: "not measured yet", kind: "quiet" };
   const [inE, inT] = [missingFor(f, "modulus"), missingFor(f, "toughness")];
   if (inE === inT) return { text: inE || "does not over-fit", kind: inE ? "quiet" : "" };
   const of = (kind: string, missing: string) => (missing ? `${kind} ${missing}` : `does not over-fit ${kind}`);
@@ -53,45 +54,46 @@ function standingOf(f: Family): { text: string; kind: "bad" | "quiet" | "" } {
 }
 
 export function ErrorTable({ families, which }: { families: Family[]; which: "seeds" | "chosen" }) {
-  const column = (heading: string, model: "global" | "family", kind: Kind) => ({
-    heading,
+  const column = (term: Term, model: "global" | "family", kind: Kind) => ({
+    ...term,
     csv: `${model}_model_${kind}_error`,
     show: (f: Family) => percent(meanError(f.errors[which][model], kind)),
     value: (f: Family) => meanError(f.errors[which][model], kind),
   });
-  const verdict = {
-    heading: "own model",
+  const familyModel = {
+    ...TERMS.familyModel,
     csv: "own_model",
     words: true,
     show: (f: Family) => {
-      const { text, kind } = standingOf(f);
+      const { text, kind } = trustIn(f);
       return kind === "bad" ? <strong class="bad">{text}</strong> : <span class={kind}>{text}</span>;
     },
-    value: (f: Family) => standingOf(f).text,
+    value: (f: Family) => trustIn(f).text,
   };
   return (
     <Table
       name={which === "seeds" ? "family-errors-seeds" : "family-errors-variants"}
       caption={
         which === "seeds"
-          ? "Mean relative errors on the seeds, which the family's own model was calibrated on"
-          : "Mean relative errors on variants, foretold before they were measured"
+          ? "Fit errors on the seeds, which the family's own model was calibrated on"
+          : "Prediction errors on the variants, predicted before they were measured"
       }
       rows={families}
       rowKey={(f) => f.name}
       empty=""
       columns={[
-        { heading: "family", words: true, show: (f) => f.name, value: (f) => f.name },
+        { ...TERMS.family, words: true, show: (f) => f.name, value: (f) => f.name },
         {
           heading: "designs",
+          hint: "How many seeds or variants the family has.",
           show: (f) => f.designs.filter((d) => d.is_seed === (which === "seeds")).length,
           value: (f) => f.designs.filter((d) => d.is_seed === (which === "seeds")).length,
         },
-        column("E global", "global", "modulus"),
-        column("E own", "family", "modulus"),
-        column("T global", "global", "toughness"),
-        column("T own", "family", "toughness"),
-        ...(which === "chosen" ? [verdict] : []),
+        column(TERMS.globalE, "global", "modulus"),
+        column(TERMS.familyE, "family", "modulus"),
+        column(TERMS.globalT, "global", "toughness"),
+        column(TERMS.familyT, "family", "toughness"),
+        ...(which === "chosen" ? [familyModel] : []),
       ]}
     />
   );
@@ -100,8 +102,8 @@ export function ErrorTable({ families, which }: { families: Family[]; which: "se
 export function DesignTable({ families, open }: { families: Family[]; open: (f: Family, d: FamilyDesign) => void }) {
   const rows = families.flatMap((family) => family.designs.map((design) => ({ family, design })));
   type Row = (typeof rows)[number];
-  const values = (heading: string, of: "measured" | "global_model" | "family_model", kind: "E" | "T") => ({
-    heading,
+  const values = (term: Term, of: "measured" | "global_model" | "family_model", kind: "E" | "T") => ({
+    ...term,
     csv: `${of}_${kind === "E" ? "modulus_pa" : "toughness_pa"}`,
     show: ({ design }: Row) => (kind === "E" ? gpa(design[of].modulus_pa) : mpa(design[of].toughness_pa)),
     value: ({ design }: Row) => (kind === "E" ? design[of].modulus_pa : design[of].toughness_pa),
@@ -114,15 +116,15 @@ export function DesignTable({ families, open }: { families: Family[]; open: (f: 
       rowKey={({ family, design }) => `${family.name} ${design.design}`}
       empty=""
       columns={[
-        { heading: "family", words: true, show: (r) => r.family.name, value: (r) => r.family.name },
+        { ...TERMS.family, words: true, show: (r) => r.family.name, value: (r) => r.family.name },
         {
-          heading: "role",
+          ...TERMS.role,
           words: true,
           show: (r) => (r.design.is_seed ? "seed" : "variant"),
           value: (r) => (r.design.is_seed ? "seed" : "variant"),
         },
         {
-          heading: "design",
+          ...TERMS.design,
           words: true,
           show: (r) => (
             <button
@@ -139,17 +141,17 @@ export function DesignTable({ families, open }: { families: Family[]; open: (f: 
           value: (r) => r.design.design,
         },
         {
-          heading: "rigid",
+          ...TERMS.rigid,
           csv: "rigid_fraction",
           show: (r) => percent(r.design.rigid_fraction, 0),
           value: (r) => r.design.rigid_fraction,
         },
-        values("E measured", "measured", "E"),
-        values("E global", "global_model", "E"),
-        values("E own", "family_model", "E"),
-        values("T measured", "measured", "T"),
-        values("T global", "global_model", "T"),
-        values("T own", "family_model", "T"),
+        values({ heading: "E, measured", hint: "Mean of the valid specimens." }, "measured", "E"),
+        values(TERMS.globalE, "global_model", "E"),
+        values(TERMS.familyE, "family_model", "E"),
+        values({ heading: "T, measured", hint: "Mean of the valid specimens." }, "measured", "T"),
+        values(TERMS.globalT, "global_model", "T"),
+        values(TERMS.familyT, "family_model", "T"),
       ]}
     />
   );
@@ -162,14 +164,14 @@ export function SubfamilyTable({ maps }: { maps: Maps }) {
     <section class="panel">
       <Table
         name="subfamilies"
-        caption={`Subfamilies: what interpolation adds to the variants around a seed (thesis, Table A.7: ${percent(THESIS_GROWTH)})`}
+        caption={`Subfamilies: how far interpolation extends the variants around a seed (thesis, Table A.7: ${percent(THESIS_GROWTH)})`}
         rows={rows}
         rowKey={(r) => `${r.family} ${r.seed}`}
         empty=""
         columns={[
-          { heading: "family", words: true, show: (r) => r.family, value: (r) => r.family },
+          { ...TERMS.family, words: true, show: (r) => r.family, value: (r) => r.family },
           {
-            heading: "seed",
+            ...TERMS.seed,
             words: true,
             show: (r) => (
               <span class="with-unit">
@@ -179,11 +181,11 @@ export function SubfamilyTable({ maps }: { maps: Maps }) {
             ),
             value: (r) => r.seed,
           },
-          { heading: "sampled", show: (r) => r.sampled, value: (r) => r.sampled },
-          { heading: "interpolated", show: (r) => r.interpolated, value: (r) => r.interpolated },
-          { heading: "growth", show: (r) => percent(r.growth), value: (r) => r.growth },
+          { ...TERMS.sampled, show: (r) => r.sampled, value: (r) => r.sampled },
+          { ...TERMS.interpolated, show: (r) => r.interpolated, value: (r) => r.interpolated },
+          { ...TERMS.growth, show: (r) => percent(r.growth), value: (r) => r.growth },
           {
-            heading: "variance kept by the map",
+            ...TERMS.variance,
             csv: "variance_kept",
             show: (r) => percent(1 - r.residual_variance),
             value: (r) => 1 - r.residual_variance,

@@ -60,7 +60,7 @@ function displacementOf(bytes: Uint8Array, frames: number, step: number): Float3
 export async function readFilm(buffer: ArrayBuffer): Promise<Film> {
   const view = new DataView(buffer);
   if (new TextDecoder().decode(buffer.slice(0, 8)) !== "NACREFLM" || view.getUint32(8, true) !== 1)
-    throw new Error("this is no fracture film of a known version");
+    throw new Error("the fracture film has an unknown format");
   const length = view.getUint32(12, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 16, length)));
   const sections = new Map<string, Uint8Array>();

@@ -1,7 +1,7 @@
 // A fracture film, drawn element by element.
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { BREAKING, elementColours, FAILING, UNSTRAINED } from "./colour";
+import { BREAKING, BREAKING_POINT, elementColours, MATERIAL } from "./colour";
 import type { Film } from "./film";
 import { figure, mpa } from "./numbers";
 import { saveCanvas } from "./save";
@@ -9,7 +9,7 @@ import { saveCanvas } from "./save";
 const VOID = 3;
 const FRAME_MS = 90;
 
-/** Frame in which each element fails; a large number for those that stand. */
+/** Frame in which each element fails; a large number for those that do not. */
 function framesOfFailing(film: Film): Int32Array {
   const failing = new Int32Array(film.columns * film.rows).fill(1 << 30);
   let begun = 0;
@@ -48,7 +48,7 @@ class FilmPainter {
         if (film.material[e] === VOID || this.failing[e] < f) continue;
         const a = row * (film.columns + 1) + column;
         const b = a + film.columns + 1;
-        const colour = this.failing[e] === f && f > 0 ? FAILING : this.colours[film.material[e]][film.energy[f][e]];
+        const colour = this.failing[e] === f && f > 0 ? BREAKING_POINT : this.colours[film.material[e]][film.energy[f][e]];
         const x0 = Math.max(0, Math.round(Math.min(xs[a], xs[b])));
         const x1 = Math.min(canvas.width, Math.round(Math.max(xs[a + 1], xs[b + 1])));
         const y0 = Math.max(0, Math.round(Math.min(ys[b], ys[b + 1])));
@@ -139,7 +139,7 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
         width={width}
         height={Math.round(width * aspect)}
         role="img"
-        aria-label={`fracture of ${film.design} at strain ${percentOf(shown.strain)}`}
+        aria-label={`fracture of ${film.design} at a strain of ${percentOf(shown.strain)}`}
         data-frame={frame}
       />
       <Legend />
@@ -166,7 +166,7 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
           }}
         />
         <output>
-          {percentOf(shown.strain)} · {mpa(shown.stress_pa)} MPa
+          strain {percentOf(shown.strain)} · stress {mpa(shown.stress_pa)} MPa
         </output>
       </div>
       <div class="tools">
@@ -181,7 +181,7 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
           type="button"
           class="quiet"
           aria-label="picture of the film as PNG"
-          onClick={() => saveCanvas(`${film.design}-${frame}`, canvas.current!)}
+          onClick={() => saveCanvas(`film-${film.design}-${frame}`, canvas.current!)}
         >
           PNG
         </button>
@@ -190,9 +190,9 @@ export function FilmPlayer({ film, onFrame }: { film: Film; onFrame?: (frame: nu
   );
 }
 
-/** Films have colours of their own: soft is dark, so that its energy glows. Icons follow the theme. */
+/** Materials have the same colours as in the pictures of patterns. */
 function Legend() {
-  const colours = { ...UNSTRAINED, breaking: BREAKING };
+  const colours = { ...MATERIAL, breaking: BREAKING };
   return (
     <ul class="keys" aria-label="colours of the film">
       {Object.entries(colours).map(([name, colour]) => (
@@ -200,7 +200,7 @@ function Legend() {
           <span class="swatch" style={{ "--c": colour } as never} /> {name}
         </li>
       ))}
-      <li>glow: strain energy</li>
+      <li>glow: stored strain energy</li>
     </ul>
   );
 }

@@ -1,4 +1,4 @@
-// The game: gamut and fronts by round, one design at a time beside them, and how the game stands.
+// The game: gamut and fronts by round, one design at a time, and hypervolume, gap and errors by round.
 
 import { useMemo, useState } from "preact/hooks";
 import type { Measured, Rounds } from "./api";
@@ -11,8 +11,9 @@ import { figure, GPA, MPA, percent, tick, withError } from "./numbers";
 import { Problem, Table } from "./parts";
 import { useGamuts } from "./reading";
 import { lastProposing, newestModel } from "./rounds";
+import { AREA, TERMS } from "./terms";
 
-/** Lines by round: each a name on the screen and in the file, a colour, and a value per round. */
+/** A line over rounds: its name on the screen and in the file, a colour, and a value per round. */
 interface Trend {
   name: string;
   csv: string;
@@ -29,9 +30,15 @@ function TrendChart({
   unit,
   rounds,
   trends,
+  hint,
+  empty,
   logarithmic,
 }: {
   title: string;
+  /** What the values mean, as a tooltip. */
+  hint: string;
+  /** Why there is no value, where there is none. */
+  empty: string;
   name: string;
   unit: string;
   rounds: Rounds;
@@ -89,7 +96,11 @@ function TrendChart({
   );
   return (
     <section class="panel trend">
-      <h3>{title}</h3>
+      <h3>
+        <span class="term" title={hint}>
+          {title}
+        </span>
+      </h3>
       <ul class="keys">
         {trends.map((t) => (
           <li key={t.name}>
@@ -99,11 +110,12 @@ function TrendChart({
         ))}
       </ul>
       {closed.length === 0 ? (
-        <p class="awaited">after the first round</p>
+        <p class="awaited">No round is complete yet.</p>
       ) : (
         <ChartBox
           name={name}
           label={`${title} by round`}
+          empty={empty}
           option={option}
           height={190}
           table={() => ({
@@ -119,22 +131,19 @@ function TrendChart({
   );
 }
 
-/** Of hypervolumes and gaps; unbroken, a heading may be narrow. */
-const AREA = "GPa\u00a0MPa";
-
 /** Names of columns in the files, the same wherever they are written. */
 const CSV = {
   gamut: "gamut_hypervolume_gpa_mpa",
   measured: "measured_hypervolume_gpa_mpa",
   hypervolumeError: "hypervolume_error_gpa_mpa",
   gap: "gap_gpa_mpa",
-  heldOutE: "modulus_error_held_out",
-  heldOutT: "toughness_error_held_out",
+  predictionE: "modulus_error_held_out",
+  predictionT: "toughness_error_held_out",
   afterE: "modulus_error_after",
   afterT: "toughness_error_after",
 };
 
-/** Of a round before anything was measured nothing is known of these. */
+/** The value; null in a round before anything was measured. */
 const ofMeasured = (r: Rounds["rounds"][number], value: number) => (r.summary!.measured_hypervolume > 0 ? value : null);
 
 const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
@@ -142,7 +151,7 @@ const someE = (e: { modulus_count: number; modulus_mean: number } | null) =>
 const someT = (e: { toughness_count: number; toughness_mean: number } | null) =>
   e && e.toughness_count > 0 ? e.toughness_mean : null;
 
-/** Rank correlation: of two designs it says nothing, as in the report. */
+/** Rank correlation, from three designs on: of two it means nothing. */
 const rankT = (e: { toughness_count: number; toughness_spearman: number } | null) =>
   e && e.toughness_count >= 3 ? e.toughness_spearman : null;
 
@@ -151,7 +160,7 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
     const [sim, meas, homo] = ["sim", "meas", "homo"].map(themeColour);
     return {
       hypervolume: [
-        { name: "gamut", csv: CSV.gamut, colour: sim, value: (r) => r.summary!.gamut_hypervolume },
+        { name: "predicted", csv: CSV.gamut, colour: sim, value: (r) => r.summary!.gamut_hypervolume },
         {
           name: "measured",
           csv: CSV.measured,
@@ -163,10 +172,10 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
       ] as Trend[],
       gap: [{ name: "gap", csv: CSV.gap, colour: homo, value: (r) => ofMeasured(r, r.summary!.gap) }] as Trend[],
       errors: [
-        { name: "E, held out", csv: CSV.heldOutE, colour: sim, value: (r) => someE(r.summary!.held_out) },
-        { name: "T, held out", csv: CSV.heldOutT, colour: meas, value: (r) => someT(r.summary!.held_out) },
+        { name: TERMS.modulusError.heading, csv: CSV.predictionE, colour: sim, value: (r) => someE(r.summary!.held_out) },
+        { name: TERMS.toughnessError.heading, csv: CSV.predictionT, colour: meas, value: (r) => someT(r.summary!.held_out) },
         {
-          name: "T, after calibration",
+          name: TERMS.toughnessFit.heading,
           csv: CSV.afterT,
           colour: meas,
           dashed: true,
@@ -177,10 +186,28 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
   }, [theme]);
   return (
     <div class="trends">
-      <TrendChart title="Hypervolume" name="hypervolume" unit={AREA} rounds={rounds} trends={trends.hypervolume} />
-      <TrendChart title="Gap to the laboratory" name="gap" unit={AREA} rounds={rounds} trends={trends.gap} />
       <TrendChart
-        title="Mean relative errors"
+        title="Hypervolume"
+        hint="Area under a Pareto front, down to E = T = 0: how good the best designs are."
+        empty="There is no gamut yet."
+        name="hypervolume"
+        unit={AREA}
+        rounds={rounds}
+        trends={trends.hypervolume}
+      />
+      <TrendChart
+        title="Gap to the laboratory"
+        hint={TERMS.gap.hint}
+        empty="Known once proposed designs have been measured."
+        name="gap"
+        unit={AREA}
+        rounds={rounds}
+        trends={trends.gap}
+      />
+      <TrendChart
+        title="Errors of the model"
+        hint="Of designs that were predicted before they were measured, and of designs that the model was fitted to."
+        empty="Known once proposed designs have been measured."
         name="errors"
         unit="%"
         rounds={rounds}
@@ -189,6 +216,21 @@ function Trends({ rounds, theme }: { rounds: Rounds; theme: string }) {
       />
     </div>
   );
+}
+
+const LAYERS: Record<keyof Layers, { label: string; hint: string }> = {
+  cloud: { label: "simulated", hint: "every simulated pattern of the gamut" },
+  fronts: { label: "fronts", hint: "Pareto fronts: no other pattern is both stiffer and tougher" },
+  proposals: { label: "proposals", hint: "designs that the round proposes to measure, as predicted" },
+  measured: { label: "measured", hint: "means of measured designs, with their standard deviation" },
+  mixtures: { label: "mixtures", hint: "both materials mixed at random, without a pattern" },
+};
+
+/** Why the chart of the gamut has no point. */
+function whyEmpty(rounds: Rounds, wanted: unknown[], visible: Gamut[]): string {
+  if (rounds.rounds.every((r) => r.gamut_count === 0)) return "The search for patterns has not begun yet.";
+  if (wanted.length === 0) return "No round is shown: choose one above.";
+  return visible.length === 0 ? "reading the gamut …" : "Everything is switched off: choose what to show above.";
 }
 
 /** Rounds and layers that are shown, as toggles; the rounds carry their colour. */
@@ -228,6 +270,7 @@ function Toggles({
           <label
             key={layer}
             class="toggle"
+            title={LAYERS[layer].hint}
             style={
               { "--c": `var(--${layer === "measured" ? "meas" : layer === "mixtures" ? "homo" : "sim"})` } as never
             }
@@ -237,7 +280,7 @@ function Toggles({
               checked={layers[layer]}
               onChange={() => setLayers({ ...layers, [layer]: !layers[layer] })}
             />
-            <span>{layer}</span>
+            <span>{LAYERS[layer].label}</span>
           </label>
         ))}
       </fieldset>
@@ -283,7 +326,7 @@ export function Game({
   if (rounds.rounds.length === 0)
     return (
       <p class="awaited wait">
-        Nothing has been said in this run yet. The first model, gamut and proposals appear here by themselves.
+        This run has no results yet. The first model, gamut and proposals appear here by themselves.
       </p>
     );
   return (
@@ -295,10 +338,15 @@ export function Game({
               <h2>Gamut</h2>
               <Toggles rounds={rounds} shown={shown} setShown={setPicked} layers={layers} setLayers={setLayers} />
             </div>
+            <p class="quiet">
+              A point is a pattern: how stiff (E) and how tough (T). A staircase is a Pareto front: no other pattern is
+              both stiffer and tougher.
+            </p>
             <Problem text={problem} />
             <GamutChart
               rounds={rounds}
               gamuts={visible}
+              empty={whyEmpty(rounds, wanted, visible)}
               layers={layers}
               chosen={chosen}
               choose={setChosen}
@@ -340,63 +388,66 @@ function RoundTable({ rounds }: { rounds: Rounds }) {
       caption="Rounds"
       rows={closed}
       rowKey={(r) => String(r.round)}
-      empty="No round is closed yet."
+      empty="No round is complete yet."
       columns={[
-        { heading: "round", show: (r) => r.round, value: (r) => r.round },
+        { ...TERMS.round, show: (r) => r.round, value: (r) => r.round },
         {
-          heading: `gamut hv / ${AREA}`,
+          ...TERMS.predictedHypervolume,
           csv: CSV.gamut,
           show: (r) => figure(r.summary!.gamut_hypervolume),
           value: (r) => r.summary!.gamut_hypervolume,
         },
         {
-          heading: `measured hv / ${AREA}`,
+          ...TERMS.measuredHypervolume,
           csv: CSV.measured,
-          show: (r) => r.summary!.measured_hypervolume > 0 ? withError(r.summary!.measured_hypervolume, r.summary!.hypervolume_error) : "–",
+          show: ({ summary }) =>
+            summary!.measured_hypervolume > 0
+              ? withError(summary!.measured_hypervolume, summary!.hypervolume_error)
+              : "–",
           value: (r) => ofMeasured(r, r.summary!.measured_hypervolume),
         },
         { heading: CSV.hypervolumeError, value: (r) => ofMeasured(r, r.summary!.hypervolume_error) },
         {
-          heading: `gap / ${AREA}`,
+          ...TERMS.gap,
           csv: CSV.gap,
           show: (r) => figure(ofMeasured(r, r.summary!.gap)),
           value: (r) => ofMeasured(r, r.summary!.gap),
         },
         {
-          heading: "E held out",
-          csv: CSV.heldOutE,
+          ...TERMS.modulusError,
+          csv: CSV.predictionE,
           show: (r) => percent(someE(r.summary!.held_out)),
           value: (r) => someE(r.summary!.held_out),
         },
         {
-          heading: "T held out",
-          csv: CSV.heldOutT,
+          ...TERMS.toughnessError,
+          csv: CSV.predictionT,
           show: (r) => percent(someT(r.summary!.held_out)),
           value: (r) => someT(r.summary!.held_out),
         },
         {
-          heading: "T rank",
+          ...TERMS.toughnessRank,
           csv: "toughness_spearman_held_out",
           show: (r) => figure(rankT(r.summary!.held_out), 2),
           value: (r) => rankT(r.summary!.held_out),
         },
         {
-          heading: "E after",
+          ...TERMS.modulusFit,
           csv: CSV.afterE,
           show: (r) => percent(someE(r.summary!.after)),
           value: (r) => someE(r.summary!.after),
         },
         {
-          heading: "T after",
+          ...TERMS.toughnessFit,
           csv: CSV.afterT,
           show: (r) => percent(someT(r.summary!.after)),
           value: (r) => someT(r.summary!.after),
         },
         {
-          heading: "decided by",
+          ...TERMS.equilibrium,
           csv: "decided_by",
           words: true,
-          show: (r) => r.summary!.decided_by,
+          show: (r) => `${r.summary!.equilibrium ? "yes" : "no"}: ${r.summary!.decided_by}`,
           value: (r) => r.summary!.decided_by,
         },
       ]}
@@ -415,7 +466,7 @@ function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m:
       empty="No pattern has been measured in both tests yet."
       columns={[
         {
-          heading: "design",
+          ...TERMS.design,
           words: true,
           show: (m) => (
             <button
@@ -431,28 +482,28 @@ function MeasuredTable({ measured, choose }: { measured: Measured[]; choose: (m:
           ),
           value: (m) => m.design,
         },
-        { heading: "round", show: (m) => m.round, value: (m) => m.round },
+        { ...TERMS.round, show: (m) => m.round, value: (m) => m.round },
         {
-          heading: "rigid",
+          ...TERMS.rigid,
           csv: "rigid_fraction",
           show: (m) => percent(m.rigid_fraction, 0),
           value: (m) => m.rigid_fraction,
         },
         {
-          heading: "E / GPa",
+          ...TERMS.modulus,
           csv: "modulus_pa",
           show: (m) => withError(m.modulus_pa * GPA, m.modulus_sd_pa * GPA),
           value: (m) => m.modulus_pa,
         },
         { heading: "modulus_sd_pa", value: (m) => m.modulus_sd_pa },
         {
-          heading: "T / MPa",
+          ...TERMS.toughness,
           csv: "toughness_pa",
           show: (m) => withError(m.toughness_pa * MPA, m.toughness_sd_pa * MPA),
           value: (m) => m.toughness_pa,
         },
         { heading: "toughness_sd_pa", value: (m) => m.toughness_sd_pa },
-        { heading: "specimens", show: (m) => `${m.modulus_count} + ${m.toughness_count}` },
+        { ...TERMS.specimens, show: (m) => `${m.modulus_count} for E, ${m.toughness_count} for T` },
         { heading: "modulus_count", value: (m) => m.modulus_count },
         { heading: "toughness_count", value: (m) => m.toughness_count },
       ]}

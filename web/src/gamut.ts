@@ -18,7 +18,7 @@ export async function loadGamut(which: { round: number } | { family: string }): 
   const buffer = await getBytes("/api/gamut", { ...which });
   const view = new DataView(buffer);
   if (new TextDecoder().decode(buffer.slice(0, 8)) !== "NACREGMT" || view.getUint32(8, true) !== 1)
-    throw new Error("the gamut has another format");
+    throw new Error("the gamut has an unknown format");
   const length = view.getUint32(12, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 16, length))) as {
     round: number;
@@ -86,7 +86,7 @@ export class PointIndex {
   }
 }
 
-/** Corners of the region that a front dominates, from the toughness axis to the modulus axis. */
+/** A front as a step line: corners of the region that it dominates, from the toughness axis to the modulus axis. */
 export function staircase(front: [number, number][]): [number, number][] {
   if (front.length === 0) return [];
   const sorted = [...front].sort((a, b) => a[0] - b[0]);

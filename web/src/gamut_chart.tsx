@@ -1,4 +1,4 @@
-// The gamuts of the rounds, their fronts, what is proposed and measured.
+// The gamuts of the rounds, their fronts, proposed and measured designs.
 
 import { useMemo } from "preact/hooks";
 import type { Rounds } from "./api";
@@ -18,7 +18,7 @@ export interface Layers {
   mixtures: boolean;
 }
 
-/** Few points that lie above the clouds: measured ones and proposals. */
+/** The few points that are drawn above the clouds: measured designs and proposals. */
 function marks(rounds: Rounds, layers: Layers, shown: Set<number>): Spot[] {
   const newest = newestModel(rounds);
   const proposals = layers.proposals
@@ -145,6 +145,7 @@ function seriesOf(rounds: Rounds, gamuts: Gamut[], layers: Layers): Option[] {
 export function GamutChart({
   rounds,
   gamuts,
+  empty,
   layers,
   chosen,
   choose,
@@ -152,6 +153,8 @@ export function GamutChart({
 }: {
   rounds: Rounds;
   gamuts: Gamut[];
+  /** Why there is no point, where there is none. */
+  empty: string;
   layers: Layers;
   chosen: Chosen | null;
   choose: (c: Chosen) => void;
@@ -166,7 +169,8 @@ export function GamutChart({
   return (
     <PointChart
       name="gamut"
-      label="Gamut: Young's modulus against toughness"
+      label="Gamut: toughness against Young's modulus"
+      empty={empty}
       series={series}
       clouds={layers.cloud ? gamuts.map((g) => ({ gamut: g, of: `gamut of round ${g.round}`, model: g.round })) : []}
       spots={spots}

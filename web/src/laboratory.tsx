@@ -1,16 +1,17 @@
-// The laboratory's work: decide on proposals, enter measurements, judge specimens.
+// The laboratory's work: approve proposals, enter measurements, review specimens.
 
-import type { DesignState, Families, Group, Laboratory as Work, Rounds, RunInfo } from "./api";
-import { Entry } from "./entry";
+import type { DesignState, Families, Group, Laboratory, Rounds, RunInfo } from "./api";
+import { MeasurementForm } from "./measurement_form";
 import { gpa, mpa, percent } from "./numbers";
-import { Awaited, Name, Problem, Table, Unit, unusual, useRepeated, useStored } from "./parts";
+import { Awaited, DesignChip, Name, Problem, Table, Unit, unusual, useRepeated, useStored } from "./parts";
 import { offerOf, Proposals } from "./proposals";
-import { AGAIN_MS, useAnswer } from "./reading";
+import { AGAIN_MS, useResponse } from "./reading";
 import { Specimens } from "./review";
+import { TERMS } from "./terms";
 
 const stateColumns = [
   {
-    heading: "design",
+    ...TERMS.design,
     words: true,
     show: (d: DesignState) => (
       <span class="with-unit">
@@ -21,23 +22,23 @@ const stateColumns = [
     value: (d: DesignState) => d.design,
   },
   {
-    heading: "state",
+    ...TERMS.designState,
     words: true,
-    show: (d: DesignState) => <span class={`chip ${d.state}`}>{d.state}</span>,
+    show: (d: DesignState) => <DesignChip state={d.state} />,
     value: (d: DesignState) => d.state,
   },
   {
-    heading: "proposed",
+    ...TERMS.proposedIn,
     csv: "proposed_in_round",
     show: (d: DesignState) => d.proposed_in_round ?? "–",
     value: (d: DesignState) => d.proposed_in_round,
   },
-  { heading: "ordered", show: (d: DesignState) => d.ordered, value: (d: DesignState) => d.ordered },
-  { heading: "printed", show: (d: DesignState) => d.printed, value: (d: DesignState) => d.printed },
-  { heading: "measured", show: (d: DesignState) => d.measured, value: (d: DesignState) => d.measured },
-  { heading: "valid", show: (d: DesignState) => d.valid, value: (d: DesignState) => d.valid },
+  { ...TERMS.ordered, show: (d: DesignState) => d.ordered, value: (d: DesignState) => d.ordered },
+  { ...TERMS.printed, show: (d: DesignState) => d.printed, value: (d: DesignState) => d.printed },
+  { ...TERMS.measured, show: (d: DesignState) => d.measured, value: (d: DesignState) => d.measured },
+  { ...TERMS.valid, show: (d: DesignState) => d.valid, value: (d: DesignState) => d.valid },
   {
-    heading: "decision",
+    ...TERMS.approval,
     words: true,
     show: (d: DesignState) => (d.by ? `${d.by}: ${d.why}` : ""),
   },
@@ -47,15 +48,20 @@ const stateColumns = [
 
 const inUnit = (g: Group, pa: number) => (g.test === "modulus" ? `${gpa(pa)} GPa` : `${mpa(pa)} MPa`);
 
-/** Green only where nothing is open: outliers that nobody has judged spoil a mean. */
+/** Green only where nothing is open: outliers that nobody has reviewed spoil a mean. */
 function chipOf(g: Group): string {
   if (g.state === "inconsistent") return "rejected";
   return g.state === "complete" && g.proposed_outliers.length === 0 ? "approved" : "pending";
 }
 
+function inWords(g: Group): string {
+  if (g.state === "inconsistent") return "specimens disagree";
+  return g.state === "more needed" ? `${g.wanted} more needed` : g.state;
+}
+
 const groupColumns = [
   {
-    heading: "design",
+    ...TERMS.design,
     words: true,
     show: (g: Group) => (
       <span class="with-unit">
@@ -66,7 +72,7 @@ const groupColumns = [
     value: (g: Group) => g.design,
   },
   {
-    heading: "test",
+    ...TERMS.test,
     words: true,
     show: (g: Group) => `${g.test}${unusual(g)}`,
     value: (g: Group) => g.test,
@@ -75,20 +81,22 @@ const groupColumns = [
   { heading: "strain_rate_per_s", value: (g: Group) => g.strain_rate_per_s },
   { heading: "thickness_mm", value: (g: Group) => g.thickness_mm },
   {
-    heading: "state",
+    ...TERMS.groupState,
     words: true,
     show: (g: Group) => (
       <>
-        <span class={`chip ${chipOf(g)}`}>
-          {g.state === "more needed" ? `${g.wanted} more for a sure mean` : g.state}
-        </span>{" "}
-        {g.proposed_outliers.length > 0 && <span class="quiet">{g.proposed_outliers.length} out of line</span>}
+        <span class={`chip ${chipOf(g)}`}>{inWords(g)}</span>{" "}
+        {g.proposed_outliers.length > 0 && (
+          <span class="quiet">
+            {g.proposed_outliers.length === 1 ? "1 outlier" : `${g.proposed_outliers.length} outliers`} to review
+          </span>
+        )}
       </>
     ),
     value: (g: Group) => g.state,
   },
   {
-    heading: "valid of tested",
+    ...TERMS.validOfTested,
     csv: "valid",
     show: (g: Group) => `${g.valid.length} of ${g.tested.length}`,
     value: (g: Group) => g.valid.length,
@@ -96,14 +104,14 @@ const groupColumns = [
   { heading: "tested", value: (g: Group) => g.tested.length },
   { heading: "wanted", value: (g: Group) => g.wanted },
   {
-    heading: "mean",
+    ...TERMS.mean,
     csv: "mean_pa",
     show: (g: Group) => inUnit(g, g.mean_pa),
     value: (g: Group) => g.mean_pa,
   },
-  { heading: "scatter", show: (g: Group) => percent(g.scatter), value: (g: Group) => g.scatter },
+  { ...TERMS.scatter, show: (g: Group) => percent(g.scatter), value: (g: Group) => g.scatter },
   {
-    heading: "without those out of line",
+    ...TERMS.withoutOutliers,
     csv: "mean_without_pa",
     show: (g: Group) =>
       g.proposed_outliers.length > 0 ? `${inUnit(g, g.mean_without_pa)}, ${percent(g.scatter_without)}` : "",
@@ -112,9 +120,9 @@ const groupColumns = [
   { heading: "scatter_without", value: (g: Group) => g.scatter_without },
 ];
 
-export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: Rounds; playing: boolean }) {
-  const families = useAnswer<Families>("/api/families");
-  const book = useAnswer<Work>("/api/laboratory");
+export function LaboratoryView({ info, rounds, playing }: { info: RunInfo; rounds: Rounds; playing: boolean }) {
+  const families = useResponse<Families>("/api/families");
+  const book = useResponse<Laboratory>("/api/laboratory");
   const [by, setBy] = useStored("by", info.user);
   const refresh = async () => {
     await families.read();
@@ -122,8 +130,8 @@ export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: R
   };
   const problem = book.problem || families.problem;
   useRepeated(refresh, playing ? 2000 : problem ? AGAIN_MS : 30_000);
-  const work = book.value;
-  if (!work) return <Awaited problem={book.problem} what="reading the laboratory's book …" />;
+  const laboratory = book.value;
+  if (!laboratory) return <Awaited problem={book.problem} what="reading the measurements …" />;
   const lastRound = rounds.rounds.find((r) => r.summary?.last)?.round ?? info.rounds;
   return (
     <>
@@ -134,27 +142,27 @@ export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: R
             You are <input value={by} maxLength={60} onInput={(e) => setBy(e.currentTarget.value)} />
           </label>
           <span class="quiet">
-            {by ? "kept with everything you decide here" : "decisions and judgements need a name"}
+            {by ? "kept with your approvals and reviews" : "approvals and reviews need a name"}
           </span>
         </div>
       )}
-      {families.value && ( // only the stage tells whether a proposal is still to be decided on
+      {families.value && ( // only the stage tells whether a proposal is still open
         <Proposals
-          work={work}
-          offer={offerOf(work, families.value.stage, lastRound)}
+          laboratory={laboratory}
+          offer={offerOf(laboratory, families.value.stage, lastRound)}
           by={by}
           refresh={refresh}
           playing={playing}
           approval={info.approval}
         />
       )}
-      <Entry work={work} refresh={refresh} playing={playing} />
-      <Specimens work={work} by={by} refresh={refresh} playing={playing} />
+      <MeasurementForm laboratory={laboratory} refresh={refresh} playing={playing} />
+      <Specimens laboratory={laboratory} by={by} refresh={refresh} playing={playing} />
       <section class="panel">
         <Table
           name="replicates"
-          caption="Replicates: a mean is sure once as many are tested as the game orders, and enough of them agree"
-          rows={work.groups}
+          caption="Replicates: a mean is reliable once as many are tested as the game orders, and enough of them agree"
+          rows={laboratory.groups}
           rowKey={(g) => g.tested[0]}
           empty="Nothing has been measured yet."
           columns={groupColumns}
@@ -164,7 +172,7 @@ export function Laboratory({ info, rounds, playing }: { info: RunInfo; rounds: R
         <Table
           name="designs"
           caption="Designs"
-          rows={work.designs}
+          rows={laboratory.designs}
           rowKey={(d) => d.design}
           empty="There is no design yet."
           columns={stateColumns}

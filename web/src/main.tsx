@@ -4,13 +4,16 @@ import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { get, Refusal, type Live, type Rounds, type RunInfo } from "./api";
 import { ThemeContext } from "./chart";
-import { Diagnosis } from "./diagnosis";
+import { DiagnosisView } from "./diagnosis";
 import { Explorer } from "./explorer";
-import { Families } from "./families";
+import { FamiliesView } from "./families";
 import { Game } from "./game";
-import { Laboratory } from "./laboratory";
-import { Nodes, NodeStrip } from "./nodes";
+import { LaboratoryView } from "./laboratory";
+import { NodesView, NodeStrip } from "./nodes";
 import { useRepeated, useStored } from "./parts";
+import { nameRun } from "./save";
+import { statusOf } from "./status";
+import { WordsView } from "./words";
 import "./page.css";
 
 const VIEWS = {
@@ -20,6 +23,7 @@ const VIEWS = {
   families: "Families",
   explorer: "Explorer",
   nodes: "Nodes",
+  words: "Words",
 } as const;
 type View = keyof typeof VIEWS;
 const LIVE_MS = 1000;
@@ -39,7 +43,7 @@ function useView(): View {
   return view;
 }
 
-/** Dark or light: as the system says, unless the person has said otherwise. */
+/** Dark or light: as the system is set, unless the person has chosen. */
 function useTheme(): ["light" | "dark", () => void] {
   const [stored, setStored] = useStored("theme", "");
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -52,20 +56,6 @@ function useTheme(): ["light" | "dark", () => void] {
   const theme = (stored || system) as "light" | "dark";
   document.documentElement.dataset.theme = theme;
   return [theme, () => setStored(theme === "dark" ? "light" : "dark")];
-}
-
-function standing(info: RunInfo, rounds: Rounds, live: Live | null, lost: string): { text: string; kind: string } {
-  const closed = rounds.rounds.filter((r) => r.summary);
-  const last = closed.at(-1);
-  if (lost) return { text: lost, kind: "bad" };
-  if (last?.summary!.last)
-    return {
-      text: `finished after round ${last.round}${last.summary!.equilibrium ? ", in equilibrium" : ""}`,
-      kind: "done",
-    };
-  if (live?.playing)
-    return { text: last ? `playing, round ${last.round} of ${info.rounds} is closed` : "playing", kind: "playing" };
-  return { text: last ? `at rest after round ${last.round}` : "at rest", kind: "rest" };
 }
 
 function Page() {
@@ -90,14 +80,16 @@ function Page() {
       }
       setLost("");
     } catch (error) {
-      setLost(error instanceof Refusal ? error.message : "the dashboard was stopped");
+      setLost(error instanceof Refusal ? error.message : "The dashboard was stopped: start nacre dashboard again.");
     }
   }, LIVE_MS);
   useEffect(() => {
-    if (info) document.title = `${info.run} · nacre`;
+    if (!info) return;
+    document.title = `${info.run} · nacre`;
+    nameRun(info.run);
   }, [info]);
   if (!info) return <p class="awaited wait">{lost || "reading the run …"}</p>;
-  const { text, kind } = standing(info, rounds, live, lost);
+  const { text, kind, link } = statusOf(info, rounds, live, lost);
   const playing = live?.playing ?? false;
   return (
     <ThemeContext.Provider value={theme}>
@@ -117,7 +109,7 @@ function Page() {
           <h1>{info.run}</h1>
           <p class={`standing ${kind}`} role="status">
             <span class="dot" aria-hidden="true" />
-            {text}
+            {link ? <a href={link}>{text}</a> : text}
           </p>
         </div>
         <nav aria-label="views">
@@ -143,21 +135,22 @@ function Page() {
           </button>
         </div>
       </header>
-      {live && live.nodes.length > 0 && view !== "nodes" && <NodeStrip live={live} />}
+      {live && live.nodes.length > 0 && view !== "nodes" && view !== "words" && <NodeStrip live={live} />}
       <main id="main" tabIndex={-1}>
         {info.fidelity === "tiny" && (
-          <p class="awaited">Tiny specimens, to try things out: the figures on this page mean nothing.</p>
+          <p class="awaited">Tiny specimens, for trying things out: the numbers on this page mean nothing.</p>
         )}
         {view === "game" && <Game rounds={rounds} data={data} theme={theme} />}
-        {view === "laboratory" && <Laboratory info={info} rounds={rounds} playing={playing} />}
-        {view === "diagnosis" && <Diagnosis rounds={rounds} />}
-        {view === "families" && <Families rounds={rounds} data={data} theme={theme} run={info.run} />}
+        {view === "laboratory" && <LaboratoryView info={info} rounds={rounds} playing={playing} />}
+        {view === "diagnosis" && <DiagnosisView rounds={rounds} />}
+        {view === "families" && <FamiliesView rounds={rounds} data={data} theme={theme} run={info.run} />}
         {view === "explorer" && <Explorer rounds={rounds} data={data} theme={theme} />}
-        {view === "nodes" && live && <Nodes live={live} />}
+        {view === "nodes" && live && <NodesView live={live} />}
+        {view === "words" && <WordsView />}
       </main>
       <footer class="quiet">
-        {info.scenario}, {info.fidelity} specimens · begun {info.started.replace("T", " ").replace("Z", " UTC")} · nacre{" "}
-        {info.nacre_version}
+        {info.scenario}, {info.fidelity} specimens · started {info.started.replace("T", " ").replace("Z", " UTC")} · nacre{" "}
+        {info.nacre_version} · <a href="#words">What do the words mean?</a>
       </footer>
     </ThemeContext.Provider>
   );

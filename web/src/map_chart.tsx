@@ -1,4 +1,4 @@
-// The map of patterns as a chart: likeness as nearness, colour as modulus or toughness.
+// The map of patterns as a chart: similar patterns are near, colour is modulus or toughness.
 
 import { useMemo, useRef, useState } from "preact/hooks";
 import type { PatternMap } from "./api";
@@ -41,8 +41,8 @@ export function MapChart({
     const hidden = { axisLabel: { show: false }, splitLine: { show: false }, axisLine: { show: false }, nameGap: 10 };
     return {
       ...basis({ grid: { left: 26, right: 10, top: 10, bottom: 26 } }),
-      xAxis: axis("Isomap 1", { ...hidden, ...bounds(map.x) }),
-      yAxis: axis("Isomap 2", { ...hidden, ...bounds(map.y) }),
+      xAxis: axis("Isomap coordinate 1", { ...hidden, ...bounds(map.x) }),
+      yAxis: axis("Isomap coordinate 2", { ...hidden, ...bounds(map.y) }),
       series: [
         {
           type: "scatter",
@@ -70,7 +70,7 @@ export function MapChart({
 
   const pixel = (x: number, y: number) => chart.current!.convertToPixel("grid", [x, y]) as [number, number];
   const data = (px: number, py: number) => chart.current!.convertFromPixel("grid", [px, py]) as [number, number];
-  const place2 = (event: MouseEvent) => placeIn(overlay.current!, event);
+  const placeOf = (event: MouseEvent) => placeIn(overlay.current!, event);
   const patternAt = (px: number, py: number): number | null => {
     let best: number | null = null;
     let least = REACH;
@@ -98,7 +98,8 @@ export function MapChart({
   return (
     <ChartBox
       name={`map-${map.id.replace("/", "-")}`}
-      label={`map of ${map.pattern.length} patterns coloured by ${coloured}`}
+      label={`Map of ${map.pattern.length} patterns, coloured by ${coloured}`}
+      empty="This map has no patterns."
       option={option}
       height="var(--gamut-height)"
       onReady={onReady}
@@ -113,15 +114,15 @@ export function MapChart({
         class="catcher map"
         tabIndex={0}
         role="application"
-        aria-label="map: arrow keys move between patterns, Enter breaks the one that is there"
+        aria-label="map: arrow keys move between patterns, Enter shows the fracture of the one that is there"
         onKeyDown={onKey}
         data-blend={blend?.between?.pattern ?? ""}
         onPointerDown={(event) => {
-          dragging.current = { from: place2(event), moved: false };
+          dragging.current = { from: placeOf(event), moved: false };
           overlay.current!.setPointerCapture(event.pointerId);
         }}
         onPointerMove={(event) => {
-          const [px, py] = place2(event);
+          const [px, py] = placeOf(event);
           setPointed(dragging.current ? null : patternAt(px, py));
           if (!dragging.current) return;
           const { from } = dragging.current;
@@ -134,7 +135,7 @@ export function MapChart({
           const drag = dragging.current;
           dragging.current = null;
           if (drag && !drag.moved) {
-            const index = patternAt(...place2(event));
+            const index = patternAt(...placeOf(event));
             if (index !== null) {
               setPlace({ x: map.x[index], y: map.y[index] });
               open(map.pattern[index], index);

@@ -1,28 +1,30 @@
+// Which mechanism goes with toughness among the patterns of a family.
+
 import type { Mechanism } from "./api";
 import { figure } from "./numbers";
 import { Table } from "./parts";
+import { TERMS } from "./terms";
 
-/** Which mechanism goes with toughness among the patterns of a family. */
 export function MechanismTable({ family, mechanisms }: { family: string; mechanisms: Mechanism[] }) {
   return (
     <Table
       name={`mechanisms-${family}`}
-      caption={`What goes with toughness in ${family}, at equal rigid fraction and modulus (evidence, not cause)`}
+      caption={`Mechanisms that go with toughness in ${family} (a correlation is no proof of a cause)`}
       rows={mechanisms}
       rowKey={(m) => m.mechanism}
-      empty="No cracks of this family were looked at (nacre families --cracks)."
+      empty="The cracks of this family were not analysed: nacre families --cracks does it."
       columns={[
-        { heading: "mechanism", words: true, show: (m) => m.mechanism.replace("_", " "), value: (m) => m.mechanism },
-        { heading: "patterns", show: (m) => m.patterns, value: (m) => m.patterns },
+        { ...TERMS.mechanism, words: true, show: (m) => m.mechanism.replaceAll("_", " "), value: (m) => m.mechanism },
+        { ...TERMS.patterns, show: (m) => m.patterns, value: (m) => m.patterns },
         {
-          heading: "rank correlation",
+          ...TERMS.rank,
           csv: "spearman_with_toughness",
           show: (m) => figure(m.spearman_with_toughness, 2),
           value: (m) => m.spearman_with_toughness,
         },
-        { heading: "partial", show: (m) => figure(m.partial, 2), value: (m) => m.partial },
+        { ...TERMS.partial, csv: "partial", show: (m) => figure(m.partial, 2), value: (m) => m.partial },
         {
-          heading: "p, family-wise",
+          ...TERMS.mechanismChance,
           csv: "p_family_wise",
           show: (m) => figure(m.p_family_wise, 2),
           value: (m) => m.p_family_wise,

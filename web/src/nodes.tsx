@@ -3,14 +3,15 @@
 import type { Live, NodeState } from "./api";
 import { bytes, duration, words } from "./numbers";
 import { Bar, Table, type Column } from "./parts";
+import { toApprove } from "./status";
 
-const SHORT: Record<string, string> = {
-  virtual_lab: "laboratory",
-  simulator_farm: "farm",
-  proposal_agent: "proposal",
-  validation_agent: "validation",
-  analyser: "analyser",
-};
+const nameOf = (node: string) => (node === "virtual_lab" ? "virtual laboratory" : words(node));
+
+/** What a node is doing; where designs wait for a person, a link to where they are approved. */
+function Phase({ node }: { node: NodeState }) {
+  if (toApprove(node) === 0) return <>{node.phase || "\u00a0"}</>;
+  return <a href="#laboratory">{node.phase}</a>;
+}
 
 export function NodeStrip({ live }: { live: Live }) {
   return (
@@ -19,15 +20,15 @@ export function NodeStrip({ live }: { live: Live }) {
         <li key={n.node} class={n.state} title={n.last_problem || n.work || undefined}>
           <div>
             <span class={`dot ${n.last_problem ? "problem" : n.state}`} aria-hidden="true" />
-            <strong>{SHORT[n.node] ?? words(n.node)}</strong>
+            <strong>{nameOf(n.node)}</strong>
             <span class="quiet">
               {n.state === "running" ? (n.eta_s !== null && n.eta_s > 0 ? `${duration(n.eta_s)} left` : "") : n.state}
             </span>
           </div>
           <p class="phase" title={n.phase || undefined}>
-            {n.phase || " "}
+            <Phase node={n} />
           </p>
-          <Bar share={n.state === "finished" || n.state === "ended" ? 1 : n.progress} label={`progress of ${words(n.node)}`} />
+          <Bar share={n.state === "finished" || n.state === "ended" ? 1 : n.progress} label={`progress of the ${nameOf(n.node)}`} />
         </li>
       ))}
     </ul>
@@ -36,37 +37,53 @@ export function NodeStrip({ live }: { live: Live }) {
 
 const name: Column<NodeState> = {
   heading: "node",
+  hint: "A process with one task.",
   words: true,
-  show: (n) => words(n.node),
+  show: (n) => nameOf(n.node),
   value: (n) => n.node,
 };
 
 const CHIPS: Record<string, string> = { silent: "rejected", finished: "approved" };
 
+const STATES: Record<NodeState["state"], string> = {
+  starting: "Has started, is not ready yet.",
+  running: "Does its part of the game.",
+  finished: "Has nothing left to do in this run.",
+  ended: "Is silent, and the last round is complete.",
+  silent: "Has not reported for some seconds, and the game is not over: see its log in the run's folder.",
+};
+
 const WORK: Column<NodeState>[] = [
   name,
   {
     heading: "state",
+    hint: "starting, running, finished, ended or silent",
     words: true,
-    show: (n) => <span class={`chip ${CHIPS[n.state] ?? ""}`}>{n.state}</span>,
+    show: (n) => (
+      <span class={`chip ${CHIPS[n.state] ?? ""}`} title={STATES[n.state]}>
+        {n.state}
+      </span>
+    ),
     value: (n) => n.state,
   },
-  { heading: "round", show: (n) => n.round, value: (n) => n.round },
-  { heading: "phase", words: true, show: (n) => n.phase, value: (n) => n.phase },
+  { heading: "round", hint: "The round that it works on.", show: (n) => n.round, value: (n) => n.round },
+  { heading: "doing", csv: "phase", words: true, show: (n) => <Phase node={n} />, value: (n) => n.phase },
   {
     heading: "progress",
+    hint: "Of what it is doing now.",
     show: (n) => (n.progress === null ? "–" : `${Math.round(100 * n.progress)} %`),
     value: (n) => n.progress,
   },
   {
     heading: "time left",
+    hint: "For what it is doing now.",
     csv: "eta_s",
     show: (n) => (n.eta_s === null ? "–" : duration(n.eta_s)),
     value: (n) => n.eta_s,
   },
   { heading: "work", value: (n) => n.work },
   {
-    heading: "work, last problem",
+    heading: "details, last problem",
     csv: "last_problem",
     words: true,
     show: (n) => (
@@ -78,8 +95,9 @@ const WORK: Column<NodeState>[] = [
   },
 ];
 
-const count = (heading: string, counter: keyof NodeState): Column<NodeState> => ({
+const count = (heading: string, counter: keyof NodeState, hint: string): Column<NodeState> => ({
   heading,
+  hint,
   csv: counter,
   show: (n) => Number(n[counter]).toLocaleString("en"),
   value: (n) => n[counter],
@@ -87,23 +105,29 @@ const count = (heading: string, counter: keyof NodeState): Column<NodeState> => 
 
 const MESSAGES: Column<NodeState>[] = [
   name,
-  count("received", "received"),
-  count("published", "published"),
-  count("sent again", "retries"),
-  count("repeated", "duplicates"),
-  count("rejected", "rejected"),
-  count("lost", "lost"),
-  count("dropped by the system", "dropped"),
-  count("waiting for ACK", "unacknowledged"),
-  count("to read", "queued"),
-  count("to acknowledge", "owed"),
-  count("computing", "computing"),
-  { heading: "journal", csv: "journal_bytes", show: (n) => bytes(n.journal_bytes), value: (n) => n.journal_bytes },
+  count("received", "received", "Messages taken as input."),
+  count("published", "published", "Messages sent."),
+  count("sent again", "retries", "Messages repeated, since a receiver had not acknowledged them."),
+  count("duplicates", "duplicates", "Messages received again, and ignored."),
+  count("rejected", "rejected", "Messages that were corrupt, foreign or out of range."),
+  count("lost", "lost", "Gaps in the numbering of other nodes' messages; what counts is sent again."),
+  count("dropped", "dropped", "Datagrams that the system dropped because its buffer was full."),
+  count("unacknowledged", "unacknowledged", "Own messages that a receiver has not acknowledged yet."),
+  count("unread", "queued", "Datagrams taken from the system and not handled yet."),
+  count("to acknowledge", "owed", "Messages of others that it has not acknowledged yet."),
+  count("computing", "computing", "Long computations that are running."),
+  {
+    heading: "journal",
+    hint: "Size of the file that keeps all its messages.",
+    csv: "journal_bytes",
+    show: (n) => bytes(n.journal_bytes),
+    value: (n) => n.journal_bytes,
+  },
 ];
 
 /** Two tables, so that each fits a window. */
-export function Nodes({ live }: { live: Live }) {
-  const empty = "No node speaks: this run does not play.";
+export function NodesView({ live }: { live: Live }) {
+  const empty = "No node reports: the game is not running.";
   const common = { rows: live.nodes, rowKey: (n: NodeState) => n.node, empty };
   return (
     <section class="panel">

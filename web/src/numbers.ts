@@ -24,10 +24,10 @@ export function withError(value: number, error: number): string {
   return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
 }
 
-/** A number beside an axis: as short as it is exact. */
+/** A number on an axis: as short as it is exact. */
 export const tick = (value: number) => value.toLocaleString("en", { maximumSignificantDigits: 3 });
 
-/** The number in a typed text, with a point or a comma for its decimals; null: none is in it. */
+/** The number in a typed text, with a decimal point or comma; null: there is none. */
 export function typedNumber(text: string): number | null {
   const plain = text.trim().replace(",", ".");
   const value = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
@@ -55,3 +55,6 @@ export function bytes(count: number): string {
 }
 
 export const words = (name: string) => name.replaceAll("_", " ");
+
+/** A clause as a sentence: its first letter is a capital. */
+export const sentence = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);

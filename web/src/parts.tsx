@@ -2,11 +2,12 @@
 
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { MATERIAL } from "./colour";
+import { figure } from "./numbers";
 import { pixelsOf, rigidPath, SIDE } from "./pattern";
 import { saveCsv, saveSvg } from "./save";
-import { figure } from "./numbers";
 
-/** One unit of a design, drawn from its name; mixtures as a field of their shade. */
+/** One unit of a design, drawn from its name in the colours of the materials; mixtures in their shade. */
 export function Unit({ design, size, label = true }: { design: string; size: number; label?: boolean }) {
   const pixels = pixelsOf(design);
   return (
@@ -20,13 +21,26 @@ export function Unit({ design, size, label = true }: { design: string; size: num
       aria-hidden={label ? undefined : "true"}
       shape-rendering="crispEdges"
     >
-      <rect width={SIDE} height={SIDE} class="soft" />
+      <rect width={SIDE} height={SIDE} fill={MATERIAL.soft} />
       {pixels ? (
-        <path d={rigidPath(pixels)} class="rigid" />
+        <path d={rigidPath(pixels)} fill={MATERIAL.rigid} />
       ) : (
-        <rect width={SIDE} height={SIDE} class="rigid" opacity={mixtureShare(design)} />
+        <rect width={SIDE} height={SIDE} fill={MATERIAL.rigid} opacity={mixtureShare(design)} />
       )}
     </svg>
+  );
+}
+
+/** Which colour is which material, beside pictures of patterns. */
+export function MaterialKey() {
+  return (
+    <ul class="keys materials" aria-label="colours of the materials">
+      {(["rigid", "soft"] as const).map((material) => (
+        <li key={material}>
+          <span class="swatch" style={{ "--c": MATERIAL[material] } as never} /> {material}
+        </li>
+      ))}
+    </ul>
   );
 }
 
@@ -51,7 +65,8 @@ export function saveUnit(design: string): void {
   if (!pixels) return;
   saveSvg(
     design,
-    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="#e6dfd0"/><path d="${rigidPath(pixels)}" fill="#343a42"/></svg>\n`,
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="${MATERIAL.soft}"/><path d="${rigidPath(pixels)}" fill="${MATERIAL.rigid}"/></svg>\n`,
+    `pattern ${design}`,
   );
 }
 
@@ -68,6 +83,8 @@ export function Name({ design }: { design: string }) {
 /** One column on the screen, in the CSV, or in both. */
 export interface Column<Row> {
   heading: string;
+  /** What the heading means, as a tooltip. */
+  hint?: string;
   /** What the cell shows; absent: the column is in the file alone. */
   show?: (row: Row) => ComponentChildren;
   /** What the file holds, in SI units; absent: the column is on the screen alone. */
@@ -126,8 +143,8 @@ export function Table<Row>({
             <thead>
               <tr>
                 {shown.map((c) => (
-                  <th key={c.heading} class={c.words ? "words" : ""} scope="col">
-                    {c.heading}
+                  <th key={c.heading} class={c.words ? "words" : ""} scope="col" title={c.hint}>
+                    {c.hint ? <span class="term">{c.heading}</span> : c.heading}
                   </th>
                 ))}
               </tr>
@@ -150,7 +167,24 @@ export function Table<Row>({
   );
 }
 
-/** A share from 0 to 1; nothing known shows as a quiet bar. */
+const DESIGN_STATES: Record<string, string> = {
+  pending: "Proposed, neither approved nor ordered yet.",
+  approved: "Ordered from the laboratory, nothing printed yet.",
+  printed: "Printed, not all of it measured yet.",
+  measured: "All that was ordered is measured.",
+  rejected: "A person said no: it is not measured.",
+};
+
+/** How far a design has got, as `nacre designs` calls it. */
+export function DesignChip({ state }: { state: string }) {
+  return (
+    <span class={`chip ${state}`} title={DESIGN_STATES[state]}>
+      {state}
+    </span>
+  );
+}
+
+/** A share from 0 to 1; an unknown one shows as a quiet bar. */
 export function Bar({ share, label }: { share: number | null; label: string }) {
   return (
     <div
@@ -166,16 +200,16 @@ export function Bar({ share, label }: { share: number | null; label: string }) {
   );
 }
 
-export interface Said {
+export interface NoticeText {
   kind: "good" | "bad" | "busy";
   text: string;
 }
 
-/** What came of something handed in; read out by screen readers. */
-export function Notice({ said }: { said: Said | null }) {
+/** What came of something submitted; screen readers read it out. */
+export function Notice({ notice }: { notice: NoticeText | null }) {
   return (
-    <p class={`notice ${said?.kind ?? ""}`} role="status" aria-live="polite">
-      {said?.text ?? ""}
+    <p class={`notice ${notice?.kind ?? ""}`} role="status" aria-live="polite">
+      {notice?.text ?? ""}
     </p>
   );
 }
@@ -190,7 +224,7 @@ export function Problem({ text }: { text: string }) {
   );
 }
 
-/** What stands in place of a view until the server has answered: that it is being read, or why it cannot be. */
+/** In place of a view until the server has responded: that it is being read, or why it cannot be. */
 export function Awaited({ problem, what = "reading …" }: { problem: string; what?: string }) {
   return (
     <p class={`wait ${problem ? "notice bad" : "awaited"}`} role="status">
@@ -199,7 +233,7 @@ export function Awaited({ problem, what = "reading …" }: { problem: string; wh
   );
 }
 
-/** What sets a test apart from the standard one of its design; the server says which that is. */
+/** How a test differs from the standard one of its design; the server says which that is. */
 export function unusual(test: {
   orientation_deg: number;
   strain_rate_per_s: number;
@@ -213,7 +247,7 @@ export function unusual(test: {
 
 const drafts = new Map<string, unknown>();
 
-/** State that outlives its view, but not the page: what somebody has typed and not handed in. */
+/** State that outlives its view, but not the page: what somebody has typed and not submitted. */
 export function useDraft<T>(name: string, initial: T): [T, (value: T | ((now: T) => T)) => void] {
   const [value, setValue] = useState<T>(() => (drafts.has(name) ? (drafts.get(name) as T) : initial));
   return [
@@ -239,8 +273,8 @@ export function useStored(key: string, initial: string): [string, (value: string
   ];
 }
 
-/** Calls `task` now and then every `ms` while the page is visible and `active`; never twice at a time. A task
- *  says itself what went wrong; one that throws is a fault of the page, which goes on all the same. */
+/** Calls `task` every `ms` while the page is visible and `active`, never twice at a time. A task reports its own
+ *  problems; one that throws is a fault of the page, which goes on all the same. */
 export function useRepeated(task: () => Promise<void>, ms: number, active = true): void {
   const latest = useRef(task);
   latest.current = task;

@@ -7,7 +7,7 @@ import { keyAt, PointIndex, type Gamut } from "./gamut";
 import { figure, GPA, MPA } from "./numbers";
 import { Unit } from "./parts";
 
-/** A point that can be pointed at. x in GPa, y in MPa. `model`: of the round, or the family, that breaks it. */
+/** A point that can be pointed at. x in GPa, y in MPa. `model`: the round, or the family, whose model simulates it. */
 export interface Spot {
   x: number;
   y: number;
@@ -40,21 +40,21 @@ export function placeIn(element: HTMLElement, event: MouseEvent): [number, numbe
   return [event.clientX - box.left, event.clientY - box.top];
 }
 
-/** What a chart needs to be drawn over: its handle, and a redraw of what lies on it whenever it has been drawn. */
+/** What an overlay on a chart needs: the chart's handle, and to be painted again whenever the chart has been drawn. */
 export function useDrawn(): { chart: { current: Chart | undefined }; onReady: (made: Chart) => void } {
   const chart = useRef<Chart | undefined>(undefined);
-  const [, redraw] = useState(0);
+  const [, repaint] = useState(0);
   return {
     chart,
     onReady: (made) => {
       chart.current = made;
       made.off("finished");
-      made.on("finished", () => redraw((n) => n + 1));
+      made.on("finished", () => repaint((n) => n + 1));
     },
   };
 }
 
-/** The card beside what is pointed at. */
+/** The card next to the point under the pointer. */
 export function CardTip({
   at,
   width,
@@ -137,9 +137,11 @@ export function PointChart({
   chosen,
   choose,
   table,
+  empty,
 }: {
   name: string;
   label: string;
+  empty: string;
   series: Option[];
   clouds: Cloud[];
   spots: Spot[];
@@ -228,7 +230,7 @@ export function PointChart({
     else return;
     event.preventDefault();
   };
-  // A live game's points come while somebody points: what is still shown stays pointed at.
+  // Points of a live game arrive while somebody points: a point that is still shown stays pointed at.
   useEffect(
     () =>
       setPointed((now) => {
@@ -250,6 +252,7 @@ export function PointChart({
     <ChartBox
       name={name}
       label={label}
+      empty={empty}
       option={option}
       height="var(--gamut-height)"
       onReady={onReady}
@@ -265,7 +268,7 @@ export function PointChart({
           <button type="button" class="quiet" aria-label="show everything" onClick={() => zoom(100)}>
             all
           </button>
-          <span class="quiet hint">drag, Ctrl + wheel; keys: arrows, Enter, + − 0</span>
+          <span class="quiet hint">drag to move, Ctrl + wheel to zoom; keys: arrows, Enter, + − 0</span>
         </span>
       }
     >

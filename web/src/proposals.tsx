@@ -1,11 +1,11 @@
-// What is proposed for the laboratory, to be decided on, and designs of one's own.
+// Designs proposed for the laboratory, to be approved or rejected, and designs of a person's own.
 
-import type { Family, Laboratory as Work, Proposed } from "./api";
-import { useHandIn } from "./hand_in";
-import { gpa, mpa } from "./numbers";
-import { Name, Notice, Unit, useDraft } from "./parts";
+import type { Family, Laboratory, Proposed } from "./api";
+import { gpa, mpa, sentence } from "./numbers";
+import { DesignChip, MaterialKey, Name, Notice, Unit, useDraft } from "./parts";
+import { useSubmit } from "./submit";
 
-/** Designs that may wait for a decision: of a round, or of the families of the stage after the last one. */
+/** Designs that may wait for an approval: of a round, or of the family stage after the last one. */
 interface Offer {
   title: string;
   round: number;
@@ -15,7 +15,7 @@ interface Offer {
 }
 
 /** The stage's variants while they are measured, else the newest proposal. */
-export function offerOf(work: Work, stage: Family[], lastRound: number): Offer | null {
+export function offerOf(laboratory: Laboratory, stage: Family[], lastRound: number): Offer | null {
   const open = stage.filter((f) => !f.is_validated);
   if (open.length > 0)
     return {
@@ -29,60 +29,74 @@ export function offerOf(work: Work, stage: Family[], lastRound: number): Offer |
             design: d.design,
             modulus_pa: d.family_model.modulus_pa ?? NaN,
             toughness_pa: d.family_model.toughness_pa ?? NaN,
-            reason: `chosen of the variants of ${f.name}, by its own model`,
+            reason: `one of the toughest variants of ${f.name} for its stiffness, by the family's own model`,
           })),
       ),
     };
-  const { proposal } = work;
-  return proposal && { title: `Proposal of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
+  const { proposal } = laboratory;
+  return proposal && { title: `Proposals of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
 }
 
-/** What becomes of the designs that are offered. */
+/** Why a design is proposed: sentences, the warning among them marked. */
+function Reason({ text }: { text: string }) {
+  const [reason, warning] = text.split("; warning: ");
+  return (
+    <>
+      {reason && <p class="quiet">{sentence(reason)}.</p>}
+      {warning && <p class="doubt">Warning: {warning}.</p>}
+    </>
+  );
+}
+
+/** What happens to the designs of an offer. */
 function outlook(offer: Offer, waits: boolean, approval: boolean): string {
-  if (offer.isLate) return "Proposed after the last round: nothing of this is measured any more.";
-  if (!approval) return "This game does not wait for a person's yes.";
-  return waits ? "The game waits for a yes or no to each design." : "";
+  if (offer.isLate) return "Proposed after the last round: these designs are not measured any more.";
+  if (!approval) return "This game does not wait for approval: what is proposed is ordered.";
+  return waits ? "The game waits: approve or reject each design." : "";
 }
 
 export function Proposals({
-  work,
+  laboratory,
   offer,
   by,
   refresh,
   playing,
   approval,
 }: {
-  work: Work;
+  laboratory: Laboratory;
   offer: Offer | null;
   by: string;
   refresh: () => Promise<void>;
   playing: boolean;
   approval: boolean;
 }) {
-  const [why, setWhy] = useDraft("decision/why", "");
-  const [own, setOwn] = useDraft("decision/own", "");
-  const [said, busy, handIn] = useHandIn(refresh);
-  const stateOf = (design: string) => work.designs.find((d) => d.design === design);
-  /** The reason goes with one decision; the next one has its own. */
-  const say = async (design: string, round: number, approved: boolean, done: string) => {
-    const isTaken = await handIn("/api/approval", { design, round, approved, by, why }, done);
+  const [why, setWhy] = useDraft("approval/why", "");
+  const [own, setOwn] = useDraft("approval/own", "");
+  const [notice, busy, submit] = useSubmit(refresh);
+  const stateOf = (design: string) => laboratory.designs.find((d) => d.design === design);
+  /** The reason goes with one approval; the next one has its own. */
+  const approve = async (design: string, round: number, approved: boolean, done: string) => {
+    const isTaken = await submit("/api/approval", { design, round, approved, by, why }, done, sentence);
     if (isTaken) setWhy((now) => (now === why ? "" : now));
     return isTaken;
   };
-  const decide = (design: string, approved: boolean) =>
-    say(design, offer!.round, approved, `${design} ${approved ? "approved" : "rejected"}.`);
+  const approveOrReject = (design: string, approved: boolean) =>
+    approve(design, offer!.round, approved, `${design} is ${approved ? "approved" : "rejected"}.`);
   const isOpen = (design: string) => (stateOf(design)?.state ?? "pending") === "pending";
   if (!offer)
     return (
       <section class="panel">
         <h2>Proposals</h2>
-        <p class="awaited">There is no proposal yet.</p>
+        <p class="awaited">There is no proposal yet: the first one follows the first search.</p>
       </section>
     );
   const waits = approval && playing && !offer.isLate && offer.designs.some((p) => isOpen(p.design));
   return (
     <section class="panel">
-      <h2>{offer.title}</h2>
+      <div class="panel-head">
+        <h2>{offer.title}</h2>
+        <MaterialKey />
+      </div>
       <p class="quiet">{outlook(offer, waits, approval)}</p>
       <ul class="cards">
         {offer.designs.map((p) => {
@@ -93,11 +107,11 @@ export function Proposals({
               <div>
                 <Name design={p.design} />
                 <p>
-                  E {gpa(p.modulus_pa)} GPa · T {mpa(p.toughness_pa)} MPa
+                  Predicted: E {gpa(p.modulus_pa)} GPa, T {mpa(p.toughness_pa)} MPa
                 </p>
-                <p class="quiet">{p.reason}</p>
+                <Reason text={p.reason} />
                 <p>
-                  <span class={`chip ${state?.state ?? "pending"}`}>{state?.state ?? "pending"}</span>{" "}
+                  <DesignChip state={state?.state ?? "pending"} />{" "}
                   {state?.by && (
                     <span class="quiet">
                       {state.by}
@@ -107,10 +121,10 @@ export function Proposals({
                 </p>
                 {waits && isOpen(p.design) && (
                   <div class="buttons">
-                    <button type="button" disabled={busy || !by} onClick={() => decide(p.design, true)}>
+                    <button type="button" disabled={busy || !by} onClick={() => approveOrReject(p.design, true)}>
                       Approve
                     </button>
-                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => decide(p.design, false)}>
+                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => approveOrReject(p.design, false)}>
                       Reject
                     </button>
                   </div>
@@ -128,7 +142,7 @@ export function Proposals({
               value={why}
               maxLength={200}
               onInput={(e) => setWhy(e.currentTarget.value)}
-              placeholder="kept with the decision"
+              placeholder="kept with your yes or no"
             />
           </label>
           <label>
@@ -145,14 +159,14 @@ export function Proposals({
             type="button"
             disabled={busy || !own || !by}
             onClick={async () => {
-              if (await say(own, -1, true, `${own} will be measured.`)) setOwn("");
+              if (await approve(own, -1, true, `${own} will be measured.`)) setOwn("");
             }}
           >
             Have it measured
           </button>
         </div>
       )}
-      <Notice said={said} />
+      <Notice notice={notice} />
     </section>
   );
 }

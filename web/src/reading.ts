@@ -1,65 +1,65 @@
-// Reading from the server: what it said last stays until there is something newer, and where it refuses, its sentence is kept.
+// Reading from the server: the last response stays until there is a newer one; where it refuses, its sentence is kept.
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { address, get, problemOf, type Query } from "./api";
 import { loadGamut, type Gamut } from "./gamut";
 import { useRepeated } from "./parts";
 
-/** After which what the server refused is asked for again: it may have been stopped, or busy. */
+/** After so long a refused request is sent again: the server may have been stopped, or busy. */
 export const AGAIN_MS = 5000;
 
 interface Reading<T> {
-  /** The newest answer; null: none yet. */
+  /** The newest response; null: none yet. */
   value: T | null;
-  /** Why there was no answer the last time; empty: there was one. */
+  /** Why the last request failed; empty: it did not. */
   problem: string;
-  /** Asks again. What is known stays meanwhile, and it never throws. */
+  /** Sends the request again. What is known stays meanwhile, and it never throws. */
   read: () => Promise<void>;
 }
 
-/** Something that the server says, read whenever `read` is called. Another query begins with nothing. */
-export function useAnswer<T>(path: string, query: Query = {}): Reading<T> {
-  const question = address(path, query);
-  const nothing = { question, value: null as T | null, problem: "" };
+/** A response of the server, read whenever `read` is called. Another query begins with nothing. */
+export function useResponse<T>(path: string, query: Query = {}): Reading<T> {
+  const request = address(path, query);
+  const nothing = { request, value: null as T | null, problem: "" };
   const [kept, setKept] = useState(nothing);
-  const turns = useRef({ asked: 0, taken: 0 });
+  const turns = useRef({ sent: 0, taken: 0 });
   const take = (turn: number, value: T | null, problem: string) => {
-    if (turn < turns.current.taken) return; // a later question was answered first
+    if (turn < turns.current.taken) return; // a later request was answered first
     turns.current.taken = turn;
     setKept((before) => {
-      const now = before.question === question ? before : nothing;
-      // The same answer is the same object, so that nothing is drawn anew for it.
+      const now = before.request === request ? before : nothing;
+      // An equal response is the same object, so that nothing is drawn again for it.
       const next = value === null || JSON.stringify(value) === JSON.stringify(now.value) ? now.value : value;
-      return now === before && next === now.value && problem === now.problem ? now : { question, value: next, problem };
+      return now === before && next === now.value && problem === now.problem ? now : { request, value: next, problem };
     });
   };
   const read = async () => {
-    const turn = ++turns.current.asked;
+    const turn = ++turns.current.sent;
     try {
       take(turn, await get<T>(path, query), "");
     } catch (error) {
       take(turn, null, problemOf(error));
     }
   };
-  return { ...(kept.question === question ? kept : nothing), read };
+  return { ...(kept.request === request ? kept : nothing), read };
 }
 
-/** The same, read at once, again with every other `version`, and now and then while the server refuses. */
+/** The same, read at once, again whenever `version` changes, and every few seconds while the server refuses. */
 export function useReading<T>(path: string, query: Query, version: unknown): Reading<T> {
-  const answer = useAnswer<T>(path, query);
-  useEffect(() => void answer.read(), [address(path, query), version]);
-  useRepeated(answer.read, AGAIN_MS, answer.problem !== "");
-  return answer;
+  const response = useResponse<T>(path, query);
+  useEffect(() => void response.read(), [address(path, query), version]);
+  useRepeated(response.read, AGAIN_MS, response.problem !== "");
+  return response;
 }
 
-/** A gamut that is to be shown: its name on the page, how many patterns it has, and whose it is. */
+/** A gamut to show: its name on the page, how many patterns it has, and whose it is. */
 interface Wanted {
   name: string;
   count: number;
   which: { round: number } | { family: string };
 }
 
-/** Gamuts by name, loaded again once they have grown; where one could not be read, now and then. */
+/** Gamuts by name, loaded again once they have grown, and every few seconds where one could not be read. */
 export function useGamuts(wanted: Wanted[]): { gamuts: Map<string, Gamut>; problem: string } {
   const [gamuts, setGamuts] = useState(new Map<string, Gamut>());
   const [problems, setProblems] = useState(new Map<string, string>());

@@ -1,55 +1,55 @@
-// Every specimen, with what speaks against it and a person's word.
+// Every specimen, with what looks wrong about it, and a person's review.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { Laboratory as Work, LaboratorySpecimen } from "./api";
-import { useHandIn } from "./hand_in";
+import type { Laboratory, LaboratorySpecimen } from "./api";
 import { gpa, mpa } from "./numbers";
 import { Name, Notice, Table, Unit, unusual } from "./parts";
+import { useSubmit } from "./submit";
+import { TERMS } from "./terms";
 
-/** The laboratory's note, and who has judged the specimen last and why. */
+/** The laboratory's note, and who reviewed the specimen last and why. */
 function remarkOn(s: LaboratorySpecimen): string {
   if (!s.by) return s.note;
-  const judged = `${s.by}: ${s.why}`;
-  return s.note && s.note !== s.why ? `${s.note}; ${judged}` : judged;
+  const review = `${s.by}: ${s.why}`;
+  return s.note && s.note !== s.why ? `${s.note}; ${review}` : review;
 }
 
 export function Specimens({
-  work,
+  laboratory,
   by,
   refresh,
   playing,
 }: {
-  work: Work;
+  laboratory: Laboratory;
   by: string;
   refresh: () => Promise<void>;
   playing: boolean;
 }) {
-  const [judged, setJudged] = useState<string | null>(null);
+  const [reviewed, setReviewed] = useState<string | null>(null);
   const [why, setWhy] = useState("");
   const [find, setFind] = useState("");
-  const [said, busy, handIn] = useHandIn(refresh);
-  const doubts = new Map(work.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)));
-  const rows = work.specimens
+  const [notice, busy, submit] = useSubmit(refresh);
+  const doubts = new Map(laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)));
+  const rows = laboratory.specimens
     .filter((s) => `${s.specimen} ${s.design} ${s.test} ${s.batch}`.toLowerCase().includes(find.toLowerCase()))
     .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
   const reason = useRef<HTMLInputElement>(null);
-  useEffect(() => reason.current?.focus(), [judged]);
+  useEffect(() => reason.current?.focus(), [reviewed]);
   /** Another one may be open by now; where none is, the keyboard goes on at the button that opened it. */
   const close = (s: LaboratorySpecimen) => {
-    setJudged((now) => (now === s.specimen ? null : now));
+    setReviewed((now) => (now === s.specimen ? null : now));
     requestAnimationFrame(() => {
       if (document.activeElement === document.body)
-        document.querySelector<HTMLElement>(`[aria-label="${CSS.escape(`judge ${s.specimen}`)}"]`)?.focus();
+        document.querySelector<HTMLElement>(`[aria-label="${CSS.escape(`review ${s.specimen}`)}"]`)?.focus();
     });
   };
-  const judge = async (s: LaboratorySpecimen) => {
+  const review = async (s: LaboratorySpecimen) => {
     const done = `${s.specimen} is ${s.valid ? "not valid" : "valid"} now.`;
-    if (await handIn("/api/review", { specimen: s.specimen, valid: !s.valid, by, why }, done))
-      close(s);
+    if (await submit("/api/review", { specimen: s.specimen, valid: !s.valid, by, why }, done)) close(s);
   };
   return (
     <section class="panel">
-      <h2>Review</h2>
+      <h2>Specimens</h2>
       <div class="row">
         <label>
           Find{" "}
@@ -61,18 +61,18 @@ export function Specimens({
           />
         </label>
       </div>
-      <Notice said={said} />
+      <Notice notice={notice} />
       <Table
         name="specimens"
-        caption={`Specimens (${find ? `${rows.length} of ` : ""}${work.specimens.length})`}
+        caption={`Review (${find ? `${rows.length} of ` : ""}${laboratory.specimens.length} specimens)`}
         rows={rows}
         rowKey={(s) => s.specimen}
-        empty={find ? "No specimen is called so." : "Nothing has been measured yet."}
+        empty={find ? `No specimen matches “${find}”.` : "Nothing has been measured yet."}
         rowClass={(s) => (s.valid ? "" : "invalid")}
         columns={[
           { heading: "specimen", words: true, show: (s) => s.specimen, value: (s) => s.specimen },
           {
-            heading: "design",
+            ...TERMS.design,
             words: true,
             show: (s) => (
               <span class="with-unit">
@@ -83,7 +83,7 @@ export function Specimens({
             value: (s) => s.design,
           },
           {
-            heading: "test",
+            ...TERMS.test,
             words: true,
             show: (s) => `${s.test}${unusual(s)}`,
             value: (s) => s.test,
@@ -92,10 +92,10 @@ export function Specimens({
           { heading: "strain_rate_per_s", value: (s) => s.strain_rate_per_s },
           { heading: "thickness_mm", value: (s) => s.thickness_mm },
           { heading: "batch", value: (s) => s.batch },
-          { heading: "E / GPa", csv: "modulus_pa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
-          { heading: "T / MPa", csv: "toughness_pa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
+          { ...TERMS.oneModulus, csv: "modulus_pa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
+          { ...TERMS.oneToughness, csv: "toughness_pa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
           {
-            heading: "valid",
+            ...TERMS.specimenValid,
             words: true,
             show: (s) => (
               <span class={`chip ${s.valid ? "approved" : "rejected"}`}>{s.valid ? "valid" : "not valid"}</span>
@@ -103,7 +103,7 @@ export function Specimens({
             value: (s) => s.valid,
           },
           {
-            heading: "remarks",
+            ...TERMS.remarks,
             csv: "note",
             words: true,
             show: (s) => (
@@ -121,17 +121,17 @@ export function Specimens({
           { heading: "by", value: (s) => s.by },
           { heading: "why", value: (s) => s.why },
           {
-            heading: "judge",
+            ...TERMS.review,
             words: true,
             show: (s) =>
               !playing ? (
                 ""
-              ) : judged === s.specimen ? (
+              ) : reviewed === s.specimen ? (
                 <form
-                  class="judge"
+                  class="review"
                   onSubmit={(e) => {
                     e.preventDefault();
-                    void judge(s);
+                    void review(s);
                   }}
                 >
                   <input
@@ -155,12 +155,12 @@ export function Specimens({
                   type="button"
                   class="quiet"
                   onClick={() => {
-                    setJudged(s.specimen);
+                    setReviewed(s.specimen);
                     setWhy(doubts.get(s.specimen)?.[0]?.slice(0, 200) ?? "");
                   }}
-                  aria-label={`judge ${s.specimen}`}
+                  aria-label={`review ${s.specimen}`}
                 >
-                  judge
+                  review
                 </button>
               ),
           },

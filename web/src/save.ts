@@ -1,10 +1,23 @@
-// Pictures and tables as files.
+// Pictures and tables as files. Names and titles begin with the run's name.
+
+let run = "";
+
+/** The run whose page this is. */
+export function nameRun(name: string): void {
+  run = name;
+}
+
+/** A file's name as it is saved: a run's name has no characters that a file's name may not have. */
+const fileName = (name: string) => (run ? `${run}-${name}` : name);
+
+/** A title with the run's name. */
+export const titleOf = (text: string) => (run ? `${run}: ${text}` : text);
 
 export function save(name: string, content: Blob | string, type = "text/plain"): void {
   const blob = content instanceof Blob ? content : new Blob([content], { type });
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
-  link.download = name;
+  link.download = fileName(name);
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
@@ -20,10 +33,16 @@ function csvOf(heading: string[], rows: unknown[][]): string {
 
 export const saveCsv = (name: string, heading: string[], rows: unknown[][]) =>
   save(`${name}.csv`, csvOf(heading, rows), "text/csv");
+
 /** What no XML file may hold, and names from elsewhere might. */
 const NOT_XML = /[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g;
-export const saveSvg = (name: string, svg: string) =>
-  save(`${name}.svg`, svg.replace(NOT_XML, "\ufffd"), "image/svg+xml");
+const escaped = (text: string) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
+
+/** `title` says what the picture shows. */
+export function saveSvg(name: string, svg: string, title: string): void {
+  const titled = svg.replace(/<svg[^>]*>/, (opening) => `${opening}<title>${escaped(titleOf(title))}</title>`);
+  save(`${name}.svg`, titled.replace(NOT_XML, "\ufffd"), "image/svg+xml");
+}
 
 export function saveCanvas(name: string, canvas: HTMLCanvasElement): void {
   canvas.toBlob((blob) => blob && save(`${name}.png`, blob), "image/png");

@@ -14,6 +14,8 @@
 #include "base/result.hpp"
 #include "dashboard/server.hpp"
 #include "fake_desk.hpp"
+#include "families/families_file.hpp"
+#include "material/parameter_file.hpp"
 #include "store/run_database.hpp"
 
 namespace nacre::dashboard {
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A run's folder with the messages of the samples in its database, and a desk that keeps what is handed in.
+/// A run's folder with the messages of the samples in its database, and a desk that keeps what is entered.
 class DashboardOfARun : public testing::Test {
  protected:
   DashboardOfARun() {
@@ -195,6 +197,7 @@ TEST_F(DashboardOfARun, NoFileOutsideThePageIsServed) {
 TEST_F(DashboardOfARun, NumbersAndNamesOutOfRangeAreRefused) {
   for (const char* round : {"", "-1", "1e3", "x", "99999999999", "1 ", "0x1"})
     EXPECT_EQ(get("/api/gamut", {{"round", round}}).status, 400) << round;
+  EXPECT_EQ(json("/api/gamut", {{"round", "1e3"}})["error"], "round: `1e3`, expected a whole number from 0 to 1000000");
   EXPECT_EQ(get("/api/gamut").status, 400);
   EXPECT_EQ(get("/api/gamut", {{"round", "99"}}).status, 404);
   for (const char* design : {"", "577fffe9fffde", "../x", "mix:2", "mix:nan"})
@@ -212,7 +215,7 @@ TEST_F(DashboardOfARun, BetweenAPatternAndItselfLiesThePattern) {
   EXPECT_EQ(found["pattern"], "577fffe9fffdef");
 }
 
-TEST_F(DashboardOfARun, AJudgementThatTheGameWouldNotHeedIsRefusedWithTheReason) {
+TEST_F(DashboardOfARun, AReviewThatTheGameWouldNotHeedIsRefusedWithTheReason) {
   desk_.reason_against = "a: cannot be valid: modulus_pa 1.2 Pa";
   const Response refusal = post("/api/review", R"({"specimen":"a","valid":true,"by":"Ada","why":"looks fine"})");
   EXPECT_EQ(refusal.status, 409);
@@ -220,7 +223,7 @@ TEST_F(DashboardOfARun, AJudgementThatTheGameWouldNotHeedIsRefusedWithTheReason)
   EXPECT_TRUE(desk_.reviews.empty());
 }
 
-TEST_F(DashboardOfARun, WhatIsHandedInReachesTheDesk) {
+TEST_F(DashboardOfARun, WhatIsEnteredReachesTheDesk) {
   EXPECT_EQ(post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})").status, 200);
   EXPECT_EQ(desk_.reviews.at(0).why, "slipped");
   EXPECT_EQ(
@@ -236,7 +239,7 @@ TEST_F(DashboardOfARun, WhatTheGameDoesNotTakeIsSaid) {
   desk_.answer = Delivery::unanswered;
   const Response late = post("/api/review", R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
   EXPECT_EQ(late.status, 504);
-  EXPECT_THAT(late.body, HasSubstr("does the game play"));
+  EXPECT_THAT(late.body, HasSubstr("is the game still running"));
   desk_.answer = Delivery::conflicting;
   EXPECT_EQ(post("/api/measurement", R"({"specimen":"a","pattern":"soft","test":"modulus","modulus_pa":1e6})").status,
             409);
@@ -350,7 +353,7 @@ TEST_F(DashboardOfARun, APersonGroupsMeasuredDesigns) {
   ASSERT_EQ(proposed["families"].size(), 1u);
 
   EXPECT_EQ(post("/api/grouping", R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})").status, 200);
-  EXPECT_EQ(desk_.groupings.at(0), (std::vector<families::Family>{{"mine", {pattern::Pattern(0x577fffe9fffdef)}}}));
+  EXPECT_EQ(desk_.groupings.at(0), (std::vector<families::SeedFamily>{{"mine", {pattern::Pattern(0x577fffe9fffdef)}}}));
   const Response unmeasured = post("/api/grouping", R"({"families":[{"name":"mine","seeds":["3ffc9b4ad4d2d9"]}]})");
   EXPECT_EQ(unmeasured.status, 400);
   EXPECT_THAT(unmeasured.body, HasSubstr("not measured"));

@@ -40,7 +40,7 @@ TEST(Entries, WhatIsWrongIsNamedWithItsColumn) {
   EXPECT_THAT(fault("{}"), HasSubstr("specimen: "));
   EXPECT_THAT(fault(with(R"("modulus_pa":-1)")), HasSubstr("modulus_pa: -1"));
   EXPECT_THAT(fault(with(R"("modulus_pa":"1e999")")), HasSubstr("modulus_pa"));
-  EXPECT_THAT(fault(with(R"("modulus_pa":[1])")), HasSubstr("modulus_pa: expected"));
+  EXPECT_THAT(fault(with(R"("modulus_pa":[1])")), HasSubstr("modulus_pa: [1], expected a text or a number"));
   EXPECT_THAT(fault(with(R"("modulus_pa":0.4)")), HasSubstr("modulus_pa: 0.4 Pa, expected 10000"));
   EXPECT_EQ(fault(with(R"("modulus_pa":0.4,"valid":false)")), "none");
   EXPECT_THAT(fault(with(R"("colour":"red")")), HasSubstr("colour: no such column"));
@@ -52,11 +52,11 @@ TEST(Entries, WhatIsWrongIsNamedWithItsColumn) {
 
 TEST(Entries, WhatIsNoShallowObjectIsRefused) {
   for (const char* json : {"", "[]", "1", "\"x\"", "{", "\xff\xfe", "nul"})
-    EXPECT_THAT(fault(json), HasSubstr("expected a JSON object")) << json;
+    EXPECT_THAT(fault(json), HasSubstr("no JSON object")) << json;
   EXPECT_NE(fault("{\"a\":" + std::string(100'000, '[') + std::string(100'000, ']') + "}"), "none");
 }
 
-TEST(Entries, AJudgementNeedsAPersonAndAReason) {
+TEST(Entries, AReviewNeedsAPersonAndAReason) {
   EXPECT_TRUE(specimen_review_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})"));
   EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a","valid":false,"by":"Ada","why":" "})"));
   EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a","valid":0,"by":"Ada","why":"x"})"));
@@ -64,7 +64,7 @@ TEST(Entries, AJudgementNeedsAPersonAndAReason) {
   EXPECT_FALSE(specimen_review_from_json(R"({"specimen":"a\nb","valid":false,"by":"Ada","why":"x"})"));
 }
 
-TEST(Entries, ADecisionNamesADesignAndARound) {
+TEST(Entries, AnApprovalNamesADesignAndARound) {
   const auto approval =
       approval_from_json(R"({"design":"577fffe9fffdef","round":2,"approved":false,"by":"Ada","why":""})");
   ASSERT_TRUE(approval) << approval.error().message;
@@ -80,12 +80,31 @@ TEST(Entries, ADecisionNamesADesignAndARound) {
   EXPECT_FALSE(approval_from_json(R"({"design":"nothing","approved":true,"by":"Ada"})"));
 }
 
-TEST(Entries, AWishNamesAModel) {
-  EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":"2"})"));
-  EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":2})"));
-  EXPECT_TRUE(wish_from_json(R"({"design":"577fffe9fffdef","model":"family-1"})"));
-  EXPECT_FALSE(wish_from_json(R"({"design":"577fffe9fffdef","model":"../family-1"})"));
-  EXPECT_FALSE(wish_from_json(R"({"design":"577fffe9fffdef"})"));
+TEST(Entries, AnErrorNamesTheFieldAndWhatWasTyped) {
+  const auto error = [](const auto& result) { return result ? std::string("none") : result.error().message; };
+  EXPECT_EQ(error(approval_from_json(R"({"design":"soft","round":2.5,"approved":true,"by":"Ada"})")),
+            "round: 2.5, expected a whole number");
+  EXPECT_EQ(error(approval_from_json(R"({"design":"soft","round":-7,"approved":true,"by":"Ada"})")),
+            "round: -7, expected -1 to 1000000");
+  EXPECT_EQ(error(approval_from_json(R"({"design":"soft","approved":"yes","by":"Ada"})")),
+            "approved: \"yes\", expected true or false");
+  EXPECT_EQ(error(specimen_review_from_json(R"({"specimen":7,"valid":true,"by":"Ada","why":"x"})")),
+            "specimen: 7, expected a text");
+  EXPECT_EQ(error(simulation_request_from_json(R"({"design":"soft","model":"a/b"})")),
+            "model: `a/b`, expected the number of a round or the name of a family");
+  EXPECT_EQ(error(grouping_from_json(R"({"families":[{"name":"a","seeds":["soft"]}]})")),
+            "family a: seeds: \"soft\", expected a key of 14 hex digits");
+  const std::string long_text =
+      error(approval_from_json(R"({"design":"soft","approved":")" + std::string(5000, 'x') + R"(","by":"Ada"})"));
+  EXPECT_LT(long_text.size(), 120u) << "what was typed is cut where it is long";
+}
+
+TEST(Entries, ASimulationRequestNamesAModel) {
+  EXPECT_TRUE(simulation_request_from_json(R"({"design":"577fffe9fffdef","model":"2"})"));
+  EXPECT_TRUE(simulation_request_from_json(R"({"design":"577fffe9fffdef","model":2})"));
+  EXPECT_TRUE(simulation_request_from_json(R"({"design":"577fffe9fffdef","model":"family-1"})"));
+  EXPECT_FALSE(simulation_request_from_json(R"({"design":"577fffe9fffdef","model":"../family-1"})"));
+  EXPECT_FALSE(simulation_request_from_json(R"({"design":"577fffe9fffdef"})"));
 }
 
 TEST(Entries, AGroupingFollowsTheRulesOfItsFile) {

@@ -13,6 +13,7 @@
 #include "diagnosis/json.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "diagnosis/procedure.hpp"
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "synthetic_set.hpp"
 

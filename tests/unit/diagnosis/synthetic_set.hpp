@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/observe.hpp"
+#include "measurement/specimen_record.hpp"
 #include "pattern/random_pattern.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::diagnosis {
 

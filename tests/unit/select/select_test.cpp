@@ -16,6 +16,7 @@ namespace nacre::select {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using Gamut = std::vector<explore::Evaluated>;
 
 std::vector<pattern::Pattern> random_patterns(int count, std::uint64_t seed) {
@@ -53,8 +54,12 @@ TEST(SelectDesigns, CoverTheFrontWithOneDesignPerBin) {
     EXPECT_EQ(design.bin, bin);
     EXPECT_TRUE(contains(gamut, design));
     patterns.insert(design.pattern);
-    EXPECT_THAT(design.reason, HasSubstr("bin " + std::to_string(bin + 1) + " of 8 (toughness "));
-    EXPECT_THAT(design.reason, HasSubstr("pixels or more from everything measured, by "));
+    const std::string place = bin == 0   ? "in the least stiff of 8 parts of the front"
+                              : bin == 7 ? "in the stiffest of 8 parts of the front"
+                                         : "in part " + std::to_string(bin + 1) + " of 8 of the front";
+    EXPECT_THAT(design.reason, HasSubstr("one of the toughest predicted for its stiffness " + place));
+    EXPECT_THAT(design.reason, MatchesRegex(".* measured [a-z ]+\\([0-9]+ of 400 pixels differ, [0-9]+ from the other "
+                                            "proposals\\)"));
     if (bin > 0) {
       EXPECT_GT(design.predicted.modulus_pa, selected[static_cast<std::size_t>(bin) - 1].predicted.modulus_pa * 0.9);
     }
@@ -75,7 +80,14 @@ TEST(SelectDesigns, TakesThePatternThatDiffersMostFromTheMeasured) {
   ASSERT_EQ(selected.size(), 1u);
   EXPECT_EQ(selected[0].pattern, far);
   EXPECT_EQ(selected[0].reason,
-            "bin 1 of 1 (toughness 1 MPa, modulus 1 GPa): differs by 24 pixels or more from everything measured");
+            "one of the toughest predicted for its stiffness; close to a measured design (24 of 400 pixels differ)");
+}
+
+TEST(SelectDesigns, OfTwoOneIsOfTheLeastStiffHalfAndOneOfTheStiffest) {
+  const auto selected = select_designs(round_gamut(50, 100), random_patterns(3, 9), {}, {.count = 2});
+  ASSERT_EQ(selected.size(), 2u);
+  EXPECT_THAT(selected[0].reason, HasSubstr("in the least stiff half; unlike anything measured so far ("));
+  EXPECT_THAT(selected[1].reason, HasSubstr("in the stiffest half; unlike anything measured so far ("));
 }
 
 TEST(SelectDesigns, EmptyBinsAreFilledFromTheRemainingCandidatesAndSaySo) {
@@ -95,8 +107,9 @@ TEST(SelectDesigns, EmptyBinsAreFilledFromTheRemainingCandidatesAndSaySo) {
   EXPECT_EQ(selected[1].bin, 3);
   for (const std::size_t i : {2u, 3u}) {
     EXPECT_EQ(selected[i].bin, -1);
-    EXPECT_THAT(selected[i].reason, HasSubstr("bins 2, 3 of 4 hold no candidate, so this one fills up"));
-    EXPECT_THAT(selected[i].reason, HasSubstr("nothing is measured yet; differs by "));
+    EXPECT_THAT(selected[i].reason, HasSubstr("taken because parts 2 and 3 of 4 of the front hold no candidate"));
+    EXPECT_THAT(selected[i].reason, MatchesRegex(".*; nothing is measured yet \\([0-9]+ of 400 pixels differ from the "
+                                                 "other proposals\\)"));
   }
   std::set<pattern::Pattern> different;
   for (const Selected& design : selected) different.insert(design.pattern);
@@ -145,7 +158,7 @@ TEST(SelectDesigns, StayAboveTheBenchmark) {
   EXPECT_TRUE(select_designs(gamut, {}, unbeaten, {}).empty());
 }
 
-TEST(SelectWithReserve, TakesTheFirstRanksAloneAndSaysWhatLiesBelowTheHomogeneousLine) {
+TEST(SelectWithReserve, TakesTheFirstRanksAloneAndWarnsWhereAPlainMixtureIsAsGood) {
   const auto patterns = random_patterns(6, 4);
   const Gamut gamut = {
       {patterns[0], {3.0e9, 3.0e6}}, {patterns[1], {2.9e9, 2.9e6}}, {patterns[2], {2.8e9, 2.8e6}},
@@ -157,8 +170,9 @@ TEST(SelectWithReserve, TakesTheFirstRanksAloneAndSaysWhatLiesBelowTheHomogeneou
   ASSERT_EQ(selected.size(), 5u);
   for (const Selected& design : selected) {
     EXPECT_NE(design.pattern, patterns[4]) << design.reason;
-    const bool below = design.reason.find("below the homogeneous line") != std::string::npos;
+    const bool below = design.reason.find("warning: a plain mixture is as stiff and as tough") != std::string::npos;
     EXPECT_EQ(below, design.pattern == patterns[5]) << design.reason;
+    EXPECT_THAT(design.reason, HasSubstr("nothing is measured yet (")) << "what is only chosen is not measured";
   }
 }
 

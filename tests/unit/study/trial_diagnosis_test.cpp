@@ -7,6 +7,7 @@
 
 #include "base/result.hpp"
 #include "blind_trials/score.hpp"
+#include "laboratory/effect_kinds.hpp"
 
 namespace nacre::blind_trials {
 namespace {

@@ -7,11 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/modulus.hpp"
 #include "tester/notch.hpp"
 #include "tester/strength_scatter.hpp"
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
 #include "virtual_lab/experiment_text.hpp"
 
 namespace nacre::laboratory {
@@ -96,14 +97,14 @@ TEST(VirtualLabCore, ARepeatedOrderChangesNothingAndAnotherUnderTheSameIdIsRefus
   EXPECT_EQ(outputs.log.size(), 1u);
 }
 
-TEST(VirtualLabCore, EqualQuestionsAreSimulatedOnce) {
+TEST(VirtualLabCore, EqualExperimentsAreSimulatedOnce) {
   VirtualLabCore core(truth());
   int computes = 0;
   for (const Message& each : three_orders()) computes += static_cast<int>(core.step(each).computes.size());
   EXPECT_EQ(computes, 2);
 }
 
-TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherQuestion) {
+TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherExperiment) {
   VirtualLabCore core(truth());
   const wire::TestOrder pulled = order("r1/a/tensile", "rigid", tester::TestKind::tensile);
   wire::TestOrder unloaded = order("r1/b/tensile", "rigid", tester::TestKind::tensile);

@@ -1,11 +1,11 @@
 #pragma once
-// One specimen typed in by a person instead of read from a set.
+// One specimen typed into a form instead of read from a set.
 
 #include <map>
 #include <string>
 #include <string_view>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::measurement {
 

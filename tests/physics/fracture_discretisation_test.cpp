@@ -1,4 +1,4 @@
-// What the numerical knobs of the toughness tester change: number type, time step, recording. Medians over 20 patterns,
+// Effects of the discretisation of the toughness tester: number type, time step, recording. Medians over 20 patterns,
 // because which element fails first may turn on the last bit; single specimens may differ by more
 // (docs/studies/repeatability.md).
 

@@ -1,15 +1,16 @@
-#include "measurement/entry.hpp"
+#include "measurement/typed_specimen.hpp"
 
 #include <algorithm>
 
 #include "measurement/set_files.hpp"
 #include "measurement/set_row.hpp"
+#include "measurement/specimen_checks.hpp"
 
 namespace nacre::measurement {
 namespace {
 
 constexpr const char* kCurveName = "curve";
-/// Typed in by hand, nothing needs more.
+/// Enough for anything typed by hand.
 constexpr std::size_t kLongestField = 2000;
 
 RejectedRow rejected(std::string column, std::string reason) { return {1, std::move(column), std::move(reason)}; }
@@ -18,7 +19,7 @@ RejectedRow rejected(std::string column, std::string reason) { return {1, std::m
 
 tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<std::string, std::string>& fields,
                                                                std::string_view curve_csv) {
-  Heading heading;
+  SetHeading heading;
   heading.position.fill(kAbsent);
   CsvRow row;
   row.line = 1;
@@ -30,7 +31,7 @@ tl::expected<SpecimenRecord, RejectedRow> specimen_from_fields(const std::map<st
     heading.position[known - kColumns.begin()] = row.cells.size();
     row.cells.push_back({text, 1, 0});  // no place in a file
   }
-  // The row parser would look for a file of that name.
+  // The row parser would read a file of that name.
   if (const auto pattern = fields.find(std::string(kColumns[kPattern]));
       pattern != fields.end() && !pattern->second.empty()) {
     const auto design = pattern::design_from_word(trimmed(pattern->second));

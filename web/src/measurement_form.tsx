@@ -1,10 +1,10 @@
 // One measured specimen, typed in.
 
 import { useEffect, useState } from "preact/hooks";
-import type { Laboratory as Work, Order } from "./api";
-import { useHandIn } from "./hand_in";
+import type { Laboratory, Order } from "./api";
 import { typedNumber } from "./numbers";
 import { Notice, useDraft } from "./parts";
+import { useSubmit } from "./submit";
 
 const EMPTY = {
   specimen: "",
@@ -23,16 +23,42 @@ const EMPTY = {
 type Form = typeof EMPTY;
 
 const measuredName = (test: string) => (test === "modulus" ? "Young's modulus" : "Toughness");
+const unitOf = (test: string) => (test === "modulus" ? "GPa" : "MPa");
 
-/** What is wrong with the typed numbers, as a sentence; empty: nothing. */
-function faultIn(form: Form): string {
-  const typed = {
-    [measuredName(form.test)]: form.value,
-    Thickness: form.thickness_mm,
-    "Strain rate": form.strain_rate_per_s,
-  };
-  const wrong = Object.entries(typed).find(([, text]) => text.trim() !== "" && typedNumber(text) === null);
-  return wrong ? `${wrong[0]}: “${wrong[1]}” is not a number; write it without a unit, such as 0.17.` : "";
+/** The fields by the columns that the server names. */
+const FIELDS: Record<string, { label: string; field: keyof Form; unit?: string }> = {
+  specimen: { label: "Specimen", field: "specimen" },
+  pattern: { label: "Pattern", field: "pattern" },
+  test: { label: "Test", field: "test" },
+  modulus_pa: { label: "Young's modulus", field: "value", unit: "GPa" },
+  toughness_pa: { label: "Toughness", field: "value", unit: "MPa" },
+  batch: { label: "Batch", field: "batch" },
+  orientation_deg: { label: "Orientation", field: "orientation_deg" },
+  thickness_mm: { label: "Thickness", field: "thickness_mm", unit: "mm" },
+  strain_rate_per_s: { label: "Strain rate", field: "strain_rate_per_s", unit: "/s" },
+  note: { label: "Note", field: "note" },
+};
+
+/** The server's sentence about a column in the words of the form: the field's label, and what was typed there. */
+function inWordsOfForm(sentence: string, form: Form): string {
+  const [, column, rest] = /^(?:column )?(\w+): ([\s\S]*)$/.exec(sentence) ?? [];
+  const known = column ? FIELDS[column] : undefined;
+  if (!known) return column === "curve" ? `Curve: ${rest}` : sentence;
+  const labelled = Object.entries(FIELDS).reduce((text, [name, { label }]) => text.replaceAll(name, label), rest);
+  const typed = String(form[known.field]).trim();
+  const value = typed ? `“${typed}”${known.unit ? ` ${known.unit}` : ""}` : "left empty";
+  return `${known.label}, ${value}: ${labelled}`;
+}
+
+/** The first field with a number that cannot be read; null: none. */
+function unreadable(form: Form): { field: keyof Form; text: string } | null {
+  const labels = { value: measuredName(form.test), thickness_mm: "Thickness", strain_rate_per_s: "Strain rate" };
+  for (const field of ["value", "thickness_mm", "strain_rate_per_s"] as const) {
+    if (form[field].trim() === "" || typedNumber(form[field]) !== null) continue;
+    const text = `${labels[field]}: “${form[field]}” is not a number; write it without a unit, such as 0.17.`;
+    return { field, text };
+  }
+  return null;
 }
 
 /** The form as a row of a measurement set, in its units. */
@@ -59,18 +85,18 @@ function nextName(order: Order, taken: Set<string>): string {
 /** Rows of a curve file below its heading. */
 const rowsIn = (csv: string) => csv.split("\n").filter((line) => line.trim() !== "").length - 1;
 
-/** The form, the order that it answers, and what becomes of it. */
-function useEntry(work: Work, refresh: () => Promise<void>) {
-  const [form, setForm] = useDraft("entry", EMPTY);
-  const [fileName, setFileName] = useDraft("entry/file", "");
-  const [chosen, setChosen] = useDraft("entry/order", "");
-  const [fault, setFault] = useState("");
-  const [handedIn, setHandedIn] = useState(0);
-  const [files, setFiles] = useState(0); // chosen and let go again
-  const [said, busy, handIn] = useHandIn(refresh);
+/** The form, the order that it belongs to, and what came of it. */
+function useForm(laboratory: Laboratory, refresh: () => Promise<void>) {
+  const [form, setForm] = useDraft("measurement", EMPTY);
+  const [fileName, setFileName] = useDraft("measurement/file", "");
+  const [chosen, setChosen] = useDraft("measurement/order", "");
+  const [fault, setFault] = useState<{ field?: keyof Form; text: string } | null>(null);
+  const [count, setCount] = useState(0); // of measurements submitted
+  const [files, setFiles] = useState(0); // of files chosen and dropped again
+  const [notice, busy, submit] = useSubmit(refresh);
   const set = (name: keyof Form) => (event: { currentTarget: { value: string } }) =>
     setForm({ ...form, [name]: event.currentTarget.value });
-  /** The same for what an order asks for: whoever changes that no longer answers the order that was chosen. */
+  /** The same for what an order asks for: with another value the form no longer belongs to the chosen order. */
   const setAsked = (name: keyof Form) => (event: { currentTarget: { value: string } }) => {
     const order = orderOf(chosen);
     const isNamedByOrder = order !== undefined && form.specimen === nameFor(order);
@@ -86,9 +112,9 @@ function useEntry(work: Work, refresh: () => Promise<void>) {
     setFileName("");
     setFiles(files + 1);
   };
-  const open = work.orders.filter((o) => !o.complete);
+  const open = laboratory.orders.filter((o) => !o.complete);
   const orderOf = (id: string) => open.find((o) => o.order === id);
-  const nameFor = (order: Order) => nextName(order, new Set(work.specimens.map((s) => s.specimen)));
+  const nameFor = (order: Order) => nextName(order, new Set(laboratory.specimens.map((s) => s.specimen)));
   const take = (id: string) => {
     setChosen(id);
     const order = orderOf(id);
@@ -109,22 +135,25 @@ function useEntry(work: Work, refresh: () => Promise<void>) {
   useEffect(() => {
     const order = orderOf(chosen);
     if (order) setForm((now) => ({ ...now, specimen: nameFor(order) }));
-  }, [handedIn]);
+  }, [count]);
   const readCurve = async (file: File | undefined) => {
     setFileName(file?.name ?? "");
     const curve_csv = file ? await file.text() : "";
     setForm((now) => ({ ...now, curve_csv }));
   };
-  const submit = async (event: Event) => {
+  const send = async (event: Event) => {
     event.preventDefault();
     const isEmptyFile = fileName !== "" && rowsIn(form.curve_csv) < 1;
-    const wrong = isEmptyFile ? `Curve: ${fileName} holds no rows.` : faultIn(form);
+    const wrong = isEmptyFile ? { text: `Curve: ${fileName} has no rows.` } : unreadable(form);
     setFault(wrong);
-    if (wrong || !(await handIn("/api/measurement", rowOf(form), `${form.specimen} is in the game.`))) return;
+    if (wrong) return;
+    const done = `${form.specimen} was added to the run.`;
+    const explain = (sentence: string) => inWordsOfForm(sentence, form);
+    if (!(await submit("/api/measurement", rowOf(form), done, explain))) return;
     // What was filled in meanwhile stays.
     setForm((now) => ({ ...now, specimen: "", value: "", note: "", valid: true, curve_csv: "" }));
     forget();
-    setHandedIn(handedIn + 1);
+    setCount(count + 1);
   };
   return {
     form,
@@ -132,37 +161,45 @@ function useEntry(work: Work, refresh: () => Promise<void>) {
     files,
     open,
     chosen: orderOf(chosen) ? chosen : "",
-    said: fault ? { kind: "bad" as const, text: fault } : said,
+    notice: fault ? { kind: "bad" as const, text: fault.text } : notice,
+    isFaulty: (field: keyof Form) => (fault?.field === field ? "true" : undefined),
     busy,
     set,
     setAsked,
     setValid: (valid: boolean) => setForm({ ...form, valid }),
     take,
     readCurve,
-    submit,
+    send,
   };
 }
 
-export function Entry({ work, refresh, playing }: { work: Work; refresh: () => Promise<void>; playing: boolean }) {
-  const { form, set, setAsked, ...entry } = useEntry(work, refresh);
-  const unit = form.test === "modulus" ? "GPa" : "MPa";
+export function MeasurementForm({
+  laboratory,
+  refresh,
+  playing,
+}: {
+  laboratory: Laboratory;
+  refresh: () => Promise<void>;
+  playing: boolean;
+}) {
+  const { form, set, setAsked, ...entered } = useForm(laboratory, refresh);
   return (
     <section class="panel">
       <h2>Enter a measurement</h2>
       {!playing ? (
-        <p class="awaited">Only while the game plays: the validation agent takes measurements.</p>
+        <p class="awaited">Measurements can be entered while the game is running.</p>
       ) : (
-        <form onSubmit={entry.submit} class="entry">
-          {entry.open.length > 0 && (
+        <form onSubmit={entered.send} class="measurement">
+          {entered.open.length > 0 && (
             <label class="whole">
-              From an open order
-              <select name="order" value={entry.chosen} onChange={(e) => entry.take(e.currentTarget.value)}>
+              For an open order
+              <select name="order" value={entered.chosen} onChange={(e) => entered.take(e.currentTarget.value)}>
                 <option value="">choose, or fill in by hand</option>
-                {entry.open.map((o) => (
+                {entered.open.map((o) => (
                   <option key={o.order} value={o.order}>
                     {o.design.slice(0, 16)} · {o.test}
                     {o.orientation_deg ? " turned" : ""}
-                    {o.loading === "monotonic" ? "" : ` (${o.loading})`} · {o.arrived} of {o.replicates} here
+                    {o.loading === "monotonic" ? "" : ` (${o.loading})`} · {o.arrived} of {o.replicates} measured
                   </option>
                 ))}
               </select>
@@ -200,13 +237,14 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
             </select>
           </label>
           <label>
-            {measuredName(form.test)} / {unit}{" "}
+            {measuredName(form.test)} / {unitOf(form.test)}{" "}
             <input
               name="value"
               inputMode="decimal"
               value={form.value}
               onInput={set("value")}
               placeholder="or from the curve"
+              aria-invalid={entered.isFaulty("value")}
             />
           </label>
           <label>
@@ -227,6 +265,7 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
               value={form.thickness_mm}
               onInput={set("thickness_mm")}
               placeholder="3.2"
+              aria-invalid={entered.isFaulty("thickness_mm")}
             />
           </label>
           <label>
@@ -237,19 +276,20 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
               value={form.strain_rate_per_s}
               onInput={set("strain_rate_per_s")}
               placeholder="6.17e-4"
+              aria-invalid={entered.isFaulty("strain_rate_per_s")}
             />
           </label>
           <label class="whole">
             Curve{" "}
             <input
-              key={entry.files}
+              key={entered.files}
               type="file"
               accept=".csv,text/csv"
-              onChange={(e) => entry.readCurve(e.currentTarget.files?.[0])}
+              onChange={(e) => entered.readCurve(e.currentTarget.files?.[0])}
             />
             <span class="quiet">
-              {entry.fileName
-                ? `${entry.fileName}, ${rowsIn(form.curve_csv)} rows`
+              {entered.fileName
+                ? `${entered.fileName}, ${rowsIn(form.curve_csv)} rows`
                 : "CSV with the columns strain,stress_pa"}
             </span>
           </label>
@@ -260,18 +300,18 @@ export function Entry({ work, refresh, playing }: { work: Work; refresh: () => P
             <input
               type="checkbox"
               checked={form.valid}
-              onChange={(e) => entry.setValid(e.currentTarget.checked)}
+              onChange={(e) => entered.setValid(e.currentTarget.checked)}
             />{" "}
             valid
           </label>
           <div class="whole">
-            <button type="submit" disabled={entry.busy}>
-              Hand in
+            <button type="submit" disabled={entered.busy}>
+              Add measurement
             </button>
           </div>
         </form>
       )}
-      <Notice said={entry.said} />
+      <Notice notice={entered.notice} />
     </section>
   );
 }
