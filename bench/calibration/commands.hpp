@@ -1,4 +1,5 @@
 #pragma once
+// Commands of the calibration study and their options.
 
 #include <cstdint>
 #include <stdexcept>

@@ -20,7 +20,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastGain = 1e-3;  // relative gain in cost below which the fit has converged
 
 /// The least-squares problem of one tester's parameters.
-struct Problem {
+struct LeastSquaresProblem {
   std::function<double(const std::vector<Prediction>&)> objective;
   /// Natural logarithms of simulated over measured values; not a number where a simulation failed or nothing was
   /// measured.
@@ -36,7 +36,7 @@ struct Problem {
 
 class LeastSquaresFit final : public RecordedFit {
  public:
-  LeastSquaresFit(FitData data, const FitSettings& settings, Problem problem)
+  LeastSquaresFit(FitData data, const FitSettings& settings, LeastSquaresProblem problem)
       : RecordedFit(std::move(data), settings, problem.pull), problem_(std::move(problem)) {}
 
   void tell(std::vector<std::vector<Prediction>> predictions) override {
@@ -206,7 +206,7 @@ class LeastSquaresFit final : public RecordedFit {
 
   static constexpr double kFirstDamping = 1e-3, kLastDamping = 1e2;
 
-  Problem problem_;
+  LeastSquaresProblem problem_;
   std::size_t centre_ = 0;
   Eigen::MatrixXd jacobian_;
   Eigen::VectorXd residual_;
@@ -218,7 +218,7 @@ class LeastSquaresFit final : public RecordedFit {
 }  // namespace
 
 std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& settings) {
-  Problem problem;
+  LeastSquaresProblem problem;
   problem.weights =
       Eigen::Map<const Eigen::VectorXd>(data.weights.data(), static_cast<Eigen::Index>(data.weights.size()));
   problem.objective = [data](const std::vector<Prediction>& predictions) {
@@ -242,7 +242,7 @@ std::unique_ptr<ParameterFit> make_modulus_fit(FitData data, const FitSettings& 
 
 std::unique_ptr<ParameterFit> make_gauss_newton_fit(FitData data, const FitSettings& settings) {
   const Eigen::Index designs = static_cast<Eigen::Index>(data.measured.size());
-  Problem problem;
+  LeastSquaresProblem problem;
   problem.weights.resize(2 * designs);
   for (Eigen::Index i = 0; i < designs; ++i) problem.weights[i] = problem.weights[designs + i] = data.weights[i];
   problem.objective = [data](const std::vector<Prediction>& predictions) {

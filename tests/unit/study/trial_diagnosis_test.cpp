@@ -1,4 +1,4 @@
-// What a blind trial came to survives the way through the study's table.
+// The result of a blind trial survives the way through the study's table.
 
 #include <gtest/gtest.h>
 
@@ -26,9 +26,9 @@ TrialDiagnosis two_effects() {
           .p_misfit = 0.001};
 }
 
-TEST(BlindAnswer, GoesThroughItsCells) {
-  const TrialDiagnosis before = two_effects(), after = answer_from_cells(to_cells(before));
-  EXPECT_EQ(to_cells(before).size() + 1, answer_columns().size());
+TEST(TrialDiagnosis, GoesThroughItsCells) {
+  const TrialDiagnosis before = two_effects(), after = diagnosis_from_cells(to_cells(before));
+  EXPECT_EQ(to_cells(before).size() + 1, diagnosis_columns().size());
   EXPECT_EQ(to_cells(after), to_cells(before));
   EXPECT_EQ(after.possible, before.possible);
   ASSERT_EQ(after.hidden.size(), 2U);
@@ -36,17 +36,17 @@ TEST(BlindAnswer, GoesThroughItsCells) {
   EXPECT_EQ(after.named[1].low90, 3.11e-10);
   TrialDiagnosis nothing;
   nothing.verdict = "base_sufficient";
-  const TrialDiagnosis null = answer_from_cells(to_cells(nothing));
+  const TrialDiagnosis null = diagnosis_from_cells(to_cells(nothing));
   EXPECT_TRUE(null.hidden.empty() && null.named.empty() && null.possible.empty());
   EXPECT_EQ(null.p_misfit, 1.0);
 }
 
-TEST(BlindAnswer, ACellThatIsNoNumberIsRefused) {
+TEST(TrialDiagnosis, ACellThatIsNoNumberIsRefused) {
   std::vector<std::string> cells = to_cells(two_effects());
   cells[1] = "large;small";
-  EXPECT_THROW(answer_from_cells(cells), InputError);
+  EXPECT_THROW(diagnosis_from_cells(cells), InputError);
   cells[1] = "0.1";
-  EXPECT_THROW(answer_from_cells(cells), InputError);
+  EXPECT_THROW(diagnosis_from_cells(cells), InputError);
 }
 
 TEST(BlindScore, TheSizeIsThatOfTheFirstHiddenEffectWhereverItIsNamed) {
@@ -66,27 +66,27 @@ TEST(BlindScore, AnotherNameIsWrong) {
 }
 
 TEST(BlindScore, AnotherFormOfAnEffectIsRightWithItsFamily) {
-  TrialDiagnosis answer;
-  answer.verdict = "named";
-  answer.hidden = {{0.3, 12.0, 0.0, 0.0}};
-  answer.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
+  TrialDiagnosis diagnosis;
+  diagnosis.verdict = "named";
+  diagnosis.hidden = {{0.3, 12.0, 0.0, 0.0}};
+  diagnosis.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
   const BlindTrial form{"form-smooth_mixing-large-9", "form", 9, true, false, {"smooth_mixing"}};
-  EXPECT_TRUE(score_of(form, answer).right_family);
-  answer.named = {{"plane_strain", 0.8, 0.7, 0.9}};
-  EXPECT_FALSE(score_of(form, answer).right_family);
-  EXPECT_NE(report_of({score_of(form, answer)}).find("a name of another family | 1 of 1"), std::string::npos);
+  EXPECT_TRUE(score_of(form, diagnosis).right_family);
+  diagnosis.named = {{"plane_strain", 0.8, 0.7, 0.9}};
+  EXPECT_FALSE(score_of(form, diagnosis).right_family);
+  EXPECT_NE(report_of({score_of(form, diagnosis)}).find("a name of another family | 1 of 1"), std::string::npos);
 }
 
 TEST(BlindScore, ANameWhereNothingIsHiddenIsOfNoFamily) {
-  TrialDiagnosis answer;
-  answer.verdict = "named";
-  answer.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
-  const Score score = score_of({"null-nothing-large-1", "null", 1, true, false, {}}, answer);
+  TrialDiagnosis diagnosis;
+  diagnosis.verdict = "named";
+  diagnosis.named = {{"droplet_mixing", 0.8, 0.7, 0.9}};
+  const Score score = score_of({"null-nothing-large-1", "null", 1, true, false, {}}, diagnosis);
   EXPECT_FALSE(score.right_name || score.right_family);
   EXPECT_NE(report_of({score}).find("| nulls: any name | 1 of 1"), std::string::npos);
 }
 
-TEST(BlindTrials, OutsideIsWhatTheLibraryHasNoFamilyFor) {
+TEST(BlindTrials, OutsideAreUnmodelledCauses) {
   std::map<std::string, std::set<std::string>> hidden;
   for (const BlindTrial& trial : all_trials({}))
     for (const std::string& effect : trial.hidden) hidden[trial.kind].insert(effect);

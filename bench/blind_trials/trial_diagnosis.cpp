@@ -1,4 +1,4 @@
-#include "answer.hpp"
+#include "trial_diagnosis.hpp"
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -25,14 +25,14 @@ double hidden_size(const toml::table& truth, const std::string& name) {
   return 0.0;
 }
 
-Hidden hidden_effect(const toml::table& truth, const std::string& name) {
-  Hidden hidden;
+SealedEffect hidden_effect(const toml::table& truth, const std::string& name) {
+  SealedEffect hidden;
   hidden.size = hidden_size(truth, name);
   const toml::array* signals = truth["signal"].as_array();
   for (std::size_t k = 0; signals != nullptr && k < signals->size(); ++k) {
     const toml::table& signal = *signals->get(k)->as_table();
     if (signal["name"].value_or(std::string()) != name) continue;
-    hidden.s = signal["s"].value_or(0.0), hidden.rho = signal["rho"].value_or(0.0),
+    hidden.snr = signal["s"].value_or(0.0), hidden.collinearity = signal["rho"].value_or(0.0),
     hidden.ceiling = signal["ceiling"].value_or(0.0);
   }
   return hidden;
@@ -73,66 +73,67 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace
 
-TrialDiagnosis open_answer(const BlindTrial& trial, const std::string& commit, const std::filesystem::path& folder) {
+TrialDiagnosis open_trial(const BlindTrial& trial, const std::string& commit, const std::filesystem::path& folder) {
   const auto diagnosis = nlohmann::json::parse(read_file(folder / "diagnosis.json"));
   const toml::table truth = toml::parse(read_file(folder / "set.truth.toml"));
-  TrialDiagnosis answer{.commit = commit,
+  TrialDiagnosis result{.commit = commit,
                         .verdict = diagnosis["verdict"],
                         .hidden = {},
                         .named = {},
                         .possible = diagnosis["possible"],
                         .p_misfit = diagnosis["p_misfit"]};
-  for (const std::string& name : trial.hidden) answer.hidden.push_back(hidden_effect(truth, name));
+  for (const std::string& name : trial.hidden) result.hidden.push_back(hidden_effect(truth, name));
   for (const auto& effect : diagnosis["effects"])
-    answer.named.push_back({effect["name"], effect["parameter"], effect["interval90"][0], effect["interval90"][1]});
-  if (diagnosis["gain"].is_object()) answer.gain = diagnosis["gain"]["relative_reduction"];
-  return answer;
+    result.named.push_back({effect["name"], effect["parameter"], effect["interval90"][0], effect["interval90"][1]});
+  if (diagnosis["gain"].is_object()) result.gain = diagnosis["gain"]["relative_reduction"];
+  return result;
 }
 
-std::vector<std::string> answer_columns() {
+std::vector<std::string> diagnosis_columns() {
   return {"trial", "commit", "hidden", "s",      "rho",      "ceiling", "verdict",
           "named", "size",   "low90",  "high90", "possible", "gain",    "p_misfit"};
 }
 
 std::vector<std::string> to_cells(const TrialDiagnosis& a) {
-  const auto of_hidden = [&](double Hidden::*field) {
-    return joined<Hidden>(a.hidden, [&](const Hidden& h) { return short_number(h.*field); });
+  const auto of_hidden = [&](double SealedEffect::*field) {
+    return joined<SealedEffect>(a.hidden, [&](const SealedEffect& h) { return short_number(h.*field); });
   };
-  const auto of_named = [&](double Named::*field) {
-    return joined<Named>(a.named, [&](const Named& n) { return short_number(n.*field); });
+  const auto of_named = [&](double FoundEffect::*field) {
+    return joined<FoundEffect>(a.named, [&](const FoundEffect& n) { return short_number(n.*field); });
   };
   std::vector<std::string> models;
   for (const auto& model : a.possible) models.push_back(fmt::format("{}", fmt::join(model, ";")));
   return {a.commit,
-          of_hidden(&Hidden::size),
-          of_hidden(&Hidden::s),
-          of_hidden(&Hidden::rho),
-          of_hidden(&Hidden::ceiling),
+          of_hidden(&SealedEffect::size),
+          of_hidden(&SealedEffect::snr),
+          of_hidden(&SealedEffect::collinearity),
+          of_hidden(&SealedEffect::ceiling),
           a.verdict,
-          joined<Named>(a.named, [](const Named& n) { return n.effect; }),
-          of_named(&Named::size),
-          of_named(&Named::low90),
-          of_named(&Named::high90),
+          joined<FoundEffect>(a.named, [](const FoundEffect& n) { return n.effect; }),
+          of_named(&FoundEffect::size),
+          of_named(&FoundEffect::low90),
+          of_named(&FoundEffect::high90),
           fmt::format("{}", fmt::join(models, "/")),
           short_number(a.gain),
           short_number(a.p_misfit)};
 }
 
-TrialDiagnosis answer_from_cells(const std::vector<std::string>& cells) {
-  TrialDiagnosis answer{.commit = cells[0],
-                        .verdict = cells[5],
-                        .hidden = std::vector<Hidden>(split(cells[1], ';').size()),
-                        .named = {},
-                        .possible = {},
-                        .gain = number(cells[11]),
-                        .p_misfit = number(cells[12])};
-  double Hidden::*const hidden_fields[] = {&Hidden::size, &Hidden::s, &Hidden::rho, &Hidden::ceiling};
-  for (std::size_t i = 0; i < 4; ++i) spread(cells[1 + i], answer.hidden, hidden_fields[i]);
-  for (const std::string& name : split(cells[6], ';')) answer.named.push_back({.effect = name});
-  double Named::*const named_fields[] = {&Named::size, &Named::low90, &Named::high90};
-  for (std::size_t i = 0; i < 3; ++i) spread(cells[7 + i], answer.named, named_fields[i]);
-  for (const std::string& model : split(cells[10], '/')) answer.possible.push_back(split(model, ';'));
-  return answer;
+TrialDiagnosis diagnosis_from_cells(const std::vector<std::string>& cells) {
+  TrialDiagnosis diagnosis{.commit = cells[0],
+                           .verdict = cells[5],
+                           .hidden = std::vector<SealedEffect>(split(cells[1], ';').size()),
+                           .named = {},
+                           .possible = {},
+                           .gain = number(cells[11]),
+                           .p_misfit = number(cells[12])};
+  double SealedEffect::*const hidden_fields[] = {&SealedEffect::size, &SealedEffect::snr, &SealedEffect::collinearity,
+                                                 &SealedEffect::ceiling};
+  for (std::size_t i = 0; i < 4; ++i) spread(cells[1 + i], diagnosis.hidden, hidden_fields[i]);
+  for (const std::string& name : split(cells[6], ';')) diagnosis.named.push_back({.effect = name});
+  double FoundEffect::*const named_fields[] = {&FoundEffect::size, &FoundEffect::low90, &FoundEffect::high90};
+  for (std::size_t i = 0; i < 3; ++i) spread(cells[7 + i], diagnosis.named, named_fields[i]);
+  for (const std::string& model : split(cells[10], '/')) diagnosis.possible.push_back(split(model, ';'));
+  return diagnosis;
 }
 
 }  // namespace nacre::blind_trials
