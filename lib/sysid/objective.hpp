@@ -7,6 +7,7 @@
 #include "material/parameters.hpp"
 #include "measurement/observe.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/prediction.hpp"
 
 namespace nacre::sysid {
