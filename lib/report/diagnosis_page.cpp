@@ -8,6 +8,7 @@
 #include "base/statistics.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/settings.hpp"
+#include "diagnosis/summary.hpp"
 #include "material/effect_words.hpp"
 #include "material/extensions.hpp"
 #include "pattern/coupons.hpp"
