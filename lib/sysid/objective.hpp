@@ -4,9 +4,11 @@
 
 #include <optional>
 #include <vector>
+
 #include "material/parameters.hpp"
 #include "measurement/observe.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/summary.hpp"
 #include "sysid/prediction.hpp"
 
 namespace nacre::sysid {
