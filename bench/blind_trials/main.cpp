@@ -25,7 +25,7 @@ struct Options {
   double seconds = 1e9;
 };
 
-/// Seeds of a report follow from the commit under test, so that nobody chooses them.
+/// Seeds of a report follow from the commit under test, so that they cannot be chosen.
 std::uint64_t report_seed(const std::string& commit) {
   return 1'000'000 + std::stoull(commit.substr(0, 7), nullptr, 16) * 1000;
 }

@@ -149,7 +149,7 @@ DrawStatistics anchor_statistics(const Anchor& anchor, const NoisyData& data) {
   const Eigen::MatrixXd whitened = projector.whitened(directions), g = projector.projected(directions);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     const double length = g.col(k).norm();
-    // What the anchor imitates almost entirely says nothing about it.
+    // A direction that the anchor imitates almost entirely has no contrast with it.
     const bool visible = length > 0.1 * whitened.col(k).norm();
     statistics.contrasts.push_back(visible ? std::abs(g.col(k).dot(residual)) / length : 0.0);
   }

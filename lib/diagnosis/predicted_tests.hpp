@@ -11,7 +11,7 @@
 
 namespace nacre::diagnosis {
 
-/// Predictions by fitted models of tests that nobody has made, and the separation of the models by them.
+/// Predictions by fitted models of tests that are not made yet, and the separation of the models by them.
 ///
 /// The constants of a model that is wrong are refitted once a test is made, and the discretisation error is shared by
 /// all moduli: differences of bare predictions promise several times the separation that a test gives. Slopes of moduli

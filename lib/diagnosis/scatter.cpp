@@ -84,12 +84,13 @@ std::vector<std::set<double>> joined_batches(const std::map<int, std::set<double
 }
 
 /// How many differences between batches these groups determine.
-int told_differences(const std::vector<Deviation>& deviations) {
+int batch_differences(const std::vector<Deviation>& deviations) {
   std::map<int, std::set<double>> batches_of_group;
   for (const Deviation& d : deviations) batches_of_group[d.group].insert(batch_of(d));
-  int told = 0;
-  for (const std::set<double>& batches : joined_batches(batches_of_group)) told += static_cast<int>(batches.size()) - 1;
-  return told;
+  int count = 0;
+  for (const std::set<double>& batches : joined_batches(batches_of_group))
+    count += static_cast<int>(batches.size()) - 1;
+  return count;
 }
 
 /// Sums of squares and products of the deviations. A feature that some groups do not show (an unloading slope, the peak
@@ -186,14 +187,14 @@ ReplicateScatter pooled_scatter(const std::vector<std::vector<Measured>>& groups
   std::vector<Deviation> deviations = deviations_of(groups, test);
   const int within = dof_within(deviations);
   // Means of batches come off where enough is left to estimate scatter.
-  const int told = told_differences(deviations);
-  const bool by_batch = told > 0 && within >= 4 * told;
+  const int differences = batch_differences(deviations);
+  const bool by_batch = differences > 0 && within >= 4 * differences;
   if (by_batch) take_off_batches(deviations);
   ReplicateScatter scatter;
-  scatter.dof = within - (by_batch ? told : 0);
+  scatter.dof = within - (by_batch ? differences : 0);
   if (!design.empty()) {
     std::erase_if(deviations, [&](const Deviation& d) { return d.measured->specimen->design.name() != design; });
-    // The means of batches are everybody's: each bears its share of what they cost.
+    // All designs share the means of batches: each bears its share of the degrees of freedom that they take.
     scatter.dof = within > 0 ? dof_within(deviations) * scatter.dof / within : 0;
   }
   if (scatter.dof <= 0) return {covariance_of(kAssumed), 0, kEnoughDof};

@@ -30,7 +30,7 @@ double scatter_of(const tester::Curve& curve) {
 
 /// Stress at the ends of `pieces` pieces, by least squares.
 Eigen::VectorXd knots_of(const tester::Curve& curve, int pieces) {
-  constexpr double kRidge = 1e-6;  // bends as little as it can where no reading says otherwise
+  constexpr double kRidge = 1e-6;  // smallest curvature where there are no readings
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(pieces + 1, pieces + 1);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(pieces + 1);
   const double begin = curve.strain.front(), length = (curve.strain.back() - begin) / pieces;

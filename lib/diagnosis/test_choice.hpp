@@ -30,8 +30,8 @@ struct TestChoice {
 /// At most `count` tests, chosen one after another so that the chance of taking one model of a pair for the other falls
 /// most, summed over the pairs. It is that of two normal distributions d standard deviations apart, Phi(-d/2); d^2 sums
 /// the squared errors of the best test of each way, none counted as more than four standard errors: predictions of
-/// tests that nobody has made are only so good. Where no chance falls any more, the largest separation comes first. A
-/// test that separates no pair by a standard error is never chosen.
+/// tests are not better than that. Where no chance falls any more, the largest separation comes first. A test that
+/// separates no pair by a standard error is never chosen.
 std::vector<TestChoice> choose_tests(const std::vector<TestValue>& tests, int count);
 
 }  // namespace nacre::diagnosis

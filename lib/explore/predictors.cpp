@@ -41,9 +41,9 @@ std::vector<double> trend_of(const std::vector<pattern::Pattern>& patterns, cons
   return {trend.begin(), trend.end()};
 }
 
-/// Raises what lies too far below the trend of the first `deciding`. How bad a bad pattern is says nothing about the
-/// good ones, and the few that fall apart at once (a factor of a hundred) would make a process of all others too rough
-/// and too unsure.
+/// Raises what lies too far below the trend of the first `deciding`. The values of bad patterns carry no
+/// information on good ones, and the few that fail at once (a factor of a hundred) would make the process too rough and
+/// too uncertain everywhere.
 void raise_to_floor(const std::vector<pattern::Pattern>& patterns, std::vector<double>& values, std::size_t deciding,
                     double deviations) {
   constexpr std::size_t kFewest = 10;

@@ -60,7 +60,7 @@ class PriorMean {
 /// Patterns in the form that the covariance uses.
 struct Points {
   std::vector<QuarterRows> rows;
-  MatrixXd features;  ///< a column for each pattern; without rows where nobody gives any
+  MatrixXd features;  ///< a column for each pattern; without rows when there are none
   std::size_t size() const { return rows.size(); }
 };
 

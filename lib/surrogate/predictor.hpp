@@ -1,5 +1,5 @@
 #pragma once
-// Regression over patterns: predictions of one quantity for patterns that nobody has simulated, learnt from samples.
+// Regression over patterns: predictions of one quantity for patterns that are not simulated, learnt from samples.
 
 #include <Eigen/Dense>
 #include <functional>

@@ -28,9 +28,9 @@ struct MaterialRanges {
 /// Finds W of one homogeneous material in the toughness tester, at the damping of the start. E stays at the start, the
 /// measured modulus as nearly as its range allows, and W is searched until the toughness is met. Where no W meets it,
 /// because T jumps across the measured value when a crack arrests, E and W are scaled together from the nearest miss:
-/// at the same W / E a crack runs alike and T grows in proportion. Where that fails too, other E are tried. Where a
-/// curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W, toughness
-/// hardly depends on E while stress grows with its square root.
+/// at the same W / E the crack path is the same and T grows in proportion. Where that fails too, other E are tried.
+/// Where a curve was measured, E moves once the toughness is met so that the peak stress agrees too: at the same W,
+/// toughness hardly depends on E while stress grows with its square root.
 class MaterialFit {
  public:
   MaterialFit(const measurement::Replicates& measured, const MaterialRanges& ranges, const MaterialTrial& start,

@@ -42,7 +42,7 @@ struct ParameterEstimate {
   std::string name;  ///< `modulus.e_tb_pa`, `toughness.w_if_j_per_m3`, ...
   double value = 0.0;
   double low90 = 0.0, high90 = 0.0;  ///< 90 % interval; the whole range when the parameter is not determined
-  bool determined = false;           ///< the data narrow the parameter to less than half of what its range alone says
+  bool determined = false;           ///< its 90 % interval is less than half of the one that its range alone gives
   bool operator==(const ParameterEstimate&) const = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <vector>
+
 #include "material/parameters.hpp"
 #include "measurement/observe.hpp"
 #include "measurement/reduction.hpp"

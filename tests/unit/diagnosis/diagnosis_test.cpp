@@ -113,7 +113,7 @@ TEST(Diagnosis, DropletMixingIsNamed) {
 TEST(Diagnosis, MachineComplianceIsNamed) {
   const Diagnosis diagnosis = diagnose_effect("machine_compliance", 2e-10);
   expect_named(diagnosis, "machine_compliance", 2e-10, 0.6e-10);
-  // The stiffness of materials that nobody has pulled could be anything: a coupon of them tells no spring.
+  // The stiffness of materials without coupons is unknown: a coupon of them does not determine the spring.
   ASSERT_FALSE(diagnosis.next_experiments.empty());
   for (const NextExperiment& next : diagnosis.next_experiments) EXPECT_TRUE(next.design.layout()) << next.reason;
 }
@@ -205,7 +205,7 @@ TEST(Diagnosis, AnUnmodelledCauseIsSeenAndNotNamed) {
   EXPECT_TRUE(diagnosis.partial_gain) << "of the effect that comes nearest";
 }
 
-// Every design printed in a batch of its own, batches 4 % apart: no name, and a caution says why.
+// Every design printed in a batch of its own, batches 4 % apart: no effect is named, and a caution gives the reason.
 TEST(Diagnosis, BatchesThatShareNoDesignAreCautionedOf) {
   std::vector<measurement::SpecimenRecord> specimens = synthetic_specimens({}, synthetic_truth());
   RandomStream batches(1, "test/batches");

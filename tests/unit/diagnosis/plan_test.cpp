@@ -134,7 +134,7 @@ TEST_F(Plans, ModuliAlonePromiseOnlyTheirCandidates) {
   EXPECT_TRUE(coupons_show_more);
 }
 
-// Specimens that a diagnosis would refuse show nothing, and the plan says what to add.
+// With fewer specimens than a diagnosis needs no effect shows, and the plan gives what to add.
 TEST_F(Plans, TooFewSpecimensShowNothingAndThePlanSaysWhatToAdd) {
   const auto specimens = synthetic_specimens({.patterns = 3, .twins = 0}, settings_.start);
   const Plan plan = plan_diagnosis(specimens, settings_, kScatter);

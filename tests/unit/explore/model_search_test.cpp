@@ -199,7 +199,7 @@ TEST(Predictors, AFormerModelThatMisleadsIsNotBuiltUpon) {
   };
   const std::vector<double> alone = fit_predictors(samples, chosen).toughness->means(others);
   EXPECT_EQ(upon(misleading), alone);
-  EXPECT_NE(upon(former), alone) << "a former model that says the same is of use";
+  EXPECT_NE(upon(former), alone) << "a former model that agrees is of use";
 }
 
 TEST(Learned, FormerSamplesOfAnotherModelAreAHeadStart) {

@@ -625,7 +625,7 @@ TEST(BaseCalibration, KeepsWhatHasNoBudget) {
   const Calibrated without_toughness = finish_by(moduli, measured, base_prediction);
   EXPECT_EQ(to_vector(without_toughness.parameters.toughness), to_vector(base.start.toughness));
   EXPECT_LT(without_toughness.after.modulus_max, 3e-4);
-  EXPECT_EQ(without_toughness.before.toughness_count, 3) << "what is kept is told, too";
+  EXPECT_EQ(without_toughness.before.toughness_count, 3) << "errors of kept parameters are reported too";
   EXPECT_EQ(without_toughness.after.toughness_max, without_toughness.before.toughness_max);
   base.toughness_budget = 60;
   base.modulus_budget = 0;
