@@ -1,4 +1,5 @@
-# Shared by launch/game and tests/run: installs what is missing, builds, and bundles the dashboard's page. Source it with NACRE_ROOT set.
+# Shared by launch/game and tests/run: installs what is missing, builds, and bundles the dashboard's page. Source it
+# with NACRE_ROOT set.
 : "${NACRE_ROOT:?set NACRE_ROOT to the folder of the project before sourcing this}"
 
 say() { printf '%s\n' "nacre: $*" >&2; }
@@ -7,7 +8,8 @@ give_up() { say "$*"; exit 2; }
 # may_install MISSING: gives up with a sentence when this user cannot install packages.
 may_install() {
   [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null ||
-    give_up "installing packages needs root: run this as root, or install sudo, or have somebody type: apt-get install $1"
+    give_up "installing packages needs root: run this as root, or install sudo, or have somebody type:" \
+      "apt-get install $1"
 }
 
 # as_root COMMAND...: runs it as root, through sudo when needed.
@@ -31,7 +33,8 @@ missing_packages() {
 # install_packages game|tests
 install_packages() {
   command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
-    give_up "this script installs Debian packages; on another system install the equivalents of launch/packages.txt and run: cmake --preset release && cmake --build build"
+    give_up "this script installs Debian packages; on another system install the equivalents of launch/packages.txt" \
+      "and run: cmake --preset release && cmake --build build"
   local missing log
   missing=$(missing_packages "$1")
   [ -n "$missing" ] || { say "packages: all installed"; return; }
@@ -41,7 +44,10 @@ install_packages() {
   as_root apt-get update -q >"$log" 2>&1 || give_up "apt-get update failed (see $log): is the network up?"
   # shellcheck disable=SC2086
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing 2>&1 |
-    tee -a "$log" | awk '/^(Setting up|Selecting) / { count++; if (count % 20 == 0) { print "nacre:   " count " steps, at " ($1 == "Setting" ? $3 : $NF) > "/dev/stderr" } }' || true
+    tee -a "$log" | awk '
+      /^(Setting up|Selecting) / {
+        if (++count % 20 == 0) print "nacre:   " count " steps, at " ($1 == "Setting" ? $3 : $NF) > "/dev/stderr"
+      }' || true
   missing=$(missing_packages "$1")
   [ -z "$missing" ] || give_up "these packages could not be installed: $missing(see $log)"
   rm -f "$log"
@@ -52,7 +58,10 @@ build() {
   local target=$1 log="$NACRE_ROOT/build/setup.log"
   mkdir -p "$NACRE_ROOT/build"
   say "configuring (Release, build/)"
-  (cd "$NACRE_ROOT" && cmake --preset release) >"$log" 2>&1 || { tail -n 20 "$log" >&2; give_up "configuring failed; the whole output is in build/setup.log"; }
+  if ! (cd "$NACRE_ROOT" && cmake --preset release) >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    give_up "configuring failed; the whole output is in build/setup.log"
+  fi
   say "building with $(nproc) cores"
   if [ -t 2 ]; then
     cmake --build "$NACRE_ROOT/build" --target "$target" >&2 || give_up "building failed"
@@ -60,7 +69,11 @@ build() {
   fi
   # Not a terminal: one plain line every 40 steps; compiler messages go to the log and are shown when something fails.
   if ! cmake --build "$NACRE_ROOT/build" --target "$target" 2>&1 | tee -a "$log" |
-    awk '/^\[[0-9]+\/[0-9]+\]/ { split(substr($1, 2), n, /[\/\]]/); if (n[1] % 40 == 0 || n[1] == n[2]) print "nacre:   step " n[1] " of " n[2] > "/dev/stderr" }'; then
+    awk '
+      /^\[[0-9]+\/[0-9]+\]/ {
+        split(substr($1, 2), n, /[\/\]]/)
+        if (n[1] % 40 == 0 || n[1] == n[2]) print "nacre:   step " n[1] " of " n[2] > "/dev/stderr"
+      }'; then
     grep -m 20 -E 'error|FAILED' "$log" >&2 || true
     give_up "building failed; the whole output is in build/setup.log"
   fi
@@ -71,25 +84,34 @@ has_npm() {
   command -v npm >/dev/null && [ "$(node -p 'process.versions.node.split(".")[0]' 2>/dev/null || echo 0)" -ge 18 ]
 }
 
-# install_npm: Debian's nodejs and npm, where neither Debian nor anybody else has installed them. The C++ build needs neither.
+# install_npm: Debian's nodejs and npm, where neither Debian nor anybody else has installed them. The C++ build needs
+# neither.
 install_npm() {
   has_npm && return 0
   { [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null; } || return 1
   say "packages: installing nodejs and npm for the dashboard's page (NACRE_PAGE=0 leaves it out)"
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends nodejs npm >/dev/null 2>&1 && has_npm
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends nodejs npm >/dev/null 2>&1 && has_npm
 }
 
-# build_page [required]: bundles web/ into build/web when its sources are newer. Without npm, or without a network, everything but
-# `nacre dashboard` works all the same; `required` gives up then.
+# build_page [required]: bundles web/ into build/web when its sources are newer. Without npm, or without a network,
+# everything but `nacre dashboard` works all the same; `required` gives up then.
 build_page() {
   [ "${NACRE_PAGE:-1}" != 0 ] || { say "page: left out"; return 0; }
   local web="$NACRE_ROOT/web" log="$NACRE_ROOT/build/page.log" page="$NACRE_ROOT/build/web/page.js"
-  [ -f "$page" ] && [ -z "$(find "$web" "$NACRE_ROOT/docs/GLOSSARY.md" -path "$web/node_modules" -prune -o -type f -newer "$page" -print -quit)" ] &&
+  [ -f "$page" ] &&
+    [ -z "$(find "$web" "$NACRE_ROOT/docs/GLOSSARY.md" -path "$web/node_modules" -prune -o -type f -newer "$page" \
+      -print -quit)" ] &&
     { [ "${1:-}" != required ] || [ -d "$web/node_modules/playwright-core" ]; } && return 0
   mkdir -p "$NACRE_ROOT/build"
   say "page: bundling web/"
-  if install_npm && { [ "$web/node_modules/.package-lock.json" -nt "$web/package-lock.json" ] || npm --prefix "$web" ci; } >"$log" 2>&1 &&
+  if install_npm &&
+    { [ "$web/node_modules/.package-lock.json" -nt "$web/package-lock.json" ] || npm --prefix "$web" ci; } \
+      >"$log" 2>&1 &&
     npm --prefix "$web" run build >>"$log" 2>&1; then return 0; fi
-  [ "${1:-}" != required ] || { tail -n 20 "$log" >&2; give_up "the page could not be built; the whole output is in build/page.log"; }
+  if [ "${1:-}" = required ]; then
+    tail -n 20 "$log" >&2
+    give_up "the page could not be built; the whole output is in build/page.log"
+  fi
   say "page: not built (see build/page.log); everything but nacre dashboard works without it"
 }

@@ -15,7 +15,12 @@
 #include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "material/extensions.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_set.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 
@@ -29,8 +34,8 @@ using tester::TestKind;
 constexpr int kDesigns = 3, kLayouts = 16, kTwins = 5, kReplicates = 4;
 constexpr double kSecondRate = 10.0, kSecondThickness = 0.5;
 constexpr double kCouponFractions[] = {0.0, 0.25, 0.5, 0.75, 1.0};
-/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between leaves no trace in the shape of
-/// either curve.
+/// Of pairs: as slow as creep and as fast as an impact, so that a relaxation in between has no signature in the shape
+/// of either curve.
 constexpr double kSlow = 1e-6, kFast = 10.0, kPairRates[] = {kSlow, kFast};
 constexpr double kPairLeast = 0.03, kPairMost = 0.1;  ///< sizes that either cause of a pair may have
 constexpr double kPairFractions[] = {0.0, 0.25, 0.5, 0.65, 0.8, 0.9, 1.0};
@@ -79,7 +84,7 @@ std::vector<lab::Experiment> pulled_coupons(std::span<const double> fractions, s
 /// The specimens of a trial without values; coupons with the strains at which the laboratory reads them.
 std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
                                                  const std::vector<lab::Experiment>& experiments,
-                                                 const std::vector<Result<lab::Response>>& responses) {
+                                                 const std::vector<Result<lab::TrueResponse>>& responses) {
   std::vector<measurement::SpecimenRecord> records;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const lab::Experiment& q = experiments[i];
@@ -101,9 +106,9 @@ std::vector<measurement::SpecimenRecord> planned(const BlindTrial& trial,
 }
 
 /// Responses of the laboratory, on all cores.
-std::vector<Result<lab::Response>> responses_of(const lab::Truth& truth,
-                                                const std::vector<lab::Experiment>& experiments) {
-  std::vector<Result<lab::Response>> responses(experiments.size(), fail("not yet"));
+std::vector<Result<lab::TrueResponse>> responses_of(const lab::Truth& truth,
+                                                    const std::vector<lab::Experiment>& experiments) {
+  std::vector<Result<lab::TrueResponse>> responses(experiments.size(), fail("not yet"));
   parallel_for(static_cast<int>(experiments.size()),
                [&](int i) { responses[i] = lab::respond(truth, experiments[i]); });
   return responses;
@@ -117,9 +122,9 @@ Specimens without_fractures(Specimens specimens) {
   return specimens;
 }
 
-/// What the planned specimens show without scatter.
+/// The planned specimens with values without scatter.
 Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& experiments,
-                          const std::vector<Result<lab::Response>>& responses, const Specimens& planned) {
+                          const std::vector<Result<lab::TrueResponse>>& responses, const Specimens& planned) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
   Specimens records;
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -130,7 +135,7 @@ Specimens without_scatter(lab::Truth truth, const std::vector<lab::Experiment>& 
   return without_fractures(std::move(records));
 }
 
-/// What can be known of a trial's signals before anything scatters.
+/// Settings for the signals of a trial before anything scatters.
 struct Sealing {
   diagnosis::DiagnosisSettings settings;
   diagnosis::AssumedScatter scatter;
@@ -148,9 +153,10 @@ Sealing sealing_of(const TrialOptions& options, const lab::Truth& truth) {
   return sealing;
 }
 
-std::string signal_in_toml(std::string_view name, double s, double rho, std::string_view rival, double ceiling) {
+std::string signal_in_toml(std::string_view name, double snr, double collinearity, std::string_view rival,
+                           double ceiling) {
   return fmt::format("\n[[signal]]\nname = \"{}\"\ns = {:.4f}\nrho = {:.4f}\nrival = \"{}\"\nceiling = {:.4f}\n", name,
-                     s, rho, rival, ceiling);
+                     snr, collinearity, rival, ceiling);
 }
 
 /// The same truth with nothing hidden but the effects of these names.
@@ -164,8 +170,8 @@ lab::Truth hiding_only(lab::Truth truth, std::span<const std::string> names) {
   return truth;
 }
 
-/// How well the specimens could show every hidden effect, beyond what the base imitates: the laboratory's own numerics
-/// with it alone and with nothing. Of those that the library knows the nearest rival too.
+/// Visibility of every hidden effect in the specimens, beyond what the base imitates: the laboratory's own simulations
+/// with it alone and with nothing. Of known effects the nearest rival too.
 std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const lab::Truth& truth,
                        const std::vector<lab::Experiment>& experiments, const Specimens& planned) {
   if (trial.hidden.empty()) return {};
@@ -173,20 +179,20 @@ std::string signals_of(const BlindTrial& trial, const Sealing& sealing, const la
     const lab::Truth hiding = hiding_only(truth, names);
     return without_scatter(hiding, experiments, responses_of(hiding, experiments), planned);
   };
-  std::vector<diagnosis::PlannedEffect> library;  // rivals: asked for only where there are any
+  std::vector<diagnosis::PlannedEffect> rivals;  // computed only where there are any
   if (std::ranges::any_of(trial.hidden, material::find_effect))
-    library = diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false).effects;
+    rivals = diagnosis::plan_diagnosis(without_fractures(planned), sealing.settings, sealing.scatter, false).effects;
   const Specimens plain = shown({});
   std::string text;
   for (const std::string& effect : trial.hidden) {
-    const double s = diagnosis::signal_of_change(plain, shown({&effect, 1}), sealing.settings, sealing.scatter);
-    const auto known = std::ranges::find(library, effect, &diagnosis::PlannedEffect::name);
-    if (known == library.end()) {
-      text += signal_in_toml(effect, s, 0.0, "", 0.0);
+    const double snr = diagnosis::signal_of_change(plain, shown({&effect, 1}), sealing.settings, sealing.scatter);
+    const auto known = std::ranges::find(rivals, effect, &diagnosis::PlannedEffect::name);
+    if (known == rivals.end()) {
+      text += signal_in_toml(effect, snr, 0.0, "", 0.0);
       continue;
     }
-    const double distance = s * std::sqrt((1.0 - known->rival_cosine) / 2.0);
-    text += signal_in_toml(effect, s, known->rival_cosine, known->nearest_rival,
+    const double distance = snr * std::sqrt((1.0 - known->rival_cosine) / 2.0);
+    text += signal_in_toml(effect, snr, known->rival_cosine, known->nearest_rival,
                            0.5 * std::erfc(-distance / std::sqrt(2.0)));
   }
   return text;
@@ -291,7 +297,7 @@ std::vector<lab::Experiment> experiments_of(const BlindTrial& trial, const Trial
 void generate(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
   const lab::Truth truth = truth_of(trial, options);
   const std::vector<lab::Experiment> experiments = experiments_of(trial, options);
-  const std::vector<Result<lab::Response>> responses = responses_of(truth, experiments);
+  const std::vector<Result<lab::TrueResponse>> responses = responses_of(truth, experiments);
   Specimens records = planned(trial, experiments, responses);
   // Printed in an order drawn from the seed.
   std::vector<int> order;
@@ -313,15 +319,15 @@ void generate(const BlindTrial& trial, const TrialOptions& options, const fs::pa
 }
 
 void diagnose(const TrialOptions& options, const fs::path& folder) {
-  const std::string answer = (folder / "diagnosis.json").string();
+  const std::string result = (folder / "diagnosis.json").string();
   const std::string command =
       fmt::format("'{}' diagnose '{}' --fidelity {} {} --store '{}' --json > '{}.part' 2> '{}'", options.program,
                   (folder / "set").string(), tester::to_string(options.fidelity), options.fracture ? "--fracture" : "",
-                  (folder / "store").string(), answer, (folder / "log").string());
+                  (folder / "store").string(), result, (folder / "log").string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw InputError::format("{}: nacre diagnose failed, see {}", folder.string(), (folder / "log").string());
-  fs::rename(answer + ".part", answer);
+  fs::rename(result + ".part", result);
 }
 
 void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options, const fs::path& folder) {
@@ -339,7 +345,7 @@ void print_what_was_ordered(const BlindTrial& trial, const TrialOptions& options
     experiment.conditions = {.orientation_deg = ordered["orientation_deg"],
                              .strain_rate_per_s = ordered["strain_rate_per_s"],
                              .thickness_mm = ordered["thickness_mm"]};
-    const Result<lab::Response> response = lab::respond(truth, experiment);
+    const Result<lab::TrueResponse> response = lab::respond(truth, experiment);
     for (int i = 0; i < ordered["replicates"]; ++i) {
       const std::string number = std::to_string(records.size() + 1);
       records.push_back(lab::record_specimen(truth, experiment, response,

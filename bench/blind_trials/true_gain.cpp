@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "diagnosis/gain.hpp"
+#include "laboratory/effect_kinds.hpp"
 
 namespace nacre::blind_trials {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "base/files.hpp"
 #include "base/statistics.hpp"
+#include "report/standalone.hpp"
 #include "report/svg.hpp"
 
 namespace nacre::demo_games {
@@ -26,8 +27,8 @@ const std::vector<Column> kColumns = {
     {"gap, GPa MPa", "gap", [](const auto& r) { return r.gap; }, 1.0},
     {"measured hypervolume", "measured-hypervolume", [](const auto& r) { return r.measured_hypervolume_staircase; },
      1.0},
-    {"held-out E, %", "held-out-modulus", [](const auto& r) { return r.held_out.modulus_mean; }, 100.0},
-    {"held-out T, %", "held-out-toughness", [](const auto& r) { return r.held_out.toughness_mean; }, 100.0},
+    {"prediction error of E, %", "held-out-modulus", [](const auto& r) { return r.held_out.modulus_mean; }, 100.0},
+    {"prediction error of T, %", "held-out-toughness", [](const auto& r) { return r.held_out.toughness_mean; }, 100.0},
     {"fitted E, %", "fitted-modulus", [](const auto& r) { return r.after.modulus_mean; }, 100.0},
     {"fitted T, %", "fitted-toughness", [](const auto& r) { return r.after.toughness_mean; }, 100.0},
 };

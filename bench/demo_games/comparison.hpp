@@ -23,8 +23,8 @@ struct Games {
 void print_table(const Games& games);
 
 /// One SVG file per figure of print_table() in `folder`: the median over seeds by round, a line per scenario, and a dot
-/// per game. From the second round on: what round 1 foretells knows no microstructure. At most three scenarios are told
-/// apart by their colours.
+/// per game. From the second round on: the predictions of round 1 know no microstructure. At most three scenarios are
+/// told apart by their colours.
 void draw_figures(const std::vector<Games>& scenarios, const std::filesystem::path& folder);
 
 }  // namespace nacre::demo_games

@@ -1,5 +1,5 @@
-// Games under several seeds: gap, hypervolume and held-out errors of every round, and their medians over seeds. A
-// finished game is read, an interrupted one resumed. Several scenarios are drawn beside each other.
+// Games under several seeds: gap, hypervolume and out-of-sample prediction errors of every round, and their medians
+// over seeds. A finished game is read, an interrupted one resumed. Several scenarios are drawn beside each other.
 // Results: docs/studies/demo.md and extended-games.md. The folders beside this file, by what the laboratory hides:
 // what an extension of the model is worth in a game (extended, base_only), and what it could be worth (true_model).
 

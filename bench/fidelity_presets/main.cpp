@@ -1,5 +1,5 @@
 // How well a smaller or faster fracture test ranks designs by toughness against the thesis' geometry at 20 /s, and what
-// it costs. Every finished simulation is a line of the table, so an interrupted study goes on where it stopped.
+// it costs. Every finished simulation is a line of the table, so that an interrupted study can be continued.
 // Results: docs/studies/fidelity.md.
 
 #include <algorithm>
@@ -32,15 +32,15 @@ constexpr double kManyRigid = 0.75;  // proposals lie above it
 
 /// A fracture test of UNITSxUNITS pulled at RATE times 20 /s; the time step is the thesis' or, where `free`, what
 /// stability allows.
-struct Variant {
+struct TestVariant {
   std::string name;
   int units_x = 5, units_y = 4;
   double rate = 1.0;
   bool free_step = false;
 };
 
-Variant parse_variant(const std::string& name) {
-  Variant variant{.name = name};
+TestVariant parse_variant(const std::string& name) {
+  TestVariant variant{.name = name};
   char step[8] = "";
   if (std::sscanf(name.c_str(), "%dx%dx%lf%7s", &variant.units_x, &variant.units_y, &variant.rate, step) < 3)
     throw CLI::ValidationError("variant '" + name + "': expected UNITSxUNITSxRATE or UNITSxUNITSxRATEfree");
@@ -48,11 +48,11 @@ Variant parse_variant(const std::string& name) {
   return variant;
 }
 
-struct Outcome {
+struct FractureOutcome {
   double toughness_pa = 0.0, cpu_s = 0.0;
 };
 
-Result<Outcome> pull(const pattern::Pattern& pattern, const Variant& variant) {
+Result<FractureOutcome> pull(const pattern::Pattern& pattern, const TestVariant& variant) {
   const double start = processor_time_s();
   const tester::Simulation simulation{
       .design = pattern,
@@ -68,7 +68,7 @@ Result<Outcome> pull(const pattern::Pattern& pattern, const Variant& variant) {
   tester::cut_notch(test.grid, 1);
   const Result<tester::ToughnessResult> result = tester::run_fracture_test<float>(test);
   if (!result) return tl::unexpected(result.error());
-  return Outcome{.toughness_pa = result->toughness_pa, .cpu_s = processor_time_s() - start};
+  return FractureOutcome{.toughness_pa = result->toughness_pa, .cpu_s = processor_time_s() - start};
 }
 
 /// 120 patterns over the strata of Table 3.2 and 80 of 76 to 85 % rigid, mixed so that every share of them is fair.
@@ -85,10 +85,10 @@ std::vector<pattern::Pattern> study_patterns(std::uint64_t seed) {
   return mixed;
 }
 
-using Table = std::map<std::pair<std::string, std::string>, Outcome>;  // variant, pattern
+using OutcomeTable = std::map<std::pair<std::string, std::string>, FractureOutcome>;  // variant, pattern
 
-Table read_table(const std::string& path) {
-  Table table;
+OutcomeTable read_table(const std::string& path) {
+  OutcomeTable table;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     std::istringstream fields(line);
@@ -101,8 +101,8 @@ Table read_table(const std::string& path) {
 }
 
 /// Pulls what the table lacks and appends it.
-void fill_table(Table& table, const std::string& path, const std::vector<pattern::Pattern>& patterns,
-                const Variant& variant, int threads) {
+void fill_table(OutcomeTable& table, const std::string& path, const std::vector<pattern::Pattern>& patterns,
+                const TestVariant& variant, int threads) {
   std::ofstream file(path, std::ios::app);
   std::mutex mutex;
   parallel_for(
@@ -113,7 +113,7 @@ void fill_table(Table& table, const std::string& path, const std::vector<pattern
           const std::lock_guard lock(mutex);
           if (table.contains({variant.name, pattern.key()})) return;
         }
-        const Result<Outcome> outcome = pull(pattern, variant);
+        const Result<FractureOutcome> outcome = pull(pattern, variant);
         const std::lock_guard lock(mutex);
         if (!outcome) {
           fmt::print(stderr, "{} {}: {}\n", variant.name, pattern.key(), outcome.error().message);
@@ -147,8 +147,8 @@ RankAgreement rank_agreement(const std::vector<double>& a, const std::vector<dou
   return {.spearman = rank_correlation(a, b), .lower_90 = quantile(resampled, 0.1)};
 }
 
-void print_agreement(const Table& table, const std::vector<pattern::Pattern>& patterns, const Variant& variant,
-                     const Variant& reference, double minimum_rigid) {
+void print_agreement(const OutcomeTable& table, const std::vector<pattern::Pattern>& patterns,
+                     const TestVariant& variant, const TestVariant& reference, double minimum_rigid) {
   std::vector<double> values, references, log_ratios;
   double seconds = 0.0;
   for (const pattern::Pattern& pattern : patterns) {
@@ -181,8 +181,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads, "0: all allowed cores")->capture_default_str();
   app.add_option("variants", names, "UNITSxUNITSxRATE, with 'free' behind for the longest stable time step");
   CLI11_PARSE(app, argc, argv);
-  const Variant reference{.name = "5x4x1"};
-  std::vector<Variant> variants = {reference};
+  const TestVariant reference{.name = "5x4x1"};
+  std::vector<TestVariant> variants = {reference};
   try {
     for (const std::string& name : names) variants.push_back(parse_variant(name));
   } catch (const CLI::Error& error) {
@@ -190,15 +190,15 @@ int main(int argc, char** argv) {
   }
   std::vector<pattern::Pattern> patterns = study_patterns(seed);
   patterns.erase(patterns.begin() + count, patterns.end());
-  Table table = read_table(path);
-  for (const Variant& variant : variants) {
+  OutcomeTable table = read_table(path);
+  for (const TestVariant& variant : variants) {
     fmt::print(stderr, "{}: {} patterns\n", variant.name, patterns.size());
     fill_table(table, path, patterns, variant, threads);
   }
   fmt::print(
       "| variant | rigid fraction | patterns | Spearman | lower 90 % | mean log ratio | sd of log ratio | CPU s |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  for (const Variant& variant : variants) {
+  for (const TestVariant& variant : variants) {
     print_agreement(table, patterns, variant, reference, 0.0);
     print_agreement(table, patterns, variant, reference, kManyRigid);
   }

@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "gpu/cuda.hpp"
+#include "gpu/emulated_device.hpp"
 
 namespace nacre::gpu_study {
 namespace {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gpu/batch_tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::gpu_study {
 

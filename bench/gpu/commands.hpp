@@ -15,8 +15,8 @@ struct Options {
   double strain_limit = 0.1;                              ///< of the throughput
 };
 
-/// Device against processor's kernel, pattern by pattern, beside the same kernel with its parameters moved by a
-/// millionth: curves up to the first failure, initial slope, toughness. Writes `table`, prints a summary.
+/// Device against processor's kernel, pattern by pattern, compared with the same kernel with its parameters perturbed
+/// by a millionth: curves up to the first failure, initial slope, toughness. Writes `table`, prints a summary.
 void run_agreement(const Options& options);
 
 /// Seconds a specimen and element-steps a second against the size of the batch. Writes `table`.

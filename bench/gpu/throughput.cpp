@@ -20,7 +20,7 @@ void run_throughput(const Options& options) {
   fmt::print(csv,
              "batch,specimens,pulling_s,preparing_s,seconds_per_specimen,steps_per_specimen,element_steps_per_s\n");
   for (const int batch : options.batches) {
-    // Twice as many as there are places, so that some make room for others.
+    // Twice as many as places, so that specimens are replaced.
     std::vector<tester::FractureTest> tests;
     for (int i = 0; i < 2 * batch; ++i) {
       tests.push_back(tester::fracture_test({.design = patterns[static_cast<std::size_t>(i) % patterns.size()],

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/processor_time.hpp"
+#include "material/parameter_file.hpp"
 #include "tester/fracture_test.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
-// How large the laboratory's hidden effects are in log E over random patterns, what a refit of the base takes over, and
-// whether one effect looks like another. Everything in the laboratory's own numerics. Results:
+// Effect sizes of the laboratory's hidden effects in log E over random patterns, the part that a refit of the base
+// absorbs, and the collinearity of effects. Everything with the laboratory's own discretisation. Results:
 // docs/studies/laboratory-effects.md.
 
 #include <cmath>
@@ -12,6 +12,8 @@
 
 #include "base/parallel.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "laboratory/laboratory.hpp"
 #include "pattern/random_pattern.hpp"
 
@@ -22,9 +24,9 @@ using laboratory::EffectKind;
 using laboratory::Truth;
 using Patterns = std::vector<pattern::Pattern>;
 
-constexpr int kConstants = 6;  // that a static modulus test feels
+constexpr int kConstants = 6;  // on which a static modulus test depends
 
-/// log E of every pattern, as the laboratory's machine shows it, without scatter.
+/// log E of every pattern, as the laboratory's machine records it, without scatter.
 Eigen::VectorXd log_moduli(Truth truth, const Patterns& patterns, int threads) {
   truth.noise = {.modulus = 0.0, .toughness = 0.0, .strain = 0.0};
   Eigen::VectorXd logs(static_cast<Eigen::Index>(patterns.size()));
@@ -59,7 +61,7 @@ Eigen::MatrixXd base_tangents(const Truth& truth, const Patterns& patterns, int 
   return tangents;
 }
 
-/// What is left of `vector` after the best combination of the columns of `space`.
+/// Residual of `vector` after the best combination of the columns of `space`.
 Eigen::VectorXd beyond(const Eigen::MatrixXd& space, const Eigen::VectorXd& vector) {
   return vector - space * space.colPivHouseholderQr().solve(vector);
 }
@@ -69,15 +71,15 @@ double rms(const Eigen::VectorXd& vector, Eigen::Index lost = 0) {
   return std::sqrt(vector.squaredNorm() / static_cast<double>(vector.size() - lost));
 }
 
-struct Signature {
+struct HiddenSignature {
   const EffectKind* kind = nullptr;
   double value = 0.0;
   Eigen::VectorXd raw, left;  ///< difference of log E; beyond the base
 };
 
-std::vector<Signature> signatures(const Truth& truth, const Patterns& patterns, int threads,
-                                  const Eigen::VectorXd& base, const Eigen::MatrixXd& tangents) {
-  std::vector<Signature> result;
+std::vector<HiddenSignature> signatures(const Truth& truth, const Patterns& patterns, int threads,
+                                        const Eigen::VectorXd& base, const Eigen::MatrixXd& tangents) {
+  std::vector<HiddenSignature> result;
   for (const EffectKind& kind : laboratory::effect_kinds()) {
     if (!kind.drawn_unasked) continue;
     std::vector<double> values = {kind.drawn_minimum, kind.drawn_maximum};
@@ -85,7 +87,7 @@ std::vector<Signature> signatures(const Truth& truth, const Patterns& patterns, 
     for (const double value : values) {
       Truth changed = truth;
       changed.effects.*kind.value = value;
-      Signature signature{
+      HiddenSignature signature{
           .kind = &kind, .value = value, .raw = log_moduli(changed, patterns, threads) - base, .left = {}};
       signature.left = beyond(tangents, signature.raw);
       result.push_back(std::move(signature));
@@ -94,11 +96,12 @@ std::vector<Signature> signatures(const Truth& truth, const Patterns& patterns, 
   return result;
 }
 
-/// Size beyond the base and all other effects of the diagnosis' library, each at all its magnitudes: no combination of
-/// them comes closer. Not a number when the patterns are too few to tell.
-double beyond_library(const Signature& signature, const std::vector<Signature>& all, const Eigen::MatrixXd& tangents) {
+/// Effect size beyond the base and all other effects of the diagnosis' library, each at all its magnitudes: no
+/// combination of them comes closer. Not a number with too few patterns.
+double beyond_library(const HiddenSignature& signature, const std::vector<HiddenSignature>& all,
+                      const Eigen::MatrixXd& tangents) {
   Eigen::MatrixXd space = tangents;
-  for (const Signature& other : all) {
+  for (const HiddenSignature& other : all) {
     if (other.kind == signature.kind || !other.kind->in_library) continue;
     space.conservativeResize(Eigen::NoChange, space.cols() + 1);
     space.col(space.cols() - 1) = other.raw;
@@ -113,16 +116,16 @@ void run(int count, std::uint64_t seed, int threads) {
   const Patterns patterns = pattern::stratified_patterns(count, random);
   const Eigen::VectorXd base = log_moduli(truth, patterns, threads);
   const Eigen::MatrixXd tangents = base_tangents(truth, patterns, threads, base);
-  const std::vector<Signature> all = signatures(truth, patterns, threads, base, tangents);
+  const std::vector<HiddenSignature> all = signatures(truth, patterns, threads, base, tangents);
   fmt::print("{} patterns, seed {}\n| effect | value | mean | rms | beyond the base | beyond base and library |", count,
              seed);
-  for (const Signature& other : all) fmt::print(" {:.4} {} |", other.kind->name, other.value);
+  for (const HiddenSignature& other : all) fmt::print(" {:.4} {} |", other.kind->name, other.value);
   fmt::print("\n");
-  for (const Signature& signature : all) {
+  for (const HiddenSignature& signature : all) {
     fmt::print("| {} | {} | {:+.3f} | {:.3f} | {:.4f} | {:.4f} |", signature.kind->name, signature.value,
                signature.raw.mean(), rms(signature.raw), rms(signature.left, kConstants),
                beyond_library(signature, all, tangents));
-    for (const Signature& other : all) {
+    for (const HiddenSignature& other : all) {
       fmt::print(" {:+.2f} |", signature.left.dot(other.left) / (signature.left.norm() * other.left.norm()));
     }
     fmt::print("\n");

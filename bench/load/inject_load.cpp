@@ -9,6 +9,7 @@
 #include "latencies.hpp"
 #include "loads.hpp"
 #include "made_up.hpp"
+#include "measurement/write_set.hpp"
 #include "runtime/process.hpp"
 
 namespace nacre::load {

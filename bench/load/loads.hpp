@@ -11,7 +11,7 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
-/// The farm's cache with `simulations` answers: writing, opening with its check, asking.
+/// The farm's cache with `simulations` results: writing, opening with its check, reading.
 void load_cache(const Options& options);
 /// A run with a gamut of `gamut` samples and `measurements` specimens: its database, its reading, its report.
 void load_run(const Options& options);

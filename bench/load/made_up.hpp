@@ -5,7 +5,7 @@
 
 #include "base/random.hpp"
 #include "explore/search.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::load {
 

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   Options options;
   bool cache = false, run = false, injection = false;
   app.add_option("--folder", options.folder, "where everything is made; must not exist")->capture_default_str();
-  app.add_option("--simulations", options.simulations, "answers in the cache")->capture_default_str();
+  app.add_option("--simulations", options.simulations, "results in the cache")->capture_default_str();
   app.add_option("--gamut", options.gamut, "samples of a gamut")->capture_default_str();
   app.add_option("--measurements", options.measurements, "specimens")->capture_default_str();
   app.add_option("--designs", options.designs, "patterns of the specimens")->capture_default_str();

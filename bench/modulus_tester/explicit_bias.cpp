@@ -11,6 +11,7 @@
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
+#include "tester/modulus.hpp"
 #include "tester/modulus_explicit.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "fem/frontal_cholesky.hpp"
 #include "fem/static_solver.hpp"
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {

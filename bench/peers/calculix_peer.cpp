@@ -24,6 +24,7 @@
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
+#include "tester/modulus.hpp"
 #include "thesis/constants.hpp"
 
 namespace {
@@ -101,32 +102,32 @@ double seconds_of(int who, const Work& work) {
   return cpu_seconds(who) - start;
 }
 
-/// An answer and the processor time it took.
-struct CalculixResult {
+/// A result and the processor time it took.
+struct TimedModulus {
   double modulus_pa = std::nan("");
   double seconds = 0.0;
 };
 
-CalculixResult ask_calculix(const fem::Grid& grid, const std::string& solver, const fs::path& folder) {
+TimedModulus solve_with_calculix(const fem::Grid& grid, const std::string& solver, const fs::path& folder) {
   write_deck(folder / "specimen.inp", grid);
   const std::string command =
       fmt::format("cd {} && OMP_NUM_THREADS=1 {} -i specimen > log.txt 2>&1", folder.string(), solver);
-  CalculixResult answer;
-  answer.seconds = seconds_of(RUSAGE_CHILDREN, [&] {
+  TimedModulus result;
+  result.seconds = seconds_of(RUSAGE_CHILDREN, [&] {
     if (std::system(command.c_str()) != 0) throw std::runtime_error(command + " failed; see log.txt there");
   });
-  answer.modulus_pa = read_stress(folder / "specimen.dat", grid) / kStrain;
-  return answer;
+  result.modulus_pa = read_stress(folder / "specimen.dat", grid) / kStrain;
+  return result;
 }
 
-CalculixResult ask_nacre(const tester::Simulation& simulation, const fem::Grid& grid, int repeats) {
-  CalculixResult answer{.modulus_pa = fem::pull(grid, kStrain).value().top_stress_pa / kStrain, .seconds = 0.0};
-  answer.seconds = seconds_of(RUSAGE_SELF,
+TimedModulus solve_with_nacre(const tester::Simulation& simulation, const fem::Grid& grid, int repeats) {
+  TimedModulus result{.modulus_pa = fem::pull(grid, kStrain).value().top_stress_pa / kStrain, .seconds = 0.0};
+  result.seconds = seconds_of(RUSAGE_SELF,
                               [&] {
                                 for (int i = 0; i < repeats; ++i) (void)tester::test_modulus(simulation).value();
                               }) /
                    repeats;
-  return answer;
+  return result;
 }
 
 }  // namespace
@@ -151,7 +152,8 @@ int main(int argc, char** argv) {
     const tester::SpecimenUnits units = tester::modulus_units(simulation.fidelity);
     const fem::Grid grid = tester::assemble(simulation.design, simulation.parameters, simulation.conditions,
                                             tester::AssemblyTarget::modulus, units.x, units.y);
-    const CalculixResult nacre = ask_nacre(simulation, grid, 20), calculix = ask_calculix(grid, solver, folder);
+    const TimedModulus nacre = solve_with_nacre(simulation, grid, 20),
+                       calculix = solve_with_calculix(grid, solver, folder);
     const double difference = nacre.modulus_pa / calculix.modulus_pa - 1.0;
     worst = std::max(worst, std::abs(difference));
     ours += nacre.seconds / count;

@@ -9,6 +9,10 @@
 #include "base/result.hpp"
 #include "explore/mechanics.hpp"
 #include "explore/synthetic.hpp"
+#include "material/parameter_file.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::search_study {
 namespace {

@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "material/parameters.hpp"
 #include "study/study_table.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::search_study {
 

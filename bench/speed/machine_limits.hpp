@@ -1,5 +1,5 @@
 #pragma once
-// What the core at hand can do at most, measured: the ceilings that a kernel's speed is a fraction of.
+// Measured limits of the core, to which a kernel's speed is compared.
 
 #include <cstddef>
 #include <string>

@@ -20,6 +20,7 @@
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/modulus.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
-// What a static start would save, and cost: specimens are pulled from rest, and again from static equilibrium at a
-// share of the strain at which their first element failed. Results: docs/studies/speed.md.
+// Time saved by a static start, and its cost in accuracy: specimens are pulled from rest, and again from static
+// equilibrium at a share of the strain at which their first element failed. Results: docs/studies/speed.md.
 
 #include <cmath>
 #include <cstdio>
@@ -18,14 +18,14 @@ namespace {
 using namespace nacre;
 using namespace nacre::bench;
 
-struct Pull {
+struct StartedPull {
   double toughness_pa = 0.0, first_failure_strain = 0.0, end_strain = 0.0, seconds = 0.0;
 };
 
 /// From `start` (in which the solver already is, under `start_stress_pa`) to a stress below 20 % of the peak. Peaks and
 /// separation on means over 400 steps.
-Pull pull(fem::ExplicitSolver<float>& solver, const tester::FractureTest& test, double start_stress_pa) {
-  Pull result;
+StartedPull pull(fem::ExplicitSolver<float>& solver, const tester::FractureTest& test, double start_stress_pa) {
+  StartedPull result;
   const double start = solver.strain();
   const int transit = 400;
   tester::FractureRecord record({.strain_per_step = test.settings.strain_rate_per_s * test.settings.time_step_s,
@@ -81,13 +81,13 @@ int main(int argc, char** argv) {
                                                        .conditions = {},
                                                        .fidelity = tester::fidelity_from_string(fidelity).value()});
     auto solver = fem::ExplicitSolver<float>::create(test.grid, test.settings).value();
-    const Pull rest = pull(solver, test, 0.0);
+    const StartedPull rest = pull(solver, test, 0.0);
     test.settings.initial_strain = share * rest.first_failure_strain;
     auto later = fem::ExplicitSolver<float>::create(test.grid, test.settings).value();
     double stress_pa = 0.0;
     const double solution =
         seconds_of([&] { stress_pa = start_statically(later, test, test.settings.initial_strain); });
-    const Pull from_there = pull(later, test, stress_pa);
+    const StartedPull from_there = pull(later, test, stress_pa);
     fmt::print("| {} | {:.4f} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | {:.2f} | {:+.1f} % |\n", pattern.key(),
                rest.first_failure_strain, rest.end_strain, rest.toughness_pa * 1e-6, rest.seconds, solution,
                from_there.seconds, 100.0 * (from_there.toughness_pa / rest.toughness_pa - 1.0));

@@ -18,6 +18,7 @@
 #include "cpu_time.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/modulus.hpp"
 
 namespace {
 

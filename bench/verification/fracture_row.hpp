@@ -1,5 +1,5 @@
 #pragma once
-// What the verification studies keep of one fracture test.
+// One fracture test in the tables of the verification studies, and their patterns.
 
 #include <cmath>
 #include <cstdio>
@@ -8,6 +8,7 @@
 
 #include "pattern/random_pattern.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::verification {
 

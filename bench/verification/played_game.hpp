@@ -1,10 +1,11 @@
 #pragma once
-// What a played game said about its designs, from the validation agent's journal.
+// Models, gamuts, proposals and specimens of a played game, from the validation agent's journal.
 
 #include <filesystem>
 #include <map>
 #include <vector>
 
+#include "measurement/specimen_record.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::verification {

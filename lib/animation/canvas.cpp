@@ -17,7 +17,7 @@ Canvas::Canvas(double width_units, double height_units, int width_points)
   if (cairo_status(context_.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
   cairo_scale(context_.get(), width_points / width_units, width_points / width_units);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
-  // Grey edges of letters on every machine: coloured ones are made for one screen.
+  // Grey antialiasing on every machine: subpixel antialiasing is made for one screen.
   const std::unique_ptr<cairo_font_options_t, decltype(&cairo_font_options_destroy)> options(
       cairo_font_options_create(), &cairo_font_options_destroy);
   cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
@@ -93,7 +93,7 @@ double Canvas::text_width(const std::string& text, const TextStyle& style) {
 
 void Canvas::text(CanvasPoint at, const std::string& text, const TextStyle& style) {
   const double width = text_width(text, style);
-  const double back = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::centre ? 0.5 * width : width;
+  const double back = style.anchor == TextAnchor::left ? 0.0 : style.anchor == TextAnchor::centre ? 0.5 * width : width;
   cairo_save(context_.get());
   colour(style.rgb);
   cairo_move_to(context_.get(), at.x, at.y);

@@ -18,13 +18,13 @@ struct CanvasPoint {
   double x = 0.0, y = 0.0;
 };
 
-enum class Anchor { left, centre, right };
+enum class TextAnchor { left, centre, right };
 
 struct TextStyle {
   double size = 13.0;
   std::uint32_t rgb = 0x202020;
   bool bold = false;
-  Anchor anchor = Anchor::left;
+  TextAnchor anchor = TextAnchor::left;
   bool upwards = false;  ///< turned by a quarter, reading from below
 };
 

@@ -1,3 +1,5 @@
+#include "animation/chart_panel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,10 +23,10 @@ double tick_distance(double length) {
   return 50.0 * decade;
 }
 
-struct Axes {
+struct ChartAxes {
   double strain_percent = 1.0, stress_mpa = 1.0;  ///< at the far ends
 
-  explicit Axes(const film::Film& film) {
+  explicit ChartAxes(const film::Film& film) {
     const auto& stress = film.curve.stress_pa;
     const double highest = stress.empty() ? 0.0 : *std::max_element(stress.begin(), stress.end());
     strain_percent = std::max(100.0 * film.failure_strain, 1e-3) * 1.04;
@@ -37,9 +39,9 @@ struct Axes {
   }
 };
 
-void draw_axes(Canvas& canvas, const Axes& axes) {
-  const TextStyle number{.size = 12.0, .rgb = kInk, .anchor = Anchor::centre};
-  const TextStyle number_left{.size = 12.0, .rgb = kInk, .anchor = Anchor::right};
+void draw_axes(Canvas& canvas, const ChartAxes& axes) {
+  const TextStyle number{.size = 12.0, .rgb = kInk, .anchor = TextAnchor::centre};
+  const TextStyle number_left{.size = 12.0, .rgb = kInk, .anchor = TextAnchor::right};
   const double across = tick_distance(axes.strain_percent), up = tick_distance(axes.stress_mpa);
   for (double value = 0.0; value <= axes.stress_mpa * 1.0001; value += up) {
     const double y = axes.at(0.0, 1e6 * value).y;
@@ -55,7 +57,7 @@ void draw_axes(Canvas& canvas, const Axes& axes) {
   }
   const std::array<CanvasPoint, 3> frame = {{{kLeft, kTop - 6.0}, {kLeft, kBottom}, {kRight, kBottom}}};
   canvas.line(frame, 1.2, kInk);
-  const TextStyle label{.size = 13.0, .rgb = kInk, .anchor = Anchor::centre};
+  const TextStyle label{.size = 13.0, .rgb = kInk, .anchor = TextAnchor::centre};
   canvas.text({0.5 * (kLeft + kRight), kBottom + 38.0}, "nominal strain in %", label);
   TextStyle turned = label;
   turned.upwards = true;
@@ -63,7 +65,7 @@ void draw_axes(Canvas& canvas, const Axes& axes) {
 }
 
 /// The curve up to a strain, which becomes its last point.
-std::vector<CanvasPoint> curve_until(const film::Film& film, const Axes& axes, const film::Frame& frame) {
+std::vector<CanvasPoint> curve_until(const film::Film& film, const ChartAxes& axes, const film::FilmFrame& frame) {
   std::vector<CanvasPoint> points;
   for (std::size_t i = 0; i < film.curve.size() && film.curve.strain[i] < frame.strain; ++i)
     points.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
@@ -71,7 +73,7 @@ std::vector<CanvasPoint> curve_until(const film::Film& film, const Axes& axes, c
   return points;
 }
 
-void draw_curve(Canvas& canvas, const film::Film& film, const Axes& axes, const film::Frame& frame) {
+void draw_curve(Canvas& canvas, const film::Film& film, const ChartAxes& axes, const film::FilmFrame& frame) {
   std::vector<CanvasPoint> whole;
   for (std::size_t i = 0; i < film.curve.size(); ++i)
     whole.push_back(axes.at(film.curve.strain[i], film.curve.stress_pa[i]));
@@ -87,8 +89,8 @@ void draw_curve(Canvas& canvas, const film::Film& film, const Axes& axes, const 
   canvas.disc(passed.back(), 4.6, kAccent);
 }
 
-/// Energy taken up so far: the area under the curve.
-double absorbed_pa(const film::Film& film, const film::Frame& frame) {
+/// Energy absorbed so far: the area under the curve.
+double absorbed_pa(const film::Film& film, const film::FilmFrame& frame) {
   tester::Curve passed;
   for (std::size_t i = 0; i < film.curve.size() && film.curve.strain[i] < frame.strain; ++i) {
     passed.strain.push_back(film.curve.strain[i]);
@@ -99,30 +101,30 @@ double absorbed_pa(const film::Film& film, const film::Frame& frame) {
   return tester::area_under(passed);
 }
 
-void draw_figures(Canvas& canvas, const film::Film& film, const film::Frame& frame) {
+void draw_figures(Canvas& canvas, const film::Film& film, const film::FilmFrame& frame) {
   const std::array<std::array<std::string, 2>, 4> now = {
       {{"strain", fmt::format("{:.2f} %", 100.0 * frame.strain)},
        {"stress", fmt::format("{:.2f} MPa", 1e-6 * std::max(0.0, frame.stress_pa))},
        {"failed elements", fmt::format("{}", frame.broken)},
-       {"energy taken up", fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * absorbed_pa(film, frame))}}};
+       {"energy absorbed", fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * absorbed_pa(film, frame))}}};
   double y = 418.0;
   for (const auto& [name, value] : now) {
     canvas.text({kLeft - 44.0, y}, name, {.size = 13.0, .rgb = kFaint});
-    canvas.text({kRight, y}, value, {.size = 13.0, .rgb = kInk, .anchor = Anchor::right});
+    canvas.text({kRight, y}, value, {.size = 13.0, .rgb = kInk, .anchor = TextAnchor::right});
     y += 20.0;
   }
   const std::array<CanvasPoint, 2> rule = {{{kLeft - 44.0, y - 10.0}, {kRight, y - 10.0}}};
   canvas.line(rule, 0.7, kRule);
   canvas.text({kLeft - 44.0, 506.0}, "toughness", {.size = 13.0, .rgb = kInk, .bold = true});
   canvas.text({kRight, 506.0}, fmt::format("{:.3f} MJ/m\u00b3", 1e-6 * film.toughness_pa),
-              {.size = 13.0, .rgb = kInk, .bold = true, .anchor = Anchor::right});
+              {.size = 13.0, .rgb = kInk, .bold = true, .anchor = TextAnchor::right});
 }
 
 }  // namespace
 
 void draw_chart(Canvas& canvas, const film::Film& film, int index) {
-  const film::Frame& frame = film.frames[index];
-  draw_curve(canvas, film, Axes(film), frame);
+  const film::FilmFrame& frame = film.frames[index];
+  draw_curve(canvas, film, ChartAxes(film), frame);
   draw_figures(canvas, film, frame);
 }
 

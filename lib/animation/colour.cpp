@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pattern/phase_colours.hpp"
+
 namespace nacre::animation {
 namespace {
 
@@ -74,12 +76,12 @@ std::uint32_t glow(double share) {
   return rgb_of({.lightness = 0.30 + 0.66 * t, .chroma = 0.20 - 0.06 * t * t, .hue_deg = -62.0 + 168.0 * t});
 }
 
-std::uint32_t element_colour(int material, double energy_level) {
-  constexpr std::array<std::uint32_t, 3> kMaterials = {0x22262c, 0x8d97a6, 0x525a66};  // soft, rigid, interface
+std::uint32_t element_colour(int phase, double energy_level) {
+  constexpr std::array kPhases = {pattern::kSoftRgb, pattern::kRigidRgb, pattern::kInterfaceRgb};
   constexpr double kBegin = 0.32, kFull = 0.62, kTop = 0.92;  // the last decade fraction: single elements
   const double rise = std::clamp((energy_level - kBegin) / (kFull - kBegin), 0.0, 1.0);
   const double cover = rise * rise * (3.0 - 2.0 * rise);
-  return blend(kMaterials[std::clamp(material, 0, 2)], glow((energy_level - kBegin) / (kTop - kBegin)), cover);
+  return blend(kPhases[std::clamp(phase, 0, 2)], glow((energy_level - kBegin) / (kTop - kBegin)), cover);
 }
 
 }  // namespace nacre::animation

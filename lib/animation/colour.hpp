@@ -10,17 +10,17 @@ struct Lch {
   double lightness = 0.0, chroma = 0.0, hue_deg = 0.0;
 };
 
-/// 0xRRGGBB of a colour; what the screen cannot show loses chroma, not lightness.
+/// 0xRRGGBB of a colour; colours beyond sRGB lose chroma, not lightness.
 std::uint32_t rgb_of(const Lch& colour);
 
-/// The colour `share` of the way from a to b, 0..1.
+/// The colour between a (share 0) and b (share 1).
 std::uint32_t blend(std::uint32_t a, std::uint32_t b, double share);
 
 /// Colour of a share 0..1 of the scale: violet, red, orange, pale yellow; lightness rises evenly.
 std::uint32_t glow(double share);
 
-/// An element of a material (0 soft, 1 rigid, 2 interface): the material's own colour where nothing is stored, covered
-/// by the glow as the energy level (0..1) rises.
-std::uint32_t element_colour(int material, double energy_level);
+/// An element of a phase (0 soft, 1 rigid, 2 interface): the phase's own colour (pattern/phase_colours.hpp) where no
+/// energy is stored, covered by the glow as the energy level (0..1) rises.
+std::uint32_t element_colour(int phase, double energy_level);
 
 }  // namespace nacre::animation

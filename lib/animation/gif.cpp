@@ -72,9 +72,9 @@ class Palette {
 };
 
 /// giflib writing into memory. Every call that fails throws, with giflib's reason.
-class Encoder {
+class GifEncoder {
  public:
-  Encoder(int width, int height, const Palette& palette) {
+  GifEncoder(int width, int height, const Palette& palette) {
     int error = 0;
     file_ = EGifOpen(this, append, &error);
     if (file_ == nullptr) throw InputError(GifErrorString(error));
@@ -89,12 +89,12 @@ class Encoder {
     check(EGifPutExtensionBlock(file_, 3, kForever.data()));
     check(EGifPutExtensionTrailer(file_));
   }
-  ~Encoder() {
+  ~GifEncoder() {
     int error = 0;
     if (file_ != nullptr) EGifCloseFile(file_, &error);
   }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
+  GifEncoder(const GifEncoder&) = delete;
+  GifEncoder& operator=(const GifEncoder&) = delete;
 
   /// The part of a picture between the given points (right and bottom excluded).
   void add(const std::vector<GifByteType>& indices, int width, int left, int top, int right, int bottom, int delay) {
@@ -120,7 +120,7 @@ class Encoder {
 
  private:
   static int append(GifFileType* file, const GifByteType* bytes, int count) {
-    static_cast<Encoder*>(file->UserData)
+    static_cast<GifEncoder*>(file->UserData)
         ->bytes_.append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
     return count;
   }
@@ -138,7 +138,7 @@ std::string encoded(const Gif& gif) {
   for (int i = 0; i < gif.frame_count; i += step) palette.count(picture = gif.draw(i));
   palette.choose();
   const int width = picture.width, height = picture.height;
-  Encoder encoder(width, height, palette);
+  GifEncoder encoder(width, height, palette);
   std::vector<GifByteType> shown(picture.rgb.size(), kUnchanged), changes(picture.rgb.size());
   for (int i = 0; i < gif.frame_count; ++i) {
     picture = gif.draw(i);

@@ -13,7 +13,7 @@ namespace nacre::animation {
 struct Gif {
   int frame_count = 0;                            ///< >= 1
   std::function<Picture(int)> draw;               ///< all pictures have the size of the first; called twice for some
-  std::function<int(int)> hundredths_of_seconds;  ///< how long a picture stands
+  std::function<int(int)> hundredths_of_seconds;  ///< duration of a picture
 };
 
 /// Writes the GIF, whole or not at all. Throws InputError naming the file.

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "animation/chart_panel.hpp"
 #include "animation/panels.hpp"
+#include "animation/specimen_panel.hpp"
 
 namespace nacre::animation {
 namespace {

@@ -6,7 +6,7 @@
 namespace nacre::animation {
 
 /// Draws a film for people: the deformed specimen between its grips with the energy density over the materials, failed
-/// elements left out (those that failed since the frame before bright), letters where a toughening mechanism shows
+/// elements left out (those that failed since the frame before bright), letters at toughening mechanisms
 /// (crack/marks.hpp), colour scale, scale bar, and the stress-strain curve with a marker. 16:9.
 class Scene {
  public:
@@ -15,7 +15,7 @@ class Scene {
 
   int frame_count() const { return static_cast<int>(film_.frames.size()); }
   Picture draw(int frame) const;
-  /// How long the frame stands: the first and the last longer.
+  /// Duration of the frame: longer for the first and the last.
   int hundredths_of_seconds(int frame) const;
 
  private:

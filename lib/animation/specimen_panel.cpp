@@ -1,3 +1,5 @@
+#include "animation/specimen_panel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +33,8 @@ struct Placement {
   CanvasPoint at(double x_m, double y_m) const { return {left + scale * x_m, kBottom - kGripHeight - scale * y_m}; }
 };
 
-std::vector<CanvasPoint> node_positions(const film::Film& film, const film::Frame& frame, const Placement& placement) {
+std::vector<CanvasPoint> node_positions(const film::Film& film, const film::FilmFrame& frame,
+                                        const Placement& placement) {
   std::vector<CanvasPoint> positions;
   positions.reserve(film.node_count());
   for (int node = 0; node < film.node_count(); ++node) {
@@ -42,7 +45,7 @@ std::vector<CanvasPoint> node_positions(const film::Film& film, const film::Fram
   return positions;
 }
 
-/// Per element: whether it stands (0), failed before the frame before (1) or since (2), or was never there (1).
+/// Per element: intact (0), failed before the frame before or empty from the start (1), or failed since (2).
 std::vector<int> ages(const film::Film& film, int frame) {
   std::vector<int> age(film.material.size(), 0);
   for (std::size_t e = 0; e < age.size(); ++e) age[e] = film.material[e] == kVoid ? 1 : 0;
@@ -53,7 +56,7 @@ std::vector<int> ages(const film::Film& film, int frame) {
 }
 
 void draw_elements(Canvas& canvas, const film::Film& film, int index, const Placement& placement) {
-  const film::Frame& frame = film.frames[index];
+  const film::FilmFrame& frame = film.frames[index];
   const std::vector<CanvasPoint> node = node_positions(film, frame, placement);
   const std::vector<int> age = ages(film, index);
   std::map<std::uint32_t, std::vector<std::array<CanvasPoint, 4>>> by_colour;
@@ -85,10 +88,11 @@ void draw_tag(Canvas& canvas, CanvasPoint at, const MarkStyle& style) {
   constexpr double kRadius = 7.5;
   canvas.disc(at, kRadius + 1.2, kPage);
   canvas.disc(at, kRadius, style.rgb);
-  canvas.text({at.x, at.y + 3.9}, style.letter, {.size = 11.0, .rgb = kPage, .bold = true, .anchor = Anchor::centre});
+  canvas.text({at.x, at.y + 3.9}, style.letter,
+              {.size = 11.0, .rgb = kPage, .bold = true, .anchor = TextAnchor::centre});
 }
 
-/// The specimen before the test, as far as marks ask for it.
+/// The specimen before the test, with the data that marks need.
 fem::Grid grid_of(const film::Film& film) {
   fem::Grid grid;
   grid.columns = film.columns;
@@ -98,12 +102,12 @@ fem::Grid grid_of(const film::Film& film) {
   return grid;
 }
 
-/// Letters beside the crack where a mechanism shows at this moment, and what they mean.
+/// Letters next to the crack where a mechanism acts at this moment, and their meaning.
 void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placement& placement) {
-  const film::Frame& frame = film.frames[index];
+  const film::FilmFrame& frame = film.frames[index];
   const std::vector<crack::Mark> marks = crack::marks_of(grid_of(film), film.crack);
   const std::vector<CanvasPoint> node = node_positions(film, frame, placement);
-  constexpr double kAside = 14.0;  // the crack itself stays in sight
+  constexpr double kAside = 14.0;  // so that the crack itself stays visible
   constexpr int kMostOfAKind = 5;  // more would cover the specimen; branches come longest first
   std::array<int, crack::kMarkKinds> shown{};
   for (const crack::Mark& mark : marks) {
@@ -127,7 +131,7 @@ void draw_marks(Canvas& canvas, const film::Film& film, int index, const Placeme
   }
 }
 
-void draw_grips(Canvas& canvas, const film::Film& film, const film::Frame& frame, const Placement& placement) {
+void draw_grips(Canvas& canvas, const film::Film& film, const film::FilmFrame& frame, const Placement& placement) {
   const double width_m = film.columns * film.element_size_m, height_m = film.rows * film.element_size_m;
   const CanvasPoint lower = placement.at(0.0, 0.0), upper = placement.at(0.0, height_m * (1.0 + frame.strain));
   const double width = placement.scale * width_m;

@@ -1,5 +1,5 @@
 #pragma once
-// Reading tables that a person or an instrument wrote (RFC 4180): every cell knows where it stands, and one bad row
+// Reading tables that a person or an instrument wrote (RFC 4180): every cell knows its line and column, and one bad row
 // does not lose the others.
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct CsvCell {
 };
 
 /// One row. When the row is malformed (quotes, encoding, a limit), `fault` says what was expected, `fault_line` and
-/// `fault_column` where; its cells are then not to be trusted.
+/// `fault_column` where; its cells are then meaningless.
 struct CsvRow {
   int line = 0;
   std::vector<CsvCell> cells;
@@ -66,7 +66,7 @@ class CsvReader {
   std::size_t rows_ = 0;
 };
 
-/// What a heading says whose columns are not separated by commas, as the end of an error; empty where they are.
+/// The end of an error about a heading whose columns are separated by something other than commas; empty for commas.
 std::string other_separator(std::string_view heading);
 std::string other_separator(const CsvRow& heading);
 

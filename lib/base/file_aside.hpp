@@ -1,15 +1,15 @@
 #pragma once
-// What write_file_atomically() is made of, for links and folders that appear whole, too.
+// The parts of write_file_atomically(), also for links and folders that must appear whole.
 
 #include <filesystem>
 
 namespace nacre {
 
-/// A name beside `path` for what is written whole before it takes the name itself: HOST-PID-COUNT.part behind it, which
-/// no other process and no other call gives out.
+/// A temporary name in the same folder, `path`.HOST-PID-COUNT.part, which no other process and no other call gives out:
+/// the content is written there whole, then renamed.
 std::filesystem::path name_aside(const std::filesystem::path& path);
 
-/// A new name is on disk only when its folder's entry is, where the file system can say so.
+/// Syncs the folder's entries to disk, where the file system can: a new name is safe only then.
 void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace nacre

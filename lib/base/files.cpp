@@ -18,14 +18,14 @@ namespace nacre {
 namespace {
 
 /// A file descriptor that closes itself.
-struct Descriptor {
+struct FileDescriptor {
   int fd;
-  ~Descriptor() {
+  ~FileDescriptor() {
     if (fd >= 0) ::close(fd);
   }
 };
 
-/// The file that a chain of links names, there or not; `path` itself where it is no link.
+/// The file that a chain of links names, existing or not; `path` itself where it is no link.
 std::filesystem::path behind_links(std::filesystem::path path) {
   constexpr int kLongestChain = 40;
   std::error_code no_link;
@@ -40,10 +40,10 @@ std::filesystem::path behind_links(std::filesystem::path path) {
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
-  std::error_code unreadable;  // what a folder's name cannot be either is said below
+  std::error_code unreadable;  // a name that cannot be a folder's fails to open below
   if (std::filesystem::is_directory(path, unreadable))
     throw InputError::format("{}: is a folder, expected a file", path.string());
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) throw InputError::format("{}: cannot be read: {}", path.string(), std::strerror(errno));
   std::string bytes;
   char buffer[1 << 16];
@@ -97,7 +97,7 @@ std::filesystem::path name_aside(const std::filesystem::path& path) {
 }
 
 void sync_folder(const std::filesystem::path& folder) {
-  const Descriptor entry{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  const FileDescriptor entry{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
   if (entry.fd >= 0) ::fsync(entry.fd);
 }
 
@@ -109,7 +109,7 @@ void write_file_atomically(const std::filesystem::path& link_or_file, std::strin
     refuse_write(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(reason)), reason);
   };
   {
-    const Descriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
+    const FileDescriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
     if (file.fd < 0) give_up(errno);
     struct stat replaced {};
     if (::stat(path.c_str(), &replaced) == 0) ::fchmod(file.fd, replaced.st_mode & 07777);  // who may read it stays

@@ -13,7 +13,7 @@ std::string read_file(const std::filesystem::path& path);
 /// The same for a regular file of at most `most_bytes`: a device, a pipe or a larger file is an InputError.
 std::string read_file_up_to(const std::filesystem::path& path, std::size_t most_bytes);
 
-/// The path with its folder's name at the end, also where it was written `RUN/`.
+/// The path without a slash at its end, so that its last part is the folder's name: `RUN/` -> `RUN`.
 std::filesystem::path without_last_slash(const std::filesystem::path& path);
 
 /// The path as a word of a shell command: in single quotes where it needs them.

@@ -11,7 +11,7 @@
 
 namespace nacre {
 
-/// A table whose cells are asked for by row and column name. Throws InputError naming file, line, column.
+/// A table whose cells are read by row and column name. Throws InputError naming file, line, column.
 class NamedTable {
  public:
   NamedTable(const std::filesystem::path& path, const std::vector<std::string>& required);

@@ -1,5 +1,5 @@
 #pragma once
-// A full disk is no bad input: what failed succeeds as soon as there is room.
+// A full disk is not bad input: the same write succeeds as soon as there is room.
 
 #include <cerrno>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace nacre {
 
-/// A write that failed for want of space. Whoever would mend bad input before trying again may simply try this again.
+/// A write that failed for want of space. Unlike bad input, which must be corrected first, it may simply be retried.
 class NoSpace : public InputError {
  public:
   using InputError::InputError;

@@ -38,7 +38,7 @@ void parallel_for(int count, const std::function<void(int)>& body, int threads) 
   pool.reserve(std::max(workers, 0));
   try {
     for (int t = 1; t < workers; ++t) pool.emplace_back(work);
-  } catch (const std::exception&) {  // the system gives no more threads: those there are do it
+  } catch (const std::exception&) {  // the system gives no more threads: the existing ones do the work
   }
   work();
   for (std::thread& thread : pool) thread.join();

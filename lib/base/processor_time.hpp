@@ -4,7 +4,7 @@
 
 namespace nacre {
 
-/// Time that the calling thread has spent on a processor, s: what work costs, whoever else uses the machine.
+/// Processor time of the calling thread, s: the cost of its work, independent of the machine's load.
 inline double processor_time_s() {
   std::timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

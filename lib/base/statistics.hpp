@@ -1,5 +1,5 @@
 #pragma once
-// Figures that sum up a list of numbers.
+// Statistics of lists of numbers.
 
 #include <span>
 #include <vector>

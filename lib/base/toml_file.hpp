@@ -13,7 +13,7 @@
 
 namespace nacre {
 
-/// Where something stands, `demo.toml:12:5`: file, line and column.
+/// A place in a file: `demo.toml:12:5`, file, line and column.
 inline std::string place(std::string_view source, const toml::source_region& region) {
   return fmt::format("{}:{}:{}", source, region.begin.line, region.begin.column);
 }

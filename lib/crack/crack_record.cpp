@@ -13,11 +13,11 @@
 namespace nacre::crack {
 namespace {
 
-/// Among equally long ways the one that failed first is the path. Far below the difference of any two lengths.
+/// Of equally long paths the one that failed first is taken. Far below the difference of any two lengths.
 constexpr double kLatenessCost = 1e-6;
 
-/// What became of every element.
-struct Field {
+/// State of every element after the test.
+struct FailureField {
   const fem::Grid& grid;
   std::vector<double> lateness;  ///< 0..1 in the order of failing; below 0 where nothing failed
   bool failed(int element) const { return lateness[element] >= 0.0; }
@@ -25,8 +25,8 @@ struct Field {
   int column(int element) const { return element % grid.columns; }
 };
 
-Field field_of(const fem::Grid& grid, const std::vector<tester::Break>& order) {
-  Field field{grid, std::vector<double>(grid.element_count(), -1.0)};
+FailureField field_of(const fem::Grid& grid, const std::vector<tester::Break>& order) {
+  FailureField field{grid, std::vector<double>(grid.element_count(), -1.0)};
   const double last = order.empty() ? 0.0 : order.back().strain;
   for (const tester::Break& broken : order) {
     assert(broken.element >= 0 && broken.element < grid.element_count() && !field.empty(broken.element));
@@ -36,8 +36,8 @@ Field field_of(const fem::Grid& grid, const std::vector<tester::Break>& order) {
   return field;
 }
 
-/// Where the path begins: in the notch, or without one at the failed elements farthest left.
-std::vector<int> origins(const Field& field, const std::vector<tester::Break>& order) {
+/// Start of the path: the notch, or without one the failed elements farthest left.
+std::vector<int> origins(const FailureField& field, const std::vector<tester::Break>& order) {
   std::vector<int> elements;
   for (int e = 0; e < field.grid.element_count(); ++e)
     if (field.empty(e)) elements.push_back(e);
@@ -49,12 +49,12 @@ std::vector<int> origins(const Field& field, const std::vector<tester::Break>& o
   return elements;
 }
 
-/// The cheapest way from `from` to the failed element farthest right, without the elements of the notch.
-std::vector<int> cheapest_way(const Field& field, const std::vector<int>& from,
+/// The shortest path from `from` to the failed element farthest right, without the elements of the notch.
+std::vector<int> cheapest_way(const FailureField& field, const std::vector<int>& from,
                               const std::vector<tester::Break>& order) {
   const auto cost = [&](int e) {
     if (field.empty(e)) return 1.0;
-    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[e] : kStandingCost;
+    return field.failed(e) ? 1.0 + kLatenessCost * field.lateness[e] : kIntactCost;
   };
   int right = 0;
   for (const tester::Break& broken : order) right = std::max(right, field.column(broken.element));
@@ -66,9 +66,9 @@ std::vector<int> cheapest_way(const Field& field, const std::vector<int>& from,
   return way;
 }
 
-Path measured(const Field& field, std::vector<int> way) {
+CrackPath measured(const FailureField& field, std::vector<int> way) {
   const fem::Grid& grid = field.grid;
-  Path path;
+  CrackPath path;
   double failed_length = 0.0, length = 0.0;
   for (std::size_t i = 0; i < way.size(); ++i) {
     // An element's share of the length: half of either step, half an element at the ends.
@@ -90,9 +90,9 @@ Path measured(const Field& field, std::vector<int> way) {
   return path;
 }
 
-/// The longest branches are taken off one after the other: each begins where the cracks are farthest from all that has
-/// been taken. Also gives the failed elements that the path's crack does not reach.
-std::vector<int> tips_of_branches(const Field& field, const std::vector<int>& path,
+/// The longest branches are removed one after the other: each begins where the cracks are farthest from everything
+/// removed so far. Also gives the failed elements that the path's crack does not reach.
+std::vector<int> tips_of_branches(const FailureField& field, const std::vector<int>& path,
                                   const std::vector<tester::Break>& order, std::vector<int>& unreached) {
   const double shortest = kShortestBranchElements;
   const auto cost = [&](int e) { return field.failed(e) ? 1.0 : kImpassable; };
@@ -120,7 +120,7 @@ std::vector<int> tips_of_branches(const Field& field, const std::vector<int>& pa
   }
 }
 
-int count_groups(const Field& field, std::vector<int> elements) {
+int count_groups(const FailureField& field, std::vector<int> elements) {
   const auto cost = [&](int e) { return field.failed(e) ? 1.0 : kImpassable; };
   int groups = 0;
   while (!elements.empty()) {
@@ -135,13 +135,13 @@ int count_groups(const Field& field, std::vector<int> elements) {
 
 }  // namespace
 
-Record crack_record(const fem::Grid& notched, std::vector<tester::Break> order) {
-  Record record;
+CrackRecord crack_record(const fem::Grid& notched, std::vector<tester::Break> order) {
+  CrackRecord record;
   record.columns = notched.columns;
   record.rows = notched.rows;
   record.order = std::move(order);
   if (record.order.empty()) return record;
-  const Field field = field_of(notched, record.order);
+  const FailureField field = field_of(notched, record.order);
   record.path = measured(field, cheapest_way(field, origins(field, record.order), record.order));
   std::vector<int> unreached;
   record.branches = static_cast<int>(tips_of_branches(field, record.path->elements, record.order, unreached).size());
@@ -149,13 +149,13 @@ Record crack_record(const fem::Grid& notched, std::vector<tester::Break> order) 
   return record;
 }
 
-std::vector<int> branch_tips(const fem::Grid& notched, const Record& record) {
+std::vector<int> branch_tips(const fem::Grid& notched, const CrackRecord& record) {
   if (!record.path) return {};
   std::vector<int> unreached;
   return tips_of_branches(field_of(notched, record.order), record.path->elements, record.order, unreached);
 }
 
-Record record_of(const tester::Simulation& simulation, std::vector<tester::Break> order) {
+CrackRecord record_of(const tester::Simulation& simulation, std::vector<tester::Break> order) {
   return crack_record(tester::fracture_test(simulation).grid, std::move(order));
 }
 

@@ -7,48 +7,49 @@
 #include <vector>
 
 #include "fem/grid.hpp"
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::crack {
 
-/// A length of failed elements beside the path counts as a branch from 6 elements (3 pixels, 1.56 mm) on.
+/// Failed elements off the path count as a branch from a length of 6 elements (3 pixels, 1.56 mm) on.
 inline constexpr double kShortestBranchElements = 6.0;
-/// So many failed elements that touch no other crack are a crack of their own.
+/// Number of failed elements, touching no other crack, from which on they count as a separate crack.
 inline constexpr int kSmallestCrackElements = 4;
-/// A standing element is as far for the path as so many failed ones: the path leaves the cracks only where they end.
-inline constexpr double kStandingCost = 4.0;
+/// Cost of an intact element relative to a failed one: the path leaves the cracks only where they end.
+inline constexpr double kIntactCost = 4.0;
 
-/// The cheapest way from the notch to the failed element farthest from it, through failed elements where there are any.
-struct Path {
+/// The shortest path from the notch to the failed element farthest from it, through failed elements where there are
+/// any.
+struct CrackPath {
   std::vector<int> elements;         ///< from the notch on, each touching the next
   double length_m = 0.0;             ///< between the centres, plus half an element at either end
   double straight_length_m = 0.0;    ///< of the straight crack across the same columns, perpendicular to the pull
-  double bridged_share = 0.0;        ///< of the length, through elements that still stand: 0..1
+  double bridged_share = 0.0;        ///< of the length, through intact elements: 0..1
   std::array<double, 3> material{};  ///< shares of the failed length in soft, rigid, interface (fem::Phase); sum 1
   bool crosses = false;              ///< it reaches the edge opposite to the notch
 
   /// Path length over straight length, >= 1.
   double ratio() const { return length_m / straight_length_m; }
-  bool operator==(const Path&) const = default;
+  bool operator==(const CrackPath&) const = default;
 };
 
-/// What is known of the crack of one specimen.
-struct Record {
+/// The crack of one specimen.
+struct CrackRecord {
   int columns = 0, rows = 0;         ///< of the specimen; element = row * columns + column, row 0 at the bottom
   std::vector<tester::Break> order;  ///< failed elements in the order of failing
-  std::optional<Path> path;          ///< nothing when no element failed
-  int branches = 0;                  ///< ways off the path of kShortestBranchElements or more
+  std::optional<CrackPath> path;     ///< nothing when no element failed
+  int branches = 0;                  ///< branches off the path, of kShortestBranchElements or more
   int separate_cracks = 0;           ///< groups of kSmallestCrackElements or more that do not touch the path's crack
-  bool operator==(const Record&) const = default;
+  bool operator==(const CrackRecord&) const = default;
 };
 
 /// The record of a crack in the notched specimen as it was before the test; of the grid only shape, size of the
-/// elements and phases are used. The elements of `order` are not empty in the grid, none stands in it twice. Mirroring
-/// grid and order mirrors the record, except where ways are equally long and failed in the same steps. Cost: some
+/// elements and phases are used. The elements of `order` are not empty in the grid, each occurs once. Mirroring
+/// grid and order mirrors the record, except where paths are equally long and failed in the same steps. Cost: some
 /// milliseconds at full fidelity.
-Record crack_record(const fem::Grid& notched, std::vector<tester::Break> order);
+CrackRecord crack_record(const fem::Grid& notched, std::vector<tester::Break> order);
 
 /// The same for the toughness test of a simulation (unrefined). `order` comes from its ToughnessResult.
-Record record_of(const tester::Simulation& simulation, std::vector<tester::Break> order);
+CrackRecord record_of(const tester::Simulation& simulation, std::vector<tester::Break> order);
 
 }  // namespace nacre::crack

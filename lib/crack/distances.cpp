@@ -8,15 +8,15 @@
 namespace nacre::crack {
 namespace {
 
-using Entry = std::pair<double, int>;  // cost, element: of equal costs the lower element first
-using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+using QueuedElement = std::pair<double, int>;  // cost, element: of equal costs the lower element first
+using Queue = std::priority_queue<QueuedElement, std::vector<QueuedElement>, std::greater<>>;
 
 void spread(const fem::Grid& grid, Queue& queue, const ElementCost& cost, const std::function<bool(int)>& arrived,
             Distances& distances) {
   while (!queue.empty()) {
     const auto [distance, element] = queue.top();
     queue.pop();
-    if (distance > distances.cost[element]) continue;  // a shorter way was found meanwhile
+    if (distance > distances.cost[element]) continue;  // a shorter path was found meanwhile
     if (arrived && arrived(element)) {
       distances.arrived = element;
       return;

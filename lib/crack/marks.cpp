@@ -21,7 +21,7 @@ struct FailedPath {
   bool failed(int element) const { return strain_of.contains(element); }
   int row(int element) const { return element / grid.columns; }
   fem::Phase phase(int element) const { return grid.phase[element]; }
-  /// When the path has got as far as its i-th element: when that, or for a standing one the next failed one, has
+  /// Strain at which the path reaches its i-th element: when that one, or for an intact one the next failed one,
   /// failed.
   double strain_at(std::size_t i) const {
     for (; i < elements.size(); ++i)
@@ -30,7 +30,7 @@ struct FailedPath {
   }
 };
 
-FailedPath path_of(const fem::Grid& grid, const Record& record) {
+FailedPath path_of(const fem::Grid& grid, const CrackRecord& record) {
   FailedPath path{grid, record.path->elements, {}};
   for (const tester::Break& broken : record.order) path.strain_of[broken.element] = broken.strain;
   return path;
@@ -47,7 +47,7 @@ void mark_deflection(const FailedPath& path, std::vector<Mark>& marks) {
   }
 }
 
-void mark_branching(const FailedPath& path, const Record& record, std::vector<Mark>& marks) {
+void mark_branching(const FailedPath& path, const CrackRecord& record, std::vector<Mark>& marks) {
   for (const int tip : branch_tips(path.grid, record))
     marks.push_back({MarkKind::branching, tip, path.strain_of.at(tip), kToTheEnd});
 }
@@ -117,7 +117,7 @@ std::string_view to_string(MarkKind kind) {
   return "";
 }
 
-std::vector<Mark> marks_of(const fem::Grid& notched, const Record& record) {
+std::vector<Mark> marks_of(const fem::Grid& notched, const CrackRecord& record) {
   std::vector<Mark> marks;
   if (!record.path || record.path->elements.empty()) return marks;
   const FailedPath path = path_of(notched, record);

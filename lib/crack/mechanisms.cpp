@@ -11,9 +11,9 @@ namespace {
 
 fem::Phase phase_of(const fem::Grid& grid, int element) { return grid.phase[element]; }
 
-/// The tip passes an element of the path when that and all failed ones before it have failed. What it waited for is the
+/// The tip passes an element of the path when that and all failed ones before it have failed. It was arrested by the
 /// element that failed last, soft or not.
-double soft_arrest(const fem::Grid& grid, const Record& record) {
+double soft_arrest(const fem::Grid& grid, const CrackRecord& record) {
   std::map<int, double> strain_of;
   for (const tester::Break& broken : record.order) strain_of[broken.element] = broken.strain;
   std::optional<double> first;
@@ -46,20 +46,20 @@ double weak_share(const fem::Grid& grid) {
 }  // namespace
 
 std::array<Mechanism, 5> mechanism_names() {
-  return {{{"deflection", "the crack's path is longer than the straight way"},
-           {"branching", "the crack splits, or others open beside it"},
-           {"bridging", "ligaments stand across the crack when the test ends"},
+  return {{{"deflection", "the crack's path is longer than a straight crack"},
+           {"branching", "the crack splits, or separate cracks open"},
+           {"bridging", "intact ligaments bridge the crack when the test ends"},
            {"soft_arrest", "the tip waits in front of soft material"},
-           {"guidance", "the path seeks soft material and interfaces"}}};
+           {"guidance", "the path prefers soft material and interfaces"}}};
 }
 
 std::array<double, 5> values_of(const Mechanisms& m) {
   return {m.deflection, m.branching, m.bridging, m.soft_arrest, m.guidance};
 }
 
-Mechanisms mechanisms_of(const fem::Grid& notched, const Record& record) {
+Mechanisms mechanisms_of(const fem::Grid& notched, const CrackRecord& record) {
   if (!record.path) return {};
-  const Path& path = *record.path;
+  const CrackPath& path = *record.path;
   return {.deflection = path.ratio() - 1.0,
           .branching = static_cast<double>(record.branches + record.separate_cracks),
           .bridging = path.bridged_share,
@@ -67,7 +67,7 @@ Mechanisms mechanisms_of(const fem::Grid& notched, const Record& record) {
           .guidance = path.material[0] + path.material[2] - weak_share(notched)};
 }
 
-Mechanisms mechanisms_of(const tester::Simulation& simulation, const Record& record) {
+Mechanisms mechanisms_of(const tester::Simulation& simulation, const CrackRecord& record) {
   return mechanisms_of(tester::fracture_test(simulation).grid, record);
 }
 

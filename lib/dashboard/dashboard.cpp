@@ -358,9 +358,9 @@ Response Dashboard::decide(const Request& request) {
 Response Dashboard::group(const Request& request) {
   const auto grouping = or_refuse(grouping_from_json(request.body));
   const auto measured = measured_members(*data_.record());
-  for (const families::Family& family : grouping)
+  for (const families::SeedFamily& family : grouping)
     for (const pattern::Pattern& seed : family.seeds)
-      if (std::ranges::count(measured, seed, &families::Member::pattern) == 0)
+      if (std::ranges::count(measured, seed, &families::MeasuredPattern::pattern) == 0)
         throw Refusal{400, fmt::format("{}: seed {} is not measured in both tests yet", family.name, seed.key())};
   const std::lock_guard lock(desk_mutex_);
   desk_.keep_grouping(family_folder_.path(), grouping);

@@ -23,7 +23,7 @@ Json specimen_json(const store::MeasuredSpecimen& specimen) {
 }
 
 Json crack_json(const store::RecordedCrack& recorded) {
-  const crack::Record& c = recorded.crack;
+  const crack::CrackRecord& c = recorded.crack;
   Json json = {{"film", !recorded.film.empty()},
                {"broken", recorded.broken},
                {"branches", c.branches},

@@ -11,6 +11,7 @@
 #include "families/grouping.hpp"
 #include "game/design_states.hpp"
 #include "material/parameters.hpp"
+#include "measurement/specimen_record.hpp"
 #include "nacre/diagnosis_t.hpp"
 #include "nacre/node_status_t.hpp"
 #include "wire/convert.hpp"
@@ -84,7 +85,8 @@ class Desk {
   virtual std::optional<std::string> against(const Approval& approval) = 0;
   /// Writes families.toml into `folder`: a game's family stage uses it when it begins, `nacre families` whenever it is
   /// called.
-  virtual void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) = 0;
+  virtual void keep_grouping(const std::filesystem::path& folder,
+                             const std::vector<families::SeedFamily>& families) = 0;
 };
 
 }  // namespace nacre::dashboard

@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/names.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
-#include "measurement/entry.hpp"
+#include "measurement/typed_specimen.hpp"
 #include "pattern/design.hpp"
 #include "pattern/pattern_key.hpp"
 
@@ -142,14 +143,14 @@ Result<Approval> approval_from_json(std::string_view text) {
   return Approval{design->name(), *round, *approved, *by, *why};
 }
 
-Result<std::vector<families::Family>> grouping_from_json(std::string_view text) {
+Result<std::vector<families::SeedFamily>> grouping_from_json(std::string_view text) {
   const Result<Json> object = object_in(text);
   if (!object) return tl::unexpected(object.error());
   const auto listed = object->find("families");
   if (listed == object->end()) return fail("families: is missing, expected a list");
   if (!listed->is_array() || listed->empty())
     return fail("families: {}, expected a list of one family at least", typed(*listed));
-  std::vector<families::Family> families;
+  std::vector<families::SeedFamily> families;
   for (const Json& each : *listed) {
     if (!each.is_object()) return fail("families: {}, expected objects with name and seeds", typed(each));
     const auto name = text_of(each, "name", true);
@@ -157,7 +158,7 @@ Result<std::vector<families::Family>> grouping_from_json(std::string_view text) 
     if (!families::is_family_name(*name))
       return fail("name: '{}', expected at most {} letters, digits, - and _, not digits alone", *name,
                   families::kLongestFamilyName);
-    families::Family& family = families.emplace_back(families::Family{.name = *name, .seeds = {}});
+    families::SeedFamily& family = families.emplace_back(families::SeedFamily{.name = *name, .seeds = {}});
     const auto seeds = each.find("seeds");
     if (seeds == each.end() || !seeds->is_array())
       return fail("family {}: seeds: expected a list of pattern keys", *name);

@@ -5,7 +5,6 @@
 
 #include "base/result.hpp"
 #include "dashboard/desk.hpp"
-#include "measurement/measurement.hpp"
 
 namespace nacre::dashboard {
 
@@ -30,6 +29,6 @@ struct SimulationRequest {
 Result<SimulationRequest> simulation_request_from_json(std::string_view text);
 
 /// Families, a list of `name` and `seeds` (pattern keys): each name once, each seed in one family.
-Result<std::vector<families::Family>> grouping_from_json(std::string_view text);
+Result<std::vector<families::SeedFamily>> grouping_from_json(std::string_view text);
 
 }  // namespace nacre::dashboard

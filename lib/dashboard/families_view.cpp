@@ -23,7 +23,7 @@ Json design_json(const game::FamilyDesign& design, const store::RecordedFamily& 
 }
 
 Json stage_json(const store::RecordedFamily& family) {
-  const wire::Family& stated = family.stated;
+  const wire::CalibratedFamily& stated = family.stated;
   const game::FamilyErrors errors = game::family_errors(stated.designs);
   Json designs = Json::array(), over_fits = Json::array(), parameters = Json::object();
   for (const game::FamilyDesign& design : stated.designs) designs.push_back(design_json(design, family));
@@ -48,8 +48,8 @@ Json stage_json(const store::RecordedFamily& family) {
 
 }  // namespace
 
-std::vector<families::Member> measured_members(const store::RunRecord& run) {
-  std::vector<families::Member> members;
+std::vector<families::MeasuredPattern> measured_members(const store::RunRecord& run) {
+  std::vector<families::MeasuredPattern> members;
   for (const auto& each : store::measured_patterns(run, store::newest_round(run).value_or(0)))
     members.push_back({each.pattern, each.mean});
   return members;
@@ -58,7 +58,7 @@ std::vector<families::Member> measured_members(const store::RunRecord& run) {
 Json families_json(const store::RunRecord& run, const Grouping& grouping) {
   Json stage = Json::array(), groups = Json::array(), near = Json::array();
   for (const store::RecordedFamily& family : run.families) stage.push_back(stage_json(family));
-  for (const families::Family& group : grouping.families) {
+  for (const families::SeedFamily& group : grouping.families) {
     Json seeds = Json::array();
     for (const pattern::Pattern& seed : group.seeds) seeds.push_back(seed.key());
     groups.push_back({{"name", group.name}, {"seeds", seeds}});

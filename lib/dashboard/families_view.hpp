@@ -12,14 +12,14 @@ namespace nacre::dashboard {
 
 /// Which measured designs belong together, and where the grouping comes from.
 struct Grouping {
-  std::vector<families::Family> families;
+  std::vector<families::SeedFamily> families;
   std::vector<pattern::Pattern> near_pareto;  ///< what a person may choose from
   std::string from;                           ///< `file` (families.toml) or `proposal`
   std::string problem;                        ///< why the file is not used; empty when it is, or when there is none
 };
 
 /// The patterns that the run has measured in both tests.
-std::vector<families::Member> measured_members(const store::RunRecord& run);
+std::vector<families::MeasuredPattern> measured_members(const store::RunRecord& run);
 
 /// Families of the stage after the game with designs, errors of both models and whether they over-fit; and the
 /// grouping.

@@ -4,7 +4,8 @@
 
 #include "base/files.hpp"
 #include "film/film_file.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::dashboard {
 namespace {

@@ -7,7 +7,9 @@
 #include "base/files.hpp"
 #include "dashboard/gamut_view.hpp"
 #include "families/barycentre.hpp"
+#include "families/families_file.hpp"
 #include "families/isomap.hpp"
+#include "material/parameter_file.hpp"
 #include "pattern/constraints.hpp"
 #include "pattern/design.hpp"
 #include "pattern/pattern_key.hpp"
@@ -162,10 +164,10 @@ Result<PatternMap> FamilyFolder::map(const std::string& id) const {
   }
 }
 
-Grouping FamilyFolder::grouping(std::span<const families::Member> measured, int rank) const {
+Grouping FamilyFolder::grouping(std::span<const families::MeasuredPattern> measured, int rank) const {
   Grouping grouping{.families = {}, .near_pareto = {}, .from = "proposal", .problem = ""};
-  const std::vector<families::Member> near = families::near_pareto(measured, rank);
-  for (const families::Member& member : near) grouping.near_pareto.push_back(member.pattern);
+  const std::vector<families::MeasuredPattern> near = families::near_pareto(measured, rank);
+  for (const families::MeasuredPattern& member : near) grouping.near_pareto.push_back(member.pattern);
   if (!near.empty()) grouping.families = families::proposed_families(near);
   std::error_code unreadable;
   const std::filesystem::path file = folder_ / "families.toml";
@@ -210,7 +212,7 @@ Result<Json> between(std::string_view patterns, std::string_view weights) {
     amounts.push_back(*amount);
   }
   if (sources.empty()) return fail("weights: all are 0, expected one above 0");
-  const auto pattern = families::barycentre(sources, amounts, families::Cut::amount);
+  const auto pattern = families::barycentre(sources, amounts, families::BarycentreCut::amount);
   if (!pattern) return Json{{"pattern", nullptr}, {"violation", "these patterns have no soft material to move"}};
   return Json{{"pattern", pattern->key()},
               {"rigid_fraction", pattern->rigid_fraction()},

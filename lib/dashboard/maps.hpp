@@ -47,7 +47,7 @@ class FamilyFolder {
   /// The map `FAMILY/SEED`. The error says what is wrong with the id or the file.
   Result<PatternMap> map(const std::string& id) const;
   /// families.toml where it can be read, else a proposal; of designs up to `rank`.
-  Grouping grouping(std::span<const families::Member> measured, int rank) const;
+  Grouping grouping(std::span<const families::MeasuredPattern> measured, int rank) const;
   const std::filesystem::path& path() const { return folder_; }
   /// The family's own model.
   Result<material::ParameterSet> model(const std::string& family) const;

@@ -7,7 +7,9 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/contrasts.hpp"
 #include "diagnosis/discrepancy_model.hpp"
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::diagnosis {
 namespace {

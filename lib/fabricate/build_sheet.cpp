@@ -9,6 +9,7 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "fabricate/build_sheet_html.hpp"
 #include "fabricate/preview.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "pattern/coupons.hpp"
@@ -37,7 +38,7 @@ std::pair<double, double> fraction_by_layer(const StackCount& count) {
   return {least, most};
 }
 
-Json test_json(const Model& model) {
+Json test_json(const PrintModel& model) {
   const SpecimenGeometry geometry = geometry_of(model.plan.kind);
   Json test{{"width_mm", geometry.test_width_mm},
             {"gauge_mm", geometry.gauge_mm},
@@ -49,7 +50,7 @@ Json test_json(const Model& model) {
   return test;
 }
 
-Json model_json(const Model& model, const WrittenModel& written) {
+Json model_json(const PrintModel& model, const WrittenModel& written) {
   const auto [least, most] = fraction_by_layer(written.count);
   return {{"name", model.name},
           {"slices", slices_of(written)},
@@ -72,8 +73,8 @@ Json model_json(const Model& model, const WrittenModel& written) {
           {"testing", test_json(model)}};
 }
 
-Json specimen_json(const Job& job, const Placed& specimen) {
-  const Model& model = job.models[specimen.model];
+Json specimen_json(const Job& job, const PlacedSpecimen& specimen) {
+  const PrintModel& model = job.models[specimen.model];
   return {{"label", specimen.label},
           {"model", model.name},
           {"design", model.wanted.design.name()},
@@ -91,7 +92,7 @@ Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
   const Printer& printer = request.printer;
   Json models = Json::array(), specimens = Json::array();
   for (std::size_t i = 0; i < job.models.size(); ++i) models.push_back(model_json(job.models[i], written[i]));
-  for (const Placed& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
+  for (const PlacedSpecimen& specimen : job.specimens) specimens.push_back(specimen_json(job, specimen));
   return {
       {"job", request.name},
       {"seed", request.seed},
@@ -99,14 +100,14 @@ Json sheet_json(const Job& job, const std::vector<WrittenModel>& written) {
        {{"dpi", {printer.dpi_x, printer.dpi_y, printer.dpi_z}}, {"tray_mm", {printer.tray_x_mm, printer.tray_y_mm}}}},
       {"palette", {"none", "soft", "rigid"}},
       {"interface", request.interface == Interface::engineered ? "engineered" : "sharp"},
-      {"grips", request.grips == Grips::pattern ? "pattern" : "rigid"},
+      {"grips", request.grips == GripMaterial::pattern ? "pattern" : "rigid"},
       {"cut", request.notch.print_cut ? "printed" : "to be milled"},
       {"trays", job.trays},
       {"models", models},
       {"specimens", specimens}};
 }
 
-/// A sheet without what was counted in the files.
+/// A sheet without the figures that were counted in the files.
 Json plan_of(Json sheet) {
   for (Json& model : sheet.at("models")) {
     for (const char* counted :
@@ -117,9 +118,9 @@ Json plan_of(Json sheet) {
 }
 
 /// One row under measurement::kJobHeading.
-std::string specimen_row(const Job& job, const Placed& specimen) {
-  const Model& model = job.models[specimen.model];
-  const Wanted& wanted = model.wanted;
+std::string specimen_row(const Job& job, const PlacedSpecimen& specimen) {
+  const PrintModel& model = job.models[specimen.model];
+  const WantedSpecimens& wanted = model.wanted;
   const SpecimenGeometry geometry = geometry_of(model.plan.kind);
   return fmt::format("{0}.csv,{0},{1},{2},{3},{4},{5},{6},{7:.6g},{8},{9},{10},{11},{12},,,,,\n", specimen.label,
                      csv_cell(wanted.design.name()), tester::to_string(wanted.test), geometry.test_width_mm,
@@ -139,8 +140,8 @@ void take_away_when_empty(const std::filesystem::path& folder) {
   if (std::filesystem::is_empty(folder, failure) && !failure) take_away(folder);
 }
 
-/// Where a model of the job in `folder` was written; nothing where its name is no name of a folder in there, or the
-/// folder is a link: what lies behind it is not the job's.
+/// The folder of a model of the job in `folder`; nothing where its name is not that of a folder there, or the folder is
+/// a link: the files behind it do not belong to the job.
 std::optional<std::filesystem::path> place_of(const Json& model, const std::filesystem::path& folder) {
   const auto slices = model.at("slices").get<std::string>();
   if (slices == "slices") return folder;
@@ -152,7 +153,7 @@ std::optional<std::filesystem::path> place_of(const Json& model, const std::file
 
 /// The slices and the preview of one model.
 void forget_model(const Json& model, const std::filesystem::path& folder) {
-  constexpr int kMostSlices = 100'000;  // whatever a damaged sheet says
+  constexpr int kMostSlices = 100'000;  // limits the effect of a damaged sheet
   const auto place = place_of(model, folder);
   if (!place) return;
   const std::filesystem::path slices = *place / "slices";
@@ -165,7 +166,7 @@ void forget_model(const Json& model, const std::filesystem::path& folder) {
   if (*place != folder) take_away_when_empty(*place);
 }
 
-/// What the build sheet in `folder` lists; nothing without a sheet that can be read.
+/// Removes what the build sheet in `folder` lists; does nothing without a readable sheet.
 void forget_models(const std::filesystem::path& folder) {
   std::error_code unreadable;
   if (!std::filesystem::exists(folder / kSheetName, unreadable)) return;
@@ -173,7 +174,7 @@ void forget_models(const std::filesystem::path& folder) {
     const Json sheet = Json::parse(read_file(folder / kSheetName));
     for (const Json& model : sheet.at("models")) forget_model(model, folder);
   } catch (const Json::exception&) {
-    return;  // somebody else's file
+    return;  // a file of something else
   }
 }
 
@@ -204,7 +205,7 @@ void forget_job(const std::filesystem::path& folder) {
 
 std::string specimen_table(const Job& job) {
   std::string table = fmt::format("{}\n", measurement::kJobHeading);
-  for (const Placed& specimen : job.specimens) table += specimen_row(job, specimen);
+  for (const PlacedSpecimen& specimen : job.specimens) table += specimen_row(job, specimen);
   return table;
 }
 
@@ -214,7 +215,7 @@ std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path&
     if (progress)
       progress((static_cast<double>(written.size()) + share_of_model) / static_cast<double>(job.models.size()), what);
   };
-  for (const Model& model : job.models) {
+  for (const PrintModel& model : job.models) {
     const DropletPlan plan(model.plan, job.request.printer);
     WrittenModel stack{.folder = job.models.size() == 1 ? "" : model.name, .count = {}};
     const std::filesystem::path place = folder / stack.folder;

@@ -12,13 +12,13 @@
 
 namespace nacre::fabricate {
 
-/// What was written for one model.
+/// The files of one model.
 struct WrittenModel {
   std::string folder;  ///< of its slices and preview, relative to the job; "" for a job of one model
   StackCount count;    ///< counted back from the files
 };
 
-/// Called with the share done (0..1) and what is being done.
+/// Called with the finished share (0..1) and the present activity.
 using JobProgress = std::function<void(double, std::string_view)>;
 
 /// Writes a job into `folder`: per model `slices/NNNN.png` and `preview.png` (in the folder itself when there is one
@@ -27,18 +27,15 @@ using JobProgress = std::function<void(double, std::string_view)>;
 std::vector<WrittenModel> write_job(const Job& job, const std::filesystem::path& folder,
                                     const JobProgress& progress = {});
 
-/// Whether the sheets in `folder` are of another job than this, so that writing this one would lose them.
+/// Whether the sheets in `folder` belong to another job, so that writing this one would lose them.
 bool holds_another_job(const std::filesystem::path& folder, const Job& job);
 
-/// Takes a job away so that another can be written: its slices and previews, as its build sheet lists them, folders
-/// that are empty then, and last its sheets, what people filled in included. Other files stay. Throws InputError.
+/// Removes a job so that another can be written: its slices and previews, as its build sheet lists them, folders that
+/// are empty then, and last its sheets, including what people filled in. Other files stay. Throws InputError.
 void forget_job(const std::filesystem::path& folder);
 
 /// The build sheet as JSON (docs/FORMATS.md).
 std::string build_sheet_json(const Job& job, const std::vector<WrittenModel>& written);
-
-/// The same for people, with a drawing of each tray.
-std::string build_sheet_html(const Job& job, const std::vector<WrittenModel>& written);
 
 /// The table that `nacre import --specimens` reads, one row per specimen, to be filled in at the testing machine.
 std::string specimen_table(const Job& job);

@@ -1,11 +1,11 @@
-// The build sheet as people read it at the printer and at the testing machine: one self-contained page.
+#include "fabricate/build_sheet_html.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "fabricate/build_sheet.hpp"
 #include "pattern/coupons.hpp"
+#include "pattern/phase_colours.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -17,6 +17,7 @@ table {{ border-collapse: collapse; margin: .5rem 0 1.5rem; }}
 th, td {{ border: 1px solid #c8ccd2; padding: .25rem .6rem; text-align: left; vertical-align: top; }}
 td.n {{ text-align: right; font-variant-numeric: tabular-nums; }}
 code {{ overflow-wrap: anywhere; }}
+.swatch {{ display: inline-block; width: .9em; height: .9em; margin: 0 .3em 0 .8em; vertical-align: -.1em; }}
 svg {{ border: 1px solid #8a919b; background: #fafbfc; margin: 0 1rem 1rem 0; max-width: 100%; }}
 img {{ max-width: 100%; border: 1px solid #c8ccd2; }}
 </style></head><body>
@@ -46,13 +47,17 @@ std::string settings(const Job& job) {
       "{}.</p>\n",
       job.specimens.size(), job.models.size(), job.trays, printer.tray_x_mm, printer.tray_y_mm, printer.dpi_x,
       printer.dpi_y, printer.dpi_z, request.interface == Interface::engineered ? "engineered" : "sharp",
-      request.grips == Grips::pattern ? "the pattern" : "rigid", request.seed);
+      request.grips == GripMaterial::pattern ? "the pattern" : "rigid", request.seed);
+}
+
+std::string legend_entry(std::uint32_t rgb, const char* name) {
+  return fmt::format("<span class=swatch style=\"background:{}\"></span>{}", pattern::html_colour(rgb), name);
 }
 
 std::string models_table(const Job& job, const std::vector<WrittenModel>& written) {
   std::string rows;
   for (std::size_t i = 0; i < job.models.size(); ++i) {
-    const Model& model = job.models[i];
+    const PrintModel& model = job.models[i];
     const std::string folder = written[i].folder.empty() ? "" : written[i].folder + "/";
     rows += fmt::format(
         "<tr><td><a href=\"{0}preview.png\">{1}</a></td><td><code>{2}</code></td><td>{3}</td><td class=n>{4}</td>"
@@ -64,8 +69,10 @@ std::string models_table(const Job& job, const std::vector<WrittenModel>& writte
         model.wanted.design.rigid_fraction(), rigid_fraction(written[i].count.total),
         test_speed_mm_per_min(model.wanted), escaped(pull_in_words(model.wanted.loading)));
   }
-  return "<h2>Models</h2>\n<p>Pictures (preview.png): soft is black, rigid white, what is not printed "
-         "blue.</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
+  return "<h2>Models</h2>\n<p>Colours of pictures (preview.png) and slices:" +
+         legend_entry(pattern::kRigidRgb, "rigid") + legend_entry(pattern::kSoftRgb, "soft") +
+         legend_entry(pattern::kNotPrintedRgb, "not printed") +
+         "</p>\n<table><tr><th>model</th><th>design</th><th>test</th><th>copies</th><th>size, mm</th>"
          "<th>slices</th><th>rigid, designed</th><th>rigid, counted in the slices</th><th>test speed, "
          "mm/min</th><th>pull</th></tr>"
          "\n" +
@@ -82,9 +89,9 @@ std::string tray_drawing(const Job& job, int tray) {
   std::string drawing =
       fmt::format("<svg width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"0 0 {} {}\">\n", printer.tray_x_mm * kPointsPerMm,
                   printer.tray_y_mm * kPointsPerMm, printer.tray_x_mm, printer.tray_y_mm);
-  for (const Placed& specimen : job.specimens) {
+  for (const PlacedSpecimen& specimen : job.specimens) {
     if (specimen.tray != tray) continue;
-    const Model& model = job.models[specimen.model];
+    const PrintModel& model = job.models[specimen.model];
     const double top_mm = printer.tray_y_mm - specimen.y_mm - model.size_y_mm;  // the front is drawn at the bottom
     drawing += fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" stroke=\"#555\" "
@@ -106,8 +113,8 @@ std::string trays(const Job& job) {
 
 std::string specimens_table(const Job& job) {
   std::string rows;
-  for (const Placed& specimen : job.specimens) {
-    const Model& model = job.models[specimen.model];
+  for (const PlacedSpecimen& specimen : job.specimens) {
+    const PrintModel& model = job.models[specimen.model];
     rows += fmt::format(
         "<tr><td class=n>{}</td><td><b>{}</b></td><td>{}</td><td class=n>{}</td><td class=n>{}</td>"
         "<td class=n>{:.1f}</td><td class=n>{:.1f}</td></tr>\n",
@@ -131,10 +138,11 @@ std::string instructions(const Job& job) {
       "date, operator and machine.</li>\n"
       "<li>Pull at the speed above. Toughness: grips 54 mm apart, to complete separation. Modulus and tensile (ASTM "
       "D638 type I): grips 115 mm apart; <code>gauge_mm</code> is the extensometer's gauge (50), or {:.1f} where only "
-      "the travel of the grips is recorded. Where <i>pull</i> above names strains, from one to the next at that speed, "
-      "in one record with the ways back.</li>\n"
+      "the travel of the grips is recorded. Where <i>pull</i> above names strains, go from one to the next at that "
+      "speed "
+      "and record unloading too, in one file.</li>\n"
       "<li>Export time, extension and force of each test as CSV, name the files in the column <code>file</code>, note "
-      "under <code>path</code> how the crack ran (any word, the same word for the same course), then "
+      "under <code>path</code> the path of the crack (any word, the same word for the same path), then "
       "<code>nacre import *.csv --specimens specimens.csv --out SET</code>.</li>\n</ol>\n",
       cut ? "" : ", then mill a triangular cut of 60 degrees, 7.8 mm deep, on the notch's axis",
       bar_effective_gauge_mm());

@@ -10,7 +10,7 @@ namespace nacre::fabricate {
 /// of the pixel, rounded (3, 4, 5 -> 1; 6, 7 -> 2; the table's rows, continued to 7 and beyond).
 constexpr int interface_droplets(int droplets) { return (droplets + 2) / 4; }
 
-/// Where one droplet lies: in pixel `own`, either in its centre part (`neighbour` == `own`) or in the interface part
+/// Place of one droplet: in pixel `own`, either in its centre part (`neighbour` == `own`) or in the interface part
 /// that it shares with the pixel before or after it.
 struct AxisPlace {
   std::int32_t own = 0;

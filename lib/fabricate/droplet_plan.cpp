@@ -113,7 +113,7 @@ Area DropletPlan::area(int column, int row) const {
 
 Droplet DropletPlan::designed(int column, int row) const {
   if (!solid(column, row)) return Droplet::none;
-  if (specimen_.design.layout() != nullptr && specimen_.grips == Grips::rigid && in_grip(column, row))
+  if (specimen_.design.layout() != nullptr && specimen_.grips == GripMaterial::rigid && in_grip(column, row))
     return Droplet::rigid;
   const AxisPlace &px = x_.place(column), &py = y_.place(row);
   const bool own_is_rigid = pixel_is_rigid(px.own, py.own);

@@ -13,7 +13,7 @@
 
 namespace nacre::fabricate {
 
-/// What a droplet is made of, as written in slices.
+/// Material of a droplet, as written in slices.
 enum class Droplet : std::uint8_t { none = 0, soft = 1, rigid = 2 };
 
 /// How the interface between unlike pixels is printed.
@@ -22,8 +22,8 @@ enum class Interface {
   sharp,       ///< every droplet has the material of its pixel
 };
 
-/// What the gripped ends of a pattern's specimen are made of.
-enum class Grips { pattern, rigid };
+/// Material of the gripped ends of a pattern's specimen.
+enum class GripMaterial { pattern, rigid };
 
 /// The areas into which pixels are divided (2.2.3, Figure 2-3): inside one pixel, or an interface area of type 1
 /// (neighbours along the printer's x), 2 (along y) or 3 (around a corner).
@@ -36,7 +36,7 @@ struct SpecimenPlan {
   double orientation_deg = 0.0;  ///< 0: pulled along the printer's y; 90: turned counter-clockwise, along x
   double thickness_mm = 3.2;
   Interface interface = Interface::engineered;
-  Grips grips = Grips::pattern;
+  GripMaterial grips = GripMaterial::pattern;
   NotchOptions notch = {};
   std::uint64_t seed = 1;  ///< of homogeneous mixtures
 };
@@ -54,13 +54,13 @@ struct Slice {
 using DropletCount = std::array<std::int64_t, 3>;
 DropletCount count_droplets(const Slice& slice);
 
-/// Rigid droplets among those printed; 0 when nothing is.
+/// Share of rigid droplets among those printed; 0 when none is.
 double rigid_fraction(const DropletCount& count);
 
 /// Decides the material of every droplet, layer by layer; about 2 bytes of memory per droplet of a layer.
 class DropletPlan {
  public:
-  /// Throws InputError for an orientation other than 0 or 90, a thickness outside 0.1 to 50 mm, a notch that is no
+  /// Throws InputError for an orientation other than 0 or 90, a thickness outside 0.1 to 50 mm, an impossible
   /// notch, or a printer that check_printer() refuses.
   DropletPlan(const SpecimenPlan& specimen, const Printer& printer);
 

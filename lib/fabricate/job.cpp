@@ -17,7 +17,7 @@ namespace {
 
 void check_name(const std::string& name) {
   if (!is_plain_name(name, 40, "."))
-    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ - (--batch names it)", name);
+    throw InputError::format("batch \"{}\": expected 1 to 40 of A-Z, a-z, 0-9, . _ - (option --batch)", name);
 }
 
 /// A design as part of a folder's name: keys of coupons, which are long, by their first digits of a hash.
@@ -29,11 +29,11 @@ std::string short_name(const pattern::Design& design) {
   return name;
 }
 
-Model model_of(const Wanted& wanted, const JobRequest& request) {
+PrintModel model_of(const WantedSpecimens& wanted, const JobRequest& request) {
   if (wanted.replicates < 1 || wanted.replicates > 100) {
     throw InputError::format("{}: {} replicates, expected 1 to 100", wanted.design.name(), wanted.replicates);
   }
-  Model model{.wanted = wanted, .plan = {}, .name = {}};
+  PrintModel model{.wanted = wanted, .plan = {}, .name = {}};
   model.plan = {.design = wanted.design,
                 .kind = specimen_kind(wanted.test),
                 .orientation_deg = wanted.orientation_deg,
@@ -54,11 +54,11 @@ Model model_of(const Wanted& wanted, const JobRequest& request) {
 }
 
 /// Models by their number, each as often as it has replicates, random within blocks of one of each.
-std::vector<std::pair<std::size_t, int>> random_blocks(const std::vector<Model>& models, std::uint64_t seed) {
+std::vector<std::pair<std::size_t, int>> random_blocks(const std::vector<PrintModel>& models, std::uint64_t seed) {
   RandomStream random(seed, "print order");
   std::vector<std::pair<std::size_t, int>> order;
   int rounds = 0;
-  for (const Model& model : models) rounds = std::max(rounds, model.wanted.replicates);
+  for (const PrintModel& model : models) rounds = std::max(rounds, model.wanted.replicates);
   for (int replicate = 1; replicate <= rounds; ++replicate) {
     std::vector<std::size_t> block;
     for (std::size_t model = 0; model < models.size(); ++model) {
@@ -81,7 +81,7 @@ class Tray {
       : printer_(printer), gap_mm_(gap_mm), least_fill_(least_fill) {}
 
   /// Front left corner of the place found; nothing when the tray is full.
-  std::optional<std::pair<double, double>> place(const Model& model) {
+  std::optional<std::pair<double, double>> place(const PrintModel& model) {
     for (Shelf& shelf : shelves_) {
       const bool too_deep = model.size_y_mm > shelf.depth_mm,
                  too_shallow = model.size_y_mm < least_fill_ * shelf.depth_mm;
@@ -101,7 +101,7 @@ class Tray {
   struct Shelf {
     double begin_mm, depth_mm, used_mm;
   };
-  std::pair<double, double> put(Shelf& shelf, const Model& model) const {
+  std::pair<double, double> put(Shelf& shelf, const PrintModel& model) const {
     const double x_mm = shelf.used_mm + gap_mm_;
     shelf.used_mm = x_mm + model.size_x_mm;
     return {x_mm, shelf.begin_mm};
@@ -118,7 +118,7 @@ void place_all(Job& job, double least_fill) {
   const JobRequest& request = job.request;
   std::vector<Tray> trays;
   for (const auto& [index, replicate] : random_blocks(job.models, request.seed)) {
-    const Model& model = job.models[index];
+    const PrintModel& model = job.models[index];
     std::optional<std::pair<double, double>> place;
     std::size_t tray = 0;
     for (; tray < trays.size() && !place; ++tray) place = trays[tray].place(model);
@@ -146,7 +146,7 @@ void place_all(Job& job, double least_fill) {
 /// Print order and labels, tray by tray.
 void number(Job& job) {
   std::stable_sort(job.specimens.begin(), job.specimens.end(),
-                   [](const Placed& a, const Placed& b) { return a.tray < b.tray; });
+                   [](const PlacedSpecimen& a, const PlacedSpecimen& b) { return a.tray < b.tray; });
   const int digits = job.specimens.size() < 100 ? 2 : 4;
   for (std::size_t i = 0; i < job.specimens.size(); ++i) {
     job.specimens[i].print_order = static_cast<int>(i) + 1;
@@ -168,7 +168,7 @@ std::string pull_in_words(const tester::Loading& loading) {
   return words.empty() ? tester::to_string(loading) : words;
 }
 
-double test_speed_mm_per_min(const Wanted& wanted) {
+double test_speed_mm_per_min(const WantedSpecimens& wanted) {
   // A bar is strained by the travel over its effective length, whatever the extensometer's gauge is.
   const SpecimenKind kind = specimen_kind(wanted.test);
   const double length_mm = kind == SpecimenKind::toughness ? geometry_of(kind).gauge_mm : bar_effective_gauge_mm();
@@ -184,10 +184,10 @@ Job plan_job(const JobRequest& request) {
   if (!(request.gap_mm >= 0.0 && request.gap_mm <= 100.0))
     throw InputError::format("gap of {} mm: expected 0 to 100", request.gap_mm);
   Job job{.request = request, .models = {}, .specimens = {}};
-  for (const Wanted& wanted : request.wanted) {
-    Model model = model_of(wanted, request);
+  for (const WantedSpecimens& wanted : request.wanted) {
+    PrintModel model = model_of(wanted, request);
     const std::string name = model.name;
-    const auto taken = [&](const Model& other) { return other.name == model.name; };
+    const auto taken = [&](const PrintModel& other) { return other.name == model.name; };
     for (int copy = 2; std::any_of(job.models.begin(), job.models.end(), taken); ++copy)
       model.name = fmt::format("{}-{}", name, copy);
     job.models.push_back(std::move(model));

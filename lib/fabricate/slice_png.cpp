@@ -1,4 +1,4 @@
-// libpng, in the corner where its long jumps cannot skip a destructor.
+#include "fabricate/slice_png.hpp"
 
 #include <png.h>
 #include <zlib.h>
@@ -9,21 +9,24 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
-#include "fabricate/slices.hpp"
+#include "pattern/phase_colours.hpp"
 
+// libpng reports errors by long jumps: no function that may jump holds an object with a destructor.
 namespace nacre::fabricate {
 namespace {
 
-// Nothing (support or air) in light blue, soft black, rigid white: told apart in any viewer.
-constexpr std::array<png_color, 3> kPalette = {png_color{170, 200, 235}, png_color{20, 20, 20},
-                                               png_color{245, 245, 245}};
+constexpr png_color colour_of(std::uint32_t rgb) {
+  return {static_cast<png_byte>(rgb >> 16), static_cast<png_byte>(rgb >> 8 & 0xff), static_cast<png_byte>(rgb & 0xff)};
+}
+constexpr std::array kPalette = {colour_of(pattern::kNotPrintedRgb), colour_of(pattern::kSoftRgb),
+                                 colour_of(pattern::kRigidRgb)};
 
-struct Fault {
+struct PngFault {
   std::array<char, 128> text{};
 };
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  auto* fault = static_cast<Fault*>(png_get_error_ptr(png));
+  auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
   std::strncpy(fault->text.data(), message, fault->text.size() - 1);
   png_longjmp(png, 1);
 }
@@ -56,21 +59,21 @@ bool encode(png_structp png, png_infop info, const Slice& slice, const Printer& 
   return true;
 }
 
-/// What is still to be read of a file.
-struct Source {
+/// The unread rest of a file.
+struct PngSource {
   const char* at;
   std::size_t left;
 };
 
 void take(png_structp png, png_bytep bytes, std::size_t count) {
-  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
   if (count > source->left) png_error(png, "the file ends early");
   std::memcpy(bytes, source->at, count);
   source->at += count;
   source->left -= count;
 }
 
-bool decode_head(png_structp png, png_infop info, Source* source, Slice* slice) {
+bool decode_head(png_structp png, png_infop info, PngSource* source, Slice* slice) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, source, take);
   png_read_info(png, info);
@@ -92,7 +95,7 @@ bool decode_rows(png_structp png, Slice* slice) {
 }  // namespace
 
 std::string to_png(const Slice& slice, const Printer& printer, bool is_noise) {
-  Fault fault;
+  PngFault fault;
   std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png_create_info_struct(png);
@@ -105,8 +108,8 @@ std::string to_png(const Slice& slice, const Printer& printer, bool is_noise) {
 Slice read_slice(const std::filesystem::path& path) {
   constexpr int kLongestSide = 1 << 17;
   const std::string file = read_file(path);
-  Source source{file.data(), file.size()};
-  Fault fault;
+  PngSource source{file.data(), file.size()};
+  PngFault fault;
   Slice slice;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png_create_info_struct(png);
@@ -121,7 +124,7 @@ Slice read_slice(const std::filesystem::path& path) {
   }
   png_destroy_read_struct(&png, &info, nullptr);
   if (!read)
-    throw InputError::format("{}: no readable slice: {}; expected an indexed PNG", path.string(), fault.text.data());
+    throw InputError::format("{}: not a readable slice: {}; expected an indexed PNG", path.string(), fault.text.data());
   for (const Droplet droplet : slice.droplets) {
     if (droplet > Droplet::rigid) {
       throw InputError::format("{}: index {} in the picture, expected 0 none, 1 soft or 2 rigid", path.string(),

@@ -11,6 +11,7 @@
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "base/result.hpp"
+#include "fabricate/slice_png.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -32,7 +33,7 @@ void empty_folder_of_slices(const std::filesystem::path& folder) {
   for (const auto& path : old) std::filesystem::remove(path, failure);
 }
 
-/// Plainly: thousands of slices need no sync to disk each, the build sheet that vouches for them comes last.
+/// Without sync to disk: thousands of slices would be slow, and the build sheet that lists them is written last.
 void write_plainly(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -13,14 +13,7 @@ namespace nacre::fabricate {
 /// `0000.png`, `0001.png`, ... from the tray upwards.
 std::string slice_name(int layer);
 
-/// A slice as PNG: 8-bit palette, with the droplet pitch as physical size. `is_noise`: a mixture, whose droplets only a
-/// Huffman code can shorten.
-std::string to_png(const Slice& slice, const Printer& printer, bool is_noise);
-
-/// Reads a slice back, of any bit depth. Throws InputError when the file is no indexed PNG or holds an index above 2.
-Slice read_slice(const std::filesystem::path& path);
-
-/// Droplets counted back from files.
+/// Droplets counted in the files.
 struct StackCount {
   int layers = 0;
   int columns = 0;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::fabricate {
 
@@ -13,10 +13,10 @@ enum class SpecimenKind {
   tensile_bar,  ///< ASTM D638 type I, for Young's modulus and the tensile tests of homogeneous coupons
 };
 
-/// What a test is made on.
+/// The specimen of a test.
 SpecimenKind specimen_kind(tester::TestKind test);
 
-/// What a specimen looks like and how it is gripped, lengths in mm. The long axis is the pulling direction.
+/// Shape and grips of a specimen, lengths in mm. The long axis is the pulling direction.
 struct SpecimenGeometry {
   std::int64_t width_um = 0;
   std::int64_t length_um = 0;
@@ -26,7 +26,7 @@ struct SpecimenGeometry {
 };
 SpecimenGeometry geometry_of(SpecimenKind kind);
 
-/// The height of the printed notch and the choice of what is cut into the slices.
+/// The height of the printed notch, and whether the cut is printed.
 struct NotchOptions {
   double height_mm = 0.26;  ///< one pixel
   bool print_cut = false;   ///< the 60 degree cut is part of the print instead of being milled afterwards

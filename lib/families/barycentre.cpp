@@ -54,7 +54,7 @@ class Programme {
       }
       if (k == 0) first_flows_ = static_cast<int>(costs_.size());
     }
-    // The earth that arrives is the same for all: source k's at each pixel equals the first one's.
+    // All sources end in the same histogram: source k's earth at each pixel equals the first one's.
     for (std::size_t k = 1; k < sources.size(); ++k) {
       for (int to = 0; to < kFreePixels; ++to) {
         right_.push_back(0.0);
@@ -125,7 +125,8 @@ std::uint64_t highest(double cells, const std::vector<double>& earth) {
 
 }  // namespace
 
-std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<const double> weights, Cut cut) {
+std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<const double> weights,
+                                  BarycentreCut cut) {
   std::uint64_t common = kAllFreePixels, any = 0;
   for (const Pattern& source : sources) {
     common &= ~source.bits() & kAllFreePixels;
@@ -143,7 +144,7 @@ std::optional<Pattern> barycentre(std::span<const Pattern> sources, std::span<co
   }
   const std::vector<double> earth = Programme(earths, weights).solve();
   if (earth.empty()) return std::nullopt;
-  const std::uint64_t soft = common | (cut == Cut::height ? cut_at(height, earth) : highest(cells, earth));
+  const std::uint64_t soft = common | (cut == BarycentreCut::height ? cut_at(height, earth) : highest(cells, earth));
   return Pattern(~soft & kAllFreePixels);
 }
 

@@ -28,7 +28,7 @@ class Qhull {
 
  private:
   qhT state_{};
-  FILE* sink_;  // degenerate points are an answer here, not a message
+  FILE* sink_;  // degenerate points are a result here, not a message
 };
 
 std::vector<Triangle> lower_triangles(qhT* qh) {

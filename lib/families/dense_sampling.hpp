@@ -1,5 +1,5 @@
 #pragma once
-// Variants of a family around its seeds (thesis 2.4.1), by ask: whoever asks evaluates.
+// Variants of a family around its seeds (thesis 2.4.1), by an ask interface: the caller evaluates them.
 
 #include <cstdint>
 #include <span>
@@ -28,7 +28,7 @@ struct NearestSeed {
 NearestSeed nearest_seed(const pattern::Pattern& pattern, std::span<const pattern::Pattern> seeds);
 
 /// Mutates members of the family, drawn at random, one attempt at a time: an attempt that violates a constraint, leaves
-/// the radius or gives a pattern that is known is rolled back. Deterministic in its settings.
+/// the radius or gives a known pattern is rolled back. Deterministic in its settings.
 class DenseSampler {
  public:
   /// The seeds may violate constraints (they were measured); their variants do not. Throws InputError without seeds.

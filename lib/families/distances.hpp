@@ -23,7 +23,7 @@ class DistanceMatrix {
   std::vector<float> values_;
 };
 
-/// Earth mover's distances between all pairs of patterns, on all allowed cores. `progress` is told the share done,
+/// Earth mover's distances between all pairs of patterns, on all allowed cores. `progress` gets the finished share,
 /// 0..1, now and then, from any thread. 3000 patterns of one subfamily take about a minute of two cores.
 DistanceMatrix earth_movers_distances(std::span<const pattern::Pattern> patterns,
                                       const std::function<void(double)>& progress = {});

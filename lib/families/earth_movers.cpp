@@ -19,12 +19,12 @@ using pattern::Pattern;
 
 constexpr double kCostUnit = 1e-6;  // pixels: costs are integers, so that transport is exact
 
-struct Cell {
+struct QuarterCell {
   int row = 0, column = 0;
 };
 
-std::array<Cell, kFreePixels> cells() {
-  std::array<Cell, kFreePixels> result{};
+std::array<QuarterCell, kFreePixels> cells() {
+  std::array<QuarterCell, kFreePixels> result{};
   for (int row = 0, index = 0; row < kQuarter; ++row)
     for (int column = row; column < kQuarter; ++column) result[index++] = {row, column};
   return result;
@@ -50,7 +50,7 @@ std::int64_t soft_cells(const Pattern& pattern) {
   return count;
 }
 
-/// Earth that lies too much (positive) or is missing (negative) at one free pixel.
+/// Surplus (positive) or missing (negative) earth at one free pixel.
 struct Surplus {
   int pixel = 0;
   std::int64_t amount = 0;
@@ -84,8 +84,8 @@ std::int64_t cheapest_transport(const std::vector<Surplus>& sources, const std::
 int quarter_cells(int index) { return Pattern::orbit_size(index) / 4; }
 
 double free_pixel_distance(int a, int b) {
-  static const std::array<Cell, kFreePixels> kCells = cells();
-  const Cell from = kCells[a], to = kCells[b];
+  static const std::array<QuarterCell, kFreePixels> kCells = cells();
+  const QuarterCell from = kCells[a], to = kCells[b];
   return std::min(std::hypot(from.row - to.row, from.column - to.column),
                   std::hypot(from.row - to.column, from.column - to.row));
 }
@@ -93,7 +93,7 @@ double free_pixel_distance(int a, int b) {
 double earth_movers_distance(const Pattern& a, const Pattern& b) {
   const std::int64_t count_a = soft_cells(a), count_b = soft_cells(b);
   if (count_a == 0 || count_b == 0) return count_a == count_b ? 0.0 : std::numeric_limits<double>::infinity();
-  // Earth that both have at a place stays there: the cost is a metric. Amounts in units of 1 / (count_a count_b).
+  // Earth that both have at a pixel is not moved: the cost is a metric. Amounts in units of 1 / (count_a count_b).
   std::vector<Surplus> sources, sinks;
   for (int i = 0; i < kFreePixels; ++i) {
     const bool soft_a = ((a.bits() >> i) & 1u) == 0, soft_b = ((b.bits() >> i) & 1u) == 0;

@@ -8,7 +8,7 @@
 
 namespace nacre::families {
 
-/// Cells of the quarter that free pixel `index` stands for: 1 on the diagonal, else 2.
+/// Cells of the quarter that free pixel `index` represents: 1 on the diagonal, else 2.
 int quarter_cells(int index);
 
 /// Smallest distance, in pixels, between free pixel `a` and free pixel `b` or its mirror image.

@@ -22,8 +22,9 @@ double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return lengths > 1e-9 * static_cast<double>(a.size()) ? a.dot(b) / lengths : 0.0;
 }
 
-void check(const std::vector<Column>& features, const Column& outcome, const std::vector<Column>& controls) {
-  const auto fits = [&](const Column& column) { return column.values.size() == outcome.values.size(); };
+void check(const std::vector<FeatureColumn>& features, const FeatureColumn& outcome,
+           const std::vector<FeatureColumn>& controls) {
+  const auto fits = [&](const FeatureColumn& column) { return column.values.size() == outcome.values.size(); };
   if (!std::ranges::all_of(features, fits) || !std::ranges::all_of(controls, fits) ||
       outcome.values.size() < controls.size() + 5)
     throw InputError::format("associations: expected columns of equal length with at least {} rows",
@@ -32,8 +33,9 @@ void check(const std::vector<Column>& features, const Column& outcome, const std
 
 }  // namespace
 
-std::vector<Association> associations(const std::vector<Column>& features, const Column& outcome,
-                                      const std::vector<Column>& controls, std::uint64_t seed, int permutations) {
+std::vector<Association> associations(const std::vector<FeatureColumn>& features, const FeatureColumn& outcome,
+                                      const std::vector<FeatureColumn>& controls, std::uint64_t seed,
+                                      int permutations) {
   check(features, outcome, controls);
   const Eigen::Index rows = static_cast<Eigen::Index>(outcome.values.size());
   Eigen::MatrixXd known(rows, static_cast<Eigen::Index>(controls.size()));
@@ -47,7 +49,7 @@ std::vector<Association> associations(const std::vector<Column>& features, const
   std::vector<Association> result;
   std::vector<Eigen::VectorXd> remainders;
   Eigen::VectorXd left = remainder(outcome.values);
-  for (const Column& feature : features) {
+  for (const FeatureColumn& feature : features) {
     remainders.push_back(remainder(feature.values));
     result.push_back({.feature = feature.name,
                       .spearman = rank_correlation(feature.values, outcome.values),

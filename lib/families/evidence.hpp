@@ -7,17 +7,17 @@
 namespace nacre::families {
 
 /// One column of numbers over the patterns of a family.
-struct Column {
+struct FeatureColumn {
   std::string name;
   std::vector<double> values;
 };
 
-/// How a feature goes with an outcome over a family. Evidence, not cause: patterns were not drawn to vary this feature
-/// alone.
+/// Association of a feature with an outcome over a family. Correlation, not cause: patterns were not drawn to vary this
+/// feature alone.
 struct Association {
   std::string feature;
-  double spearman = 0.0;  ///< rank correlation as it is
-  double partial = 0.0;   ///< with the ranks of the controls taken out of both
+  double spearman = 0.0;  ///< rank correlation
+  double partial = 0.0;   ///< partial rank correlation: the ranks of the controls are regressed out of both
   double p_family_wise =
       1.0;  ///< chance that the strongest partial correlation of all features is as large when none is real
 };
@@ -25,7 +25,8 @@ struct Association {
 /// Associations of every feature with `outcome`, strongest partial correlation first; ranks of the controls are
 /// regressed out of both sides, the p value comes from `permutations` of the outcome's remainder. Columns of equal
 /// length, at least five rows more than controls; throws InputError otherwise.
-std::vector<Association> associations(const std::vector<Column>& features, const Column& outcome,
-                                      const std::vector<Column>& controls, std::uint64_t seed, int permutations = 2000);
+std::vector<Association> associations(const std::vector<FeatureColumn>& features, const FeatureColumn& outcome,
+                                      const std::vector<FeatureColumn>& controls, std::uint64_t seed,
+                                      int permutations = 2000);
 
 }  // namespace nacre::families

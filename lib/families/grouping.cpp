@@ -11,12 +11,12 @@
 namespace nacre::families {
 namespace {
 
-using Groups = std::vector<std::vector<std::size_t>>;
+using DesignGroups = std::vector<std::vector<std::size_t>>;
 
 constexpr double kLeastSilhouette = 0.25;
 
-/// Multiplies by what makes the mean of all finite pairs 1; pairs that are all zero stay. A pattern without soft
-/// pixels, infinitely far from the others, is as far as any two of them: it must not outweigh what parts those.
+/// Scales the mean of all finite pairs to 1; pairs that are all zero stay. A pattern without soft pixels, infinitely
+/// far from the others, is set as far as any two of them, so that it does not outweigh their differences.
 void normalise(DistanceMatrix& distances) {
   const double far = largest_finite(distances);
   double sum = 0.0, pairs = 0.0;
@@ -28,14 +28,15 @@ void normalise(DistanceMatrix& distances) {
     for (std::size_t j = 0; j < i; ++j) distances.set(i, j, factor * std::min(distances(i, j), far));
 }
 
-double range(std::span<const Member> designs, double optimize::Performance::*property) {
-  const auto [low, high] = std::ranges::minmax(designs, {}, [&](const Member& m) { return m.performance.*property; });
+double range(std::span<const MeasuredPattern> designs, double optimize::Performance::*property) {
+  const auto [low, high] =
+      std::ranges::minmax(designs, {}, [&](const MeasuredPattern& m) { return m.performance.*property; });
   return std::max(high.performance.*property - low.performance.*property, 1e-300);
 }
 
-DistanceMatrix distances_between(std::span<const Member> designs) {
+DistanceMatrix distances_between(std::span<const MeasuredPattern> designs) {
   std::vector<pattern::Pattern> patterns;
-  for (const Member& design : designs) patterns.push_back(design.pattern);
+  for (const MeasuredPattern& design : designs) patterns.push_back(design.pattern);
   DistanceMatrix shape = earth_movers_distances(patterns), property(designs.size());
   const double moduli = range(designs, &optimize::Performance::modulus_pa);
   const double toughnesses = range(designs, &optimize::Performance::toughness_pa);
@@ -61,7 +62,7 @@ double mean_distance(const DistanceMatrix& distances, const std::vector<std::siz
 }
 
 /// Merges the two groups that are nearest on average.
-void merge_nearest(const DistanceMatrix& distances, Groups& groups) {
+void merge_nearest(const DistanceMatrix& distances, DesignGroups& groups) {
   std::size_t first = 0, second = 1;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < groups.size(); ++a)
@@ -75,7 +76,7 @@ void merge_nearest(const DistanceMatrix& distances, Groups& groups) {
 
 /// Mean of (b - a) / max(a, b) over all designs, a the mean distance to one's own group, b to the nearest other one; 0
 /// for a design that is alone.
-double mean_silhouette(const DistanceMatrix& distances, const Groups& groups) {
+double mean_silhouette(const DistanceMatrix& distances, const DesignGroups& groups) {
   double sum = 0.0;
   for (const auto& own : groups) {
     if (own.size() < 2) continue;
@@ -91,17 +92,17 @@ double mean_silhouette(const DistanceMatrix& distances, const Groups& groups) {
   return sum / static_cast<double>(distances.count());
 }
 
-std::vector<Family> named(std::span<const Member> designs, Groups groups) {
+std::vector<SeedFamily> named(std::span<const MeasuredPattern> designs, DesignGroups groups) {
   const auto stiffest = [&](const std::vector<std::size_t>& group) {
     double modulus = 0.0;
     for (const std::size_t i : group) modulus = std::max(modulus, designs[i].performance.modulus_pa);
     return modulus;
   };
   std::ranges::stable_sort(groups, std::greater{}, stiffest);
-  std::vector<Family> families;
+  std::vector<SeedFamily> families;
   for (std::vector<std::size_t>& group : groups) {
     std::ranges::sort(group);
-    Family family{.name = "family-" + std::to_string(families.size() + 1), .seeds = {}};
+    SeedFamily family{.name = "family-" + std::to_string(families.size() + 1), .seeds = {}};
     for (const std::size_t i : group) family.seeds.push_back(designs[i].pattern);
     families.push_back(std::move(family));
   }
@@ -110,27 +111,27 @@ std::vector<Family> named(std::span<const Member> designs, Groups groups) {
 
 }  // namespace
 
-double calibration_weight(const Family& family, const pattern::Pattern& measured) {
+double calibration_weight(const SeedFamily& family, const pattern::Pattern& measured) {
   constexpr double kSeedWeight = 1.0, kOthersWeight = thesis::kOtherFamilyWeight;
   return std::ranges::count(family.seeds, measured) > 0 ? kSeedWeight : kOthersWeight;
 }
 
-std::vector<Member> near_pareto(std::span<const Member> measured, int maximum_rank) {
+std::vector<MeasuredPattern> near_pareto(std::span<const MeasuredPattern> measured, int maximum_rank) {
   std::vector<optimize::Performance> performances;
-  for (const Member& member : measured) performances.push_back(member.performance);
+  for (const MeasuredPattern& member : measured) performances.push_back(member.performance);
   const std::vector<int> ranks = optimize::non_dominated_ranks(performances);
-  std::vector<Member> near;
+  std::vector<MeasuredPattern> near;
   for (std::size_t i = 0; i < measured.size(); ++i)
     if (ranks[i] <= maximum_rank) near.push_back(measured[i]);
   return near;
 }
 
-std::vector<Family> proposed_families(std::span<const Member> designs, int largest_count) {
+std::vector<SeedFamily> proposed_families(std::span<const MeasuredPattern> designs, int largest_count) {
   if (designs.empty()) return {};
   const DistanceMatrix distances = distances_between(designs);
-  Groups groups(designs.size());
+  DesignGroups groups(designs.size());
   for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = {i};
-  Groups best;
+  DesignGroups best;
   double best_silhouette = kLeastSilhouette;
   while (groups.size() > 1) {
     const bool countable = static_cast<int>(groups.size()) <= largest_count && groups.size() < designs.size();

@@ -14,10 +14,10 @@ struct InterpolationSettings {
   int radius_pixels = 16;                            ///< to the seed
 };
 
-/// Triangles whose longest edge the rule admits.
+/// Triangles whose longest edge is within the limits.
 std::vector<Triangle> candidate_triangles(const Eigen::MatrixX2d& points, const InterpolationSettings& settings = {});
 
-/// Patterns between the members of a subfamily that dense sampling has not found (thesis 2.4.2): barycentres on a
+/// Patterns between the members of a subfamily that dense sampling did not find (thesis 2.4.2): barycentres on a
 /// uniform grid in every candidate triangle of the map, within the radius of the seed, feasible, each once and none of
 /// the members. `points`: the map, one row per member.
 std::vector<pattern::Pattern> interpolated(const pattern::Pattern& seed, std::span<const pattern::Pattern> members,

@@ -109,25 +109,25 @@ void shortest_paths(const Graph& graph, std::size_t source, Eigen::Ref<Eigen::Ve
   }
 }
 
-struct Axes {
+struct LeadingAxes {
   Eigen::Vector2d values;
   Eigen::MatrixX2d vectors;
 };
 
-/// The two leading eigenpairs by Lanczos' method; nothing when it loses its way, as it does where the rank is one.
-std::optional<Axes> leading_axes(const Eigen::MatrixXd& matrix) {
+/// The two leading eigenpairs by Lanczos' method; nothing when it breaks down, as it does where the rank is one.
+std::optional<LeadingAxes> leading_axes(const Eigen::MatrixXd& matrix) {
   Spectra::DenseSymMatProd<double> operation(matrix);
   Spectra::SymEigsSolver<Spectra::DenseSymMatProd<double>> solver(operation, 2, kLanczosVectors);
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge);
   if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-  const Axes axes{solver.eigenvalues(), solver.eigenvectors(2)};
+  const LeadingAxes axes{solver.eigenvalues(), solver.eigenvectors(2)};
   const Eigen::MatrixX2d residual = matrix * axes.vectors - axes.vectors * axes.values.asDiagonal();
   const bool right = residual.allFinite() && residual.norm() < 1e-6 * std::abs(axes.values[0]);
   return right ? std::optional(axes) : std::nullopt;
 }
 
-Axes leading_axes_dense(const Eigen::MatrixXd& matrix) {
+LeadingAxes leading_axes_dense(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
   return {solver.eigenvalues().tail<2>().reverse(), solver.eigenvectors().rightCols<2>().rowwise().reverse()};
 }
@@ -138,7 +138,7 @@ Eigen::MatrixX2d scaled(const Eigen::MatrixXd& geodesics) {
   const Eigen::VectorXd row_means = products.rowwise().mean();
   products.colwise() -= row_means;
   products.rowwise() -= products.colwise().mean().eval();
-  std::optional<Axes> axes;
+  std::optional<LeadingAxes> axes;
   if (products.cols() > kDenseSize) axes = leading_axes(products);
   if (!axes) axes = leading_axes_dense(products);
   Eigen::MatrixX2d points = axes->vectors;

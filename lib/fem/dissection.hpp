@@ -17,7 +17,7 @@ namespace nacre::fem {
 struct DissectionBlock {
   std::vector<int> pivots;  ///< unknowns eliminated here, 2 node + direction
   std::vector<int>
-      border;  ///< unknowns that the block shares with the rest of the grid, in the order of the whole's rows
+      border;  ///< unknowns that the block shares with the rest of the grid, in the order of its parent's rows
   /// Of the smallest blocks: their elements, and the row of the front of each of an element's eight unknowns (-1 held).
   std::vector<int> elements;
   std::vector<std::array<std::int16_t, 8>> element_rows;
@@ -28,7 +28,7 @@ struct DissectionBlock {
   int border_count() const { return static_cast<int>(border.size()); }
 };
 
-/// The blocks in the order of elimination: halves before the whole, the whole grid last.
+/// The blocks in the order of elimination: halves before the block they divide, the whole grid last.
 struct DissectionPlan {
   int unknowns = 0;  ///< 2 per node, held ones included
   std::vector<DissectionBlock> blocks;

@@ -38,7 +38,7 @@ const std::array<ShapeGradients, kGaussPoints>& shape_gradients() {
 }
 
 bool internal_force(const ElementVector& displacement, const material::Lame& lame, ElementVector& force) {
-  // first_piola and displacement_gradient, written out. The solvers have kernels of their own.
+  // first_piola and displacement_gradient, written out. The solvers have their own kernels.
   double fx[kElementNodes] = {}, fy[kElementNodes] = {};
   bool usable = true;
   for (const ShapeGradients& gradients : shape_gradients()) {

@@ -12,8 +12,11 @@
 
 namespace nacre::fem::NACRE_SIMD {
 
+// The packs come first.
+// clang-format off
 #include "fem/simd_packs.hpp"
 #include "fem/explicit_law.ipp"
+// clang-format on
 
 /// v(i-1) + v(i) + v(i+1), symmetric to the last bit.
 template <class Real>
@@ -100,7 +103,7 @@ struct NodeForces {
 };
 
 /// One row of elements, and v += f for the row of nodes below it: the grip (`Grip`), which moves no node vertically, or
-/// an interior one. Beside it, with `Finish`, the filter and motion of the row two below, whose velocities are
+/// an interior one. With `Finish` also the filter and motion of the row two below, whose velocities are
 /// complete.
 template <class Law, bool Grip, bool Finish>
 void sweep_row(typename Law::State& state, int row) {
@@ -230,7 +233,7 @@ void zero_row(Real* row, int columns) {
   for (int i = 0; i <= columns; i += kLanes<Real>) store(row + i, Pack<Real>{});
 }
 
-/// Before the sweep: nothing comes from below the bottom row of nodes.
+/// Before the sweep: no force comes from below the bottom row of nodes.
 template <class Real>
 void start_sweep(const ExplicitState<Real>& s) {
   Real* const carried[] = {s.row.upper_x, s.row.upper_y, s.row.below_x, s.row.below_y};

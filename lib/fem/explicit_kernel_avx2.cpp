@@ -1,3 +1,3 @@
-// The explicit kernel for x86-64-v3 (AVX2 and FMA).
+// Part of ExplicitKernel (explicit_state.hpp): the build for x86-64-v3 (AVX2 and FMA).
 #define NACRE_SIMD avx2
 #include "fem/explicit_tables.ipp"

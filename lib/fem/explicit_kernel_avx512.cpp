@@ -1,3 +1,3 @@
-// The explicit kernel for x86-64-v4 (AVX-512).
+// Part of ExplicitKernel (explicit_state.hpp): the build for x86-64-v4 (AVX-512).
 #define NACRE_SIMD avx512
 #include "fem/explicit_tables.ipp"

@@ -1,5 +1,5 @@
-// The law of Eq. 2.1 on packs of elements. Included inside a namespace that has packs (simd_packs.hpp; scalar_packs.hpp for
-// one element at a time, also on a device). No include guard on purpose.
+// The law of Eq. 2.1 on packs of elements. Included inside a namespace that has packs (simd_packs.hpp; scalar_packs.hpp
+// for one element at a time, also on a device). No include guard on purpose.
 //
 // Symbols, per element:
 //   d0, d1   difference of displacement along the bottom and top edge;  e0, e1  along the left and right edge
@@ -107,7 +107,7 @@ NACRE_INLINE Pack<Real> constitutive(const Gradient<Real>& g, const Pack<Real> (
   return largest;
 }
 
-/// What a pack of elements gives: energy density and the forces along its four edges.
+/// Energy density of a pack of elements and the forces along its four edges.
 template <class Real>
 struct EdgeForces {
   Pack<Real> energy;  ///< twice the largest energy density at the quadrature points
@@ -115,7 +115,7 @@ struct EdgeForces {
   Pack<Real> left_x, right_x, left_y, right_y;
 };
 
-/// `meanwhile` is work that needs nothing from here: four logarithms at a time leave half of the core idle.
+/// `meanwhile` is independent work: four logarithms at a time leave half of the core idle.
 template <class Real, class Meanwhile>
 NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node, int element,
                                           const Meanwhile& meanwhile) {
@@ -150,7 +150,7 @@ NACRE_INLINE EdgeForces<Real> edge_forces(const ExplicitState<Real>& s, int node
   return f;
 }
 
-/// The law of Eq. 2.1, as the sweep asks for it: what a pack of elements gives.
+/// The law of Eq. 2.1 in the form that the sweep expects.
 template <class Number>
 struct NeoHookean {
   using Real = Number;

@@ -118,7 +118,7 @@ double ExplicitSolver<Real>::element_scale() const {
 template <class Real>
 void ExplicitSolver<Real>::fill_elements() {
   const double scale = element_scale();
-  const double last = 1.0 + grid_.laws.softening;  // an element that softens stands until s = sqrt(w / W) reaches it
+  const double last = 1.0 + grid_.laws.softening;  // a softening element fails when s = sqrt(w / W) reaches it
   std::fill_n(state_.threshold, static_cast<std::size_t>(grid_.rows) * state_.element_stride,
               std::numeric_limits<Real>::infinity());
   for (int row = 0; row < grid_.rows; ++row) {
@@ -180,7 +180,7 @@ void ExplicitSolver<Real>::erase_failed() {
   for (int i = 0; i < state_.failed_count; ++i) {
     const int element = state_.failed[i];
     const int at = element / grid_.columns * state_.element_stride + element % grid_.columns;
-    // Its last forces acted over the step centred on where it was found: half of the step that followed belongs to it.
+    // Its last forces acted over the step centred on the state found: half of the step that followed belongs to it.
     if (settings_.keep_ledger) ledger_.fractured += element_energy(element, 0.5);
     state_.mu[at] = state_.lambda[at] = Real{0};
     state_.threshold[at] = std::numeric_limits<Real>::infinity();
@@ -245,8 +245,8 @@ void ExplicitSolver<Real>::set_node(int node, const Eigen::Vector2d& displacemen
 template <class Real>
 void ExplicitSolver<Real>::relax() {
   if (!extended_ || state_.overstress == Real{0}) return;
-  // A step that keeps nothing of Q leaves B = r f S, with which Q is 0 as long as S stays (extended_state.hpp). It is
-  // no step of the test: nodes go back, and its Q, which was never there, softens nothing.
+  // A step that retains none of Q leaves B = r f S, with which Q is 0 as long as S stays (extended_state.hpp). It is no
+  // step of the test: nodes are put back, and its fictitious Q causes no softening.
   const std::size_t nodes = static_cast<std::size_t>(grid_.rows + 1) * static_cast<std::size_t>(state_.stride);
   const std::array<Real*, 4> moved = {state_.qx, state_.qy, state_.vx, state_.vy};
   std::array<std::vector<Real>, 4> before;

@@ -25,9 +25,9 @@ double fastest_wave_m_per_s(const Grid& grid, double density_kg_per_m3);
 /// The longest step that waves allow with some reserve: 0.8 of the stability limit h / c.
 double longest_step_s(const Grid& grid, double density_kg_per_m3);
 
-/// How a grid is loaded and integrated. The bottom row of nodes is held vertically, the top row moves at
+/// Loading and integration of a grid. The bottom row of nodes is held vertically, the top row moves at
 /// strain_rate x height; horizontal motion is free. Velocities start from the linear profile between the grips, so that
-/// nothing is shocked, displacements from the uniform stretch `initial_strain`.
+/// no shock starts, displacements from the uniform stretch `initial_strain`.
 struct ExplicitSettings {
   double density_kg_per_m3 = 1150.0;
   double time_step_s = 0.0;
@@ -41,7 +41,7 @@ struct ExplicitSettings {
   std::optional<SimdLevel> simd;  ///< best_simd_level() when absent
 };
 
-/// What one step saw, at the strain it started from.
+/// The result of one step, at the strain it started from.
 struct StepReport {
   double strain = 0.0;
   double top_stress_pa = 0.0;     ///< vertical reaction of the upper grip over the initial width, tension positive
@@ -59,7 +59,7 @@ struct EnergyLedger {
   double initial_kinetic = 0.0;  ///< of the linear velocity profile
   double initial_stored = 0.0;
   double kinetic = 0.0;
-  double stored = 0.0;     ///< in the elements that stand
+  double stored = 0.0;     ///< in the intact elements
   double damped = 0.0;     ///< taken out by the damping
   double fractured = 0.0;  ///< stored in elements when they failed
 };
@@ -78,11 +78,11 @@ class ExplicitSolver {
   /// Advances by one time step. Allocates nothing. Error: blow-up (J <= 0 or not a number in an element), with step and
   /// element; found at once when the element passes its threshold, else within 16 steps.
   Result<StepReport> step();
-  /// Looks for blow-up now, as step() does every 16 steps.
+  /// Checks for blow-up now, as step() does every 16 steps.
   Result<void> check() const;
 
-  /// What the kernel works on, for whoever runs it elsewhere: the pointers are into this solver. With an extended law
-  /// the pointers of its parts are set.
+  /// The state on which the kernel works, for running it elsewhere: the pointers are into this solver. With an extended
+  /// law the pointers of its parts are set.
   const ExtendedState<Real>& state() const { return state_; }
   bool has_extended_law() const { return extended_ != nullptr; }
   /// Stress, Pa, of a grip whose vertical reaction is 1 in the state's unit.
@@ -100,7 +100,7 @@ class ExplicitSolver {
   Eigen::Vector2d velocity_m_per_s(int node) const;
   /// Replaces displacement and velocity of a node, for verification.
   void set_node(int node, const Eigen::Vector2d& displacement_m, const Eigen::Vector2d& velocity_m_per_s);
-  /// What stands where it is long enough has relaxed: the Maxwell branch holds no overstress, wherever the nodes are.
+  /// Sets the Maxwell branch to its relaxed state, with no overstress at the present positions of the nodes.
   void relax();
 
   /// Largest elastic energy density of Eq. 2.1 at the quadrature points of an element, less its eigenstrain, J/m^3; 0

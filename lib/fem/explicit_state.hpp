@@ -1,5 +1,5 @@
 #pragma once
-// What one time step of the explicit solver reads and writes, and the entry points of the kernel that does it. The
+// The data that one time step of the explicit solver reads and writes, and the entry points of its kernel. The
 // kernel is compiled once per instruction set, so this header includes nothing that could put code of a wide
 // instruction set into functions shared with the rest of the program.
 //
@@ -37,7 +37,7 @@ struct ExplicitRows {
   Real* weight;               ///< alpha of Eq. 2.4 for interior columns, 0 elsewhere
 };
 
-/// What only the ledger of energies needs: velocities of the last step, and of one row before damping.
+/// Only for the energy ledger: velocities of the last step, and of one row before damping.
 template <class Real>
 struct ExplicitLedgerRows {
   Real *last_vx, *last_vy;

@@ -1,5 +1,5 @@
-// The extended law (material/extended_law.hpp) on packs of elements. Included after explicit_law.ipp, inside the same namespace; symbols as
-// there; n = 1 - C_e^-1, so that nothing small is a difference of large numbers:
+// The extended law (material/extended_law.hpp) on packs of elements. Included after explicit_law.ipp, inside the same
+// namespace; symbols as there; n = 1 - C_e^-1, so that nothing small is a difference of large numbers:
 //   S = mu g ((G - 1) + n) + lambda l (1 - n),  G - 1 being what is stored.
 
 /// Chains stretched further than this share of their limit are torn.
@@ -109,7 +109,7 @@ NACRE_INLINE Pack<Real> shortened(Pack<Real> x, Pack<Real> log) {
   return x < Real{0} ? x - log : Pack<Real>{};
 }
 
-/// Twice the part of the energy density that shortened principal stretches and lost area hold.
+/// Twice the compressive part of the energy density: of shortened principal stretches and lost area.
 template <class Real>
 NACRE_INLINE Pack<Real> compressive_energy(const ElasticPack<Real>& e, const PackLaw<Real>& law) {
   const Pack<Real> d = deviator(e), low = larger(e.half - d, broadcast(Real(kSmallestChange))), high = e.half + d;
@@ -170,7 +170,7 @@ NACRE_INLINE Pack<Real> second_piola(const ExtendedState<Real>& s, const PackLaw
   return energy;
 }
 
-/// What softening leaves of a pack's stress.
+/// Integrity of a pack: the share of the stress left by softening.
 template <class Real, bool Commit>
 NACRE_INLINE Pack<Real> integrity(const ExtendedState<Real>& s, Pack<Real> energy, int element) {
   const Pack<Real> one = broadcast(Real{1}), last = broadcast(Real{1} + s.softening);
@@ -181,7 +181,7 @@ NACRE_INLINE Pack<Real> integrity(const ExtendedState<Real>& s, Pack<Real> energ
   return now;
 }
 
-/// The extended law, as the sweep asks for it. `Commit`: whether the history advances.
+/// The extended law in the form that the sweep expects. `Commit`: whether the history advances.
 template <class Number, bool Commit>
 struct Extended {
   using Real = Number;

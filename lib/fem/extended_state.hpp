@@ -1,5 +1,5 @@
 #pragma once
-// What a time step of the extended law (material/extended_law.hpp) reads and writes beyond ExplicitState. Null pointers
+// The data that a time step of the extended law (material/extended_law.hpp) needs beyond ExplicitState. Null pointers
 // switch a part of the law off; all arrays are rows x element_stride.
 //   name           meaning                                                          numbers per element
 //   eigenstrain    e                                                                1
@@ -9,8 +9,8 @@
 //                  the unit of mu                                                   abscissa i and height k
 //   branch         B = r f S - exp(-dt/tau) Q at the last step, by components       4 x 3
 //   onset          2 W_f in the unit of mu, infinity if empty                       1
-//   integrity      what softening has left of the stress                            1
-// The threshold of an element that softens is 2 W_f (1 + v)^2, where nothing is left of its stress.
+//   integrity      share of the stress left by softening                            1
+// The threshold of an element that softens is 2 W_f (1 + v)^2, at which its stress is zero.
 
 #include "fem/explicit_state.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Memory of what the extended law needs beyond ExplicitStorage; nothing is taken for parts of the law that are off.
+// Memory that the extended law needs beyond ExplicitStorage; none for parts of the law that are off.
 
 #include <vector>
 
@@ -24,7 +24,7 @@ class ExtendedStorage {
   std::vector<std::vector<Real>> arrays_;
 };
 
-/// Leaves an element of the state without any law, as if it had been empty from the start.
+/// Removes every law from an element of the state, as if it had been empty from the start.
 template <class Real>
 void erase_laws(ExtendedState<Real>& state, int element);
 

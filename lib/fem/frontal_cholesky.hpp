@@ -41,7 +41,7 @@ class FrontalCholesky {
   std::shared_ptr<const DissectionPlan> plan_;
   const FrontalKernel& kernel_;
   std::vector<FrontView> fronts_;
-  /// The factors of all blocks; updates, by depth in the dissection and half: two of a depth are alive at most.
+  /// The factors of all blocks; updates, by depth in the dissection and half: at most two of a depth are in use.
   std::vector<Line> factors_, updates_, local_;
   std::vector<double> inverses_;
 };

@@ -16,7 +16,7 @@ constexpr int padded_front_rows(int count) { return (count + kFrontPadding - 1) 
 ///   name     meaning                                                       shape
 ///   factor   columns of the pivots, below and left of their diagonal       (pivot_rows + border_rows) x pivots
 ///   inverse  reciprocals of the factor's diagonal                          pivots
-///   update   columns of the border, then what is left for the whole        border_rows x border
+///   update   columns of the border, then the update of the parent front    border_rows x border
 struct FrontView {
   double *factor, *inverse, *update;
   int pivots, pivot_rows, border, border_rows;
@@ -27,14 +27,14 @@ struct FrontView {
   }
 };
 
-/// Consecutive unknowns of a half's border that are consecutive rows of the whole's front.
+/// Consecutive unknowns of a half's border that are consecutive rows of the parent's front.
 struct BorderRun {
   std::int16_t from;  ///< place in the half's border
-  std::int16_t row;   ///< row of the whole's front
+  std::int16_t row;   ///< row of the parent's front
   std::int16_t count;
 };
 
-/// Where an element's eight unknowns stand in a front (-1 held), and its constants.
+/// Rows of an element's eight unknowns in a front (-1 held), and its constants.
 struct FrontElement {
   const std::int16_t* rows;
   double mu_pa, lambda_pa;

@@ -221,7 +221,7 @@ void forward_group(const FrontView& f, int first, double* x) {
   }
 }
 
-/// Subtracts from `Columns` pivots from `first` on what lies below `below` in their columns of L.
+/// Subtracts from `Columns` pivots from `first` on the part of their columns of L below `below`.
 template <int Columns>
 void subtract_below(const FrontView& f, int first, int below, double* x) {
   constexpr int kParts = kGroup / kWidth;

@@ -1,3 +1,3 @@
-// The frontal kernel for x86-64-v4 (AVX-512).
+// Part of FrontalKernel (frontal_kernel.hpp): the build for x86-64-v4 (AVX-512).
 #define NACRE_SIMD avx512
 #include "fem/frontal_kernel.ipp"

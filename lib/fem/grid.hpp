@@ -11,13 +11,13 @@ namespace nacre::fem {
 /// Phase of an element; `empty` elements carry nothing (notch, cut, failed).
 enum class Phase : std::uint8_t { soft = 0, rigid = 1, interface = 2, empty = 3 };
 
-/// What extends the law of the elements (material/extended_law.hpp); empty vectors and zeros extend nothing.
+/// Extensions of the elements' law (material/extended_law.hpp); empty vectors and zeros are the base law.
 struct GridLaws {
   std::vector<double> eigenstrain;    ///< columns * rows, strain
   std::vector<double> inverse_limit;  ///< columns * rows, 1 / J_m
   std::vector<double> yield_pa;       ///< columns * rows, infinity where nothing flows
   double overstress = 0.0;
-  double relaxation_time_s = 0.0;  ///< in the time of whoever integrates
+  double relaxation_time_s = 0.0;  ///< in the time of the integrator
   double softening = 0.0;
   double tension_only = 0.0;
   bool any() const {

@@ -14,9 +14,9 @@ namespace nacre::fem {
 namespace {
 
 /// Displacements or forces: 2 per node, as StaticSolution has them.
-using Field = std::vector<double>;
+using NodalField = std::vector<double>;
 
-/// What hangs on the elements' sizes alone. Elements point into it: it stays where it is.
+/// Depends on the elements' sizes alone. Elements point into it: its address must not change.
 class CellPlan {
  public:
   explicit CellPlan(std::span<const double> sizes)
@@ -43,13 +43,13 @@ class CellPlan {
   double length() const { return length_; }
   const std::vector<const UnitStiffness*>& shapes() const { return shapes_; }
   const std::vector<double>& areas() const { return areas_; }
-  /// Where the sides move as prescribed: along their normal.
+  /// The prescribed displacements of the sides: along their normal.
   const std::vector<char>& held() const { return held_; }
   FrontalCholesky& factorisation() { return *factorisation_; }
 
   /// The whole stretched by 1 along a direction (0 x, 1 y): its far side moves.
-  Field stretch(int direction) const {
-    Field field(held_.size(), 0.0);
+  NodalField stretch(int direction) const {
+    NodalField field(held_.size(), 0.0);
     for (int i = 0; i <= grid_.columns; ++i)
       field[direction == 0 ? place(i, grid_.columns, 0) : place(grid_.rows, i, 1)] = length_;
     return field;
@@ -78,8 +78,8 @@ CellPlan& plan_for(std::span<const double> sizes) {
 }
 
 /// Energy of each element times two, and the sum of its forces over all elements where `forces` is given.
-std::vector<double> work_of(const CellPlan& plan, const std::vector<material::Lame>& lame, const Field& field,
-                            Field* forces) {
+std::vector<double> work_of(const CellPlan& plan, const std::vector<material::Lame>& lame, const NodalField& field,
+                            NodalField* forces) {
   std::vector<double> work;
   const Grid& grid = plan.grid();
   for (int row = 0; row < grid.rows; ++row)
@@ -100,11 +100,11 @@ std::vector<double> work_of(const CellPlan& plan, const std::vector<material::La
 
 /// The cell in equilibrium under a prescribed stretch, with the forces on its displacements.
 struct Stretched {
-  Field displacement, force;
+  NodalField displacement, force;
 };
 
 Stretched stretched(CellPlan& plan, const std::vector<material::Lame>& lame, int direction) {
-  Stretched result{.displacement = plan.stretch(direction), .force = Field(plan.held().size(), 0.0)};
+  Stretched result{.displacement = plan.stretch(direction), .force = NodalField(plan.held().size(), 0.0)};
   work_of(plan, lame, result.displacement, &result.force);
   plan.factorisation().solve(result.force);
   for (std::size_t i = 0; i < plan.held().size(); ++i)
@@ -122,11 +122,11 @@ Result<PulledCell> pull_cell(std::span<const double> sizes, const std::vector<ma
   if (!plan.factorisation().factorise(lame, plan.shapes())) return fail("a part of the cell has no stiffness");
   // Pulled with its sides held, then released: the sides come in until their force vanishes.
   const Stretched along = stretched(plan, lame, 1), across = stretched(plan, lame, 0);
-  const auto work = [](const Field& displacement, const Field& force) {
+  const auto work = [](const NodalField& displacement, const NodalField& force) {
     return std::inner_product(displacement.begin(), displacement.end(), force.begin(), 0.0);
   };
   const double contraction = work(along.displacement, across.force) / work(across.displacement, across.force);
-  Field free = along.displacement;
+  NodalField free = along.displacement;
   for (std::size_t i = 0; i < free.size(); ++i) free[i] -= contraction * across.displacement[i];
 
   PulledCell cell{.modulus_pa = 0.0, .energy_j_per_m3 = work_of(plan, lame, free, nullptr)};

@@ -1,6 +1,6 @@
 #pragma once
-// A periodic medium that is symmetric about both axes, pulled along one of them: the part between two neighbouring
-// mirror lines of either direction says everything.
+// A periodic medium that is symmetric about both axes, pulled along one of them: the cell between two neighbouring
+// mirror lines of either direction is enough.
 
 #include <span>
 #include <vector>

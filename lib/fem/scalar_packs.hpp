@@ -1,5 +1,5 @@
-// One element at a time in the words of simd_packs.hpp: what a thread of a device works on, and what the host emulates
-// of it. Included inside a namespace, single precision only. No include guard on purpose.
+// The operations of simd_packs.hpp for one element at a time, as a thread of a device has it, and as the host emulates
+// it. Included inside a namespace, single precision only. No include guard on purpose.
 
 #ifdef __CUDACC__
 #define NACRE_INLINE __host__ __device__ __forceinline__

@@ -6,7 +6,8 @@ namespace nacre::fem {
 namespace {
 
 #if defined(__clang__) && __clang_major__ < 18
-// It knows neither the levels by name nor every feature of them (lzcnt, movbe, f16c): good for the instrumented builds.
+// clang knows neither the levels by name nor every feature of them (lzcnt, movbe, f16c): enough for instrumented
+// builds.
 bool has_v3() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
          __builtin_cpu_supports("bmi2");

@@ -131,7 +131,7 @@ struct Flags {
   __m128 bits = _mm_setzero_ps();
 };
 /// a b + c rounded once: the product is exact in double; the sum is rounded to odd there, so that the second rounding
-/// to single is the only one that shows.
+/// to single is the only one that has an effect.
 NACRE_INLINE float fused(float a, float b, float c) {
   const double product = static_cast<double>(a) * b;
   double sum = product + c;

@@ -39,8 +39,8 @@ std::vector<char> held_unknowns(const Grid& grid) {
   return held;
 }
 
-/// What this thread used last: searches and calibrations solve one shape of grid thousands of times, and planning and
-/// touching fresh memory would cost as much as the arithmetic.
+/// The last workspace of this thread: searches and calibrations solve one shape of grid thousands of times, and
+/// planning and touching fresh memory would cost as much as the arithmetic.
 struct Workspace {
   std::vector<char> held;
   int columns = 0, rows = 0;
@@ -131,7 +131,7 @@ Result<void> balance(const Grid& grid, Workspace& workspace, ExtendedState<doubl
   std::vector<double> force(held.size());
   double previous = 1.0;
   for (;; ++solution.corrections) {
-    if (kernel.first_inverted(state) >= 0) return fail("static solver: an element is turned inside out");
+    if (kernel.first_inverted(state) >= 0) return fail("static solver: an element is inverted (J <= 0)");
     internal_forces(state);
     forces_of(grid, state, force);
     Balance forces = balance_of(held, force);
@@ -159,7 +159,7 @@ std::vector<double> displacements(const Grid& grid, const ExplicitState<double>&
   return result;
 }
 
-/// The grid with that part of its laws which has no history.
+/// The grid with those of its laws that have no history.
 Grid elastic(const Grid& grid) {
   Grid result = grid;
   result.laws = {.eigenstrain = grid.laws.eigenstrain, .inverse_limit = grid.laws.inverse_limit, .yield_pa = {}};
@@ -182,7 +182,7 @@ double eigen_reactions(const Grid& grid) {
 constexpr int kMostRestSteps = 10;
 constexpr double kRestTolerance = 1e-7;
 
-/// Moves the grips until they carry nothing (secant); the state is balanced there. Returns the strain.
+/// Moves the grips until they carry no force (secant); the state is balanced there. Returns the strain.
 Result<double> come_to_rest(const Grid& grid, Workspace& workspace, ExtendedState<double>& state) {
   const double reactions = eigen_reactions(grid);
   const auto force_at = [&](double strain) -> Result<double> {
@@ -206,7 +206,7 @@ Result<double> come_to_rest(const Grid& grid, Workspace& workspace, ExtendedStat
     last = now;
     strain = next;
   }
-  return fail("static solver: the eigenstrains find no rest");
+  return fail("static solver: no equilibrium under the eigenstrains");
 }
 
 }  // namespace
@@ -215,7 +215,7 @@ Result<StaticSolution> pull(const Grid& grid, double strain) {
   if (!(std::abs(strain) <= 0.5)) return fail("static solver: strain {} is outside -0.5 to 0.5", strain);
   const std::vector<material::Lame> lame = lame_of(grid);
   Workspace& workspace = workspace_for(grid, held_unknowns(grid));
-  if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is held by nothing");
+  if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is not supported");
 
   StaticSolution solution;
   ExtendedState<double> state = stretched(grid, lame, strain, *workspace.storage);
@@ -231,7 +231,7 @@ Result<RestingSolution> pull_from_rest(const Grid& whole, double strain) {
   assert(!grid.laws.eigenstrain.empty());
   const std::vector<material::Lame> lame = lame_of(grid);
   Workspace& workspace = workspace_for(grid, held_unknowns(grid));
-  if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is held by nothing");
+  if (!workspace.factorisation->factorise(lame)) return fail("static solver: a part of the grid is not supported");
   ExtendedState<double> state = stretched(grid, lame, 0.0, *workspace.storage);
   const ExtendedStorage<double> laws(grid, kGaussWeight, 0.0, state);
   const Result<double> rest = come_to_rest(grid, workspace, state);

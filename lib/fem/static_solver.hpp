@@ -20,8 +20,8 @@ struct StaticSolution {
 /// Pulls the grid to a nominal `strain` (-0.5 to 0.5): the top row of nodes moves up by strain x height, the bottom row
 /// stays, both are free to move sideways but for one node. Modified Newton on the finite-strain forces with the sparse
 /// Cholesky factor of the tangent at F = I, until the relative residual is below 1e-10 or rounding (at most 1e-8) stops
-/// it. Error: an element turned inside out, no convergence (expected beyond strains of some per cent), a part of the
-/// grid that is not held by anything.
+/// it. Error: an inverted element, no convergence (expected beyond strains of some per cent), a part of the grid
+/// that is not supported.
 Result<StaticSolution> pull(const Grid& grid, double strain);
 
 /// A grid whose elements hold eigenstrains, between grips that first let it rest and then pull it.

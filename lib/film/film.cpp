@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kCurvePoints = 256;
 constexpr std::uint8_t kVoid = 3;
-/// A value follows only when it is off by more than this share of a step: waves below that would flicker and cost half
-/// the file.
+/// A value is updated only when it is off by more than this share of a step: smaller waves would flicker and take half
+/// of the file.
 constexpr double kEnergyBand = 0.75, kDisplacementBand = 1.0;
 
 double largest_energy(const std::vector<tester::FractureFrame>& frames) {
@@ -43,7 +43,7 @@ std::vector<std::uint8_t> energy_levels(const tester::FractureFrame& frame, cons
   return levels;
 }
 
-/// Nodes that touch an element which stands. The others drift about and are nowhere seen.
+/// Nodes of intact elements. The others drift freely and are not drawn.
 std::vector<bool> held_nodes(const tester::FractureFrame& frame) {
   std::vector<bool> held(static_cast<std::size_t>((frame.columns + 1) * (frame.rows + 1)), false);
   for (int row = 0; row < frame.rows; ++row)
@@ -84,11 +84,11 @@ double Film::energy_j_per_m3(int level) const {
   return largest_energy_j_per_m3 * std::pow(10.0, kEnergyDecades * (level / (kEnergyLevels - 1.0) - 1.0));
 }
 
-double Film::displacement_x_m(const Frame& frame, int node) const {
+double Film::displacement_x_m(const FilmFrame& frame, int node) const {
   return displacement_step_m * frame.displacement_step[node];
 }
 
-double Film::displacement_y_m(const Frame& frame, int node) const {
+double Film::displacement_y_m(const FilmFrame& frame, int node) const {
   const double height_m = (node / (columns + 1)) * element_size_m;
   return frame.strain * height_m + displacement_step_m * frame.displacement_step[node_count() + node];
 }
@@ -116,14 +116,15 @@ Film film_of(const tester::Simulation& simulation, const tester::ToughnessResult
   // The last frame may lie a rounding beyond the curve's end.
   const double last_strain = filmed.curve.empty() ? 0.0 : filmed.curve.strain.back();
   for (const tester::FractureFrame& frame : filmed.frames) {
-    static const Frame kNone;
-    const Frame& previous = film.frames.empty() ? kNone : film.frames.back();
-    Frame next{.strain = frame.strain,
-               .stress_pa = tester::stress_at(filmed.curve, std::min(frame.strain, last_strain)),
-               .broken = static_cast<int>(std::count_if(filmed.breaks.begin(), filmed.breaks.end(),
-                                                        [&](const auto& b) { return b.strain < frame.strain; })),
-               .energy_level = energy_levels(frame, previous.energy_level, film.largest_energy_j_per_m3),
-               .displacement_step = displacement_steps(frame, previous.displacement_step, film.displacement_step_m)};
+    static const FilmFrame kNone;
+    const FilmFrame& previous = film.frames.empty() ? kNone : film.frames.back();
+    FilmFrame next{
+        .strain = frame.strain,
+        .stress_pa = tester::stress_at(filmed.curve, std::min(frame.strain, last_strain)),
+        .broken = static_cast<int>(std::count_if(filmed.breaks.begin(), filmed.breaks.end(),
+                                                 [&](const auto& b) { return b.strain < frame.strain; })),
+        .energy_level = energy_levels(frame, previous.energy_level, film.largest_energy_j_per_m3),
+        .displacement_step = displacement_steps(frame, previous.displacement_step, film.displacement_step_m)};
     film.frames.push_back(std::move(next));
   }
   return film;

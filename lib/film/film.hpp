@@ -1,5 +1,5 @@
 #pragma once
-// A fracture test as a film: what a picture of every moment needs, quantised so that it is small. Elements and nodes
+// A fracture test as a film: the data for a picture of every moment, quantised so that it is small. Elements and nodes
 // are numbered as in fem::Grid, row 0 at the bottom.
 
 #include <cstdint>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "crack/crack_record.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::film {
 
@@ -15,19 +14,19 @@ namespace nacre::film {
 inline constexpr int kFrames = 48;
 /// Energy densities are kept in so many logarithmic levels ...
 inline constexpr int kEnergyLevels = 48;
-/// ... over so many decades below the largest of the film; what is lower is level 0.
+/// ... over so many decades below the largest of the film; lower ones are level 0.
 inline constexpr double kEnergyDecades = 3.2;
 /// Step of displacements, as a share of an element's side; they are right to within one step.
 inline constexpr double kDisplacementStep = 0.125;
 
 /// One moment.
-struct Frame {
+struct FilmFrame {
   double strain = 0.0;
   double stress_pa = 0.0;
-  int broken = 0;                               ///< so many elements of the crack's order have failed
+  int broken = 0;                               ///< number of failed elements, the first of the crack's order
   std::vector<std::uint8_t> energy_level;       ///< per element, 0 .. kEnergyLevels - 1
   std::vector<std::int16_t> displacement_step;  ///< x of all nodes, then y; beyond the uniform stretch, see Film
-  bool operator==(const Frame&) const = default;
+  bool operator==(const FilmFrame&) const = default;
 };
 
 struct Film {
@@ -39,21 +38,21 @@ struct Film {
   std::string end;                     ///< why the test ended
   tester::Curve curve;                 ///< resampled to at most 256 points
   std::vector<std::uint8_t> material;  ///< per element before the test: 0 soft, 1 rigid, 2 interface, 3 void
-  crack::Record crack;
+  crack::CrackRecord crack;
   double largest_energy_j_per_m3 = 0.0;
   double displacement_step_m = 0.0;
-  std::vector<Frame> frames;
+  std::vector<FilmFrame> frames;
   bool operator==(const Film&) const = default;
 
   int node_count() const { return (columns + 1) * (rows + 1); }
-  /// Energy density that a level stands for, J/m^3: largest * 10^(decades * (level / (levels - 1) - 1)); 0 for level 0.
+  /// Energy density of a level, J/m^3: largest * 10^(decades * (level / (levels - 1) - 1)); 0 for level 0.
   double energy_j_per_m3(int level) const;
   /// Displacement of a node in a frame, m: steps times the step, and along y the uniform stretch strain * height.
-  double displacement_x_m(const Frame& frame, int node) const;
-  double displacement_y_m(const Frame& frame, int node) const;
+  double displacement_x_m(const FilmFrame& frame, int node) const;
+  double displacement_y_m(const FilmFrame& frame, int node) const;
 };
 
-/// The film of a toughness test that was run with frames (Numerics::frame_count >= 2).
+/// The film of a toughness test that was run with frames (Discretisation::frame_count >= 2).
 Film film_of(const tester::Simulation& simulation, const tester::ToughnessResult& filmed);
 
 /// Films a test whose result is known (curve, breaks, failure strain): the specimen is pulled once more, its frames

@@ -25,11 +25,11 @@ constexpr int kLargestSide = 4096, kMostFrames = 1000;
 constexpr std::size_t kMostValues = 64u << 20;
 constexpr double kLargestStrain = 100.0, kLargestStress = 1e13;  // as of measured curves
 
-Json crack_json(const crack::Record& crack) {
+Json crack_json(const crack::CrackRecord& crack) {
   Json value = {
       {"broken", crack.order.size()}, {"branches", crack.branches}, {"separate_cracks", crack.separate_cracks}};
   if (!crack.path) return value["path"] = nullptr, value;
-  const crack::Path& path = *crack.path;
+  const crack::CrackPath& path = *crack.path;
   value["path"] = {{"length_m", path.length_m},
                    {"straight_length_m", path.straight_length_m},
                    {"ratio", path.ratio()},
@@ -42,11 +42,12 @@ Json crack_json(const crack::Record& crack) {
   return value;
 }
 
-Json header_json(const Film& film, const std::vector<Section>& sections) {
+Json header_json(const Film& film, const std::vector<FilmSection>& sections) {
   Json frames = Json::array(), lengths = Json::array();
-  for (const Frame& frame : film.frames)
+  for (const FilmFrame& frame : film.frames)
     frames.push_back({{"strain", frame.strain}, {"stress_pa", frame.stress_pa}, {"broken", frame.broken}});
-  for (const Section& section : sections) lengths.push_back({{"name", section.name}, {"bytes", section.bytes.size()}});
+  for (const FilmSection& section : sections)
+    lengths.push_back({{"name", section.name}, {"bytes", section.bytes.size()}});
   return {
       {"design", film.design},
       {"fidelity", film.fidelity},
@@ -75,13 +76,13 @@ int count_from(const json& value, const char* name, int most) {
 
 int count_in(const json& object, const char* name, int most) { return count_from(object.at(name), name, most); }
 
-crack::Path path_from(const json& path, int elements) {
-  crack::Path read{.elements = {},
-                   .length_m = path.at("length_m"),
-                   .straight_length_m = path.at("straight_length_m"),
-                   .bridged_share = path.at("bridged_share"),
-                   .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
-                   .crosses = path.at("crosses")};
+crack::CrackPath path_from(const json& path, int elements) {
+  crack::CrackPath read{.elements = {},
+                        .length_m = path.at("length_m"),
+                        .straight_length_m = path.at("straight_length_m"),
+                        .bridged_share = path.at("bridged_share"),
+                        .material = {path.at("soft_share"), path.at("rigid_share"), path.at("interface_share")},
+                        .crosses = path.at("crosses")};
   for (const json& element : path.at("elements")) read.elements.push_back(count_from(element, "element", elements - 1));
   return read;
 }
@@ -138,9 +139,9 @@ std::string header_fault(const Film& film) {
   stresses.insert(stresses.end(), {film.toughness_pa, film.peak_stress_pa});
   for (const double value : stresses)
     if (!(std::abs(value) <= kLargestStress))
-      return fmt::format("a toughness or stress of {} Pa, expected at most {} either way", value, kLargestStress);
+      return fmt::format("a toughness or stress of {} Pa, expected at most {} in magnitude", value, kLargestStress);
   if (film.curve.strain.size() != film.curve.stress_pa.size()) return "strain and stress of the curve differ in length";
-  for (const Frame& frame : film.frames)
+  for (const FilmFrame& frame : film.frames)
     if (frame.broken > static_cast<int>(film.crack.order.size()))
       return fmt::format("a frame with {} failed elements of {}", frame.broken, film.crack.order.size());
   return {};
@@ -148,7 +149,7 @@ std::string header_fault(const Film& film) {
 
 Result<Film> read_film_parts(const json& header, std::string_view body) {
   Film film;
-  std::vector<Section> sections;
+  std::vector<FilmSection> sections;
   try {
     read_header(header, film);
     for (const json& section : header.at("sections")) {
@@ -168,25 +169,25 @@ Result<Film> read_film_parts(const json& header, std::string_view body) {
 }  // namespace
 
 std::string encode(const Film& film) {
-  const std::vector<Section> sections = sections_of(film);
+  const std::vector<FilmSection> sections = sections_of(film);
   const std::string header = header_json(film, sections).dump();
   std::string bytes(kMagic);
   for (const std::uint32_t number : {kVersion, static_cast<std::uint32_t>(header.size())})
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
   bytes += header;
-  for (const Section& section : sections) bytes += section.bytes;
+  for (const FilmSection& section : sections) bytes += section.bytes;
   return bytes;
 }
 
 Result<Film> decode(std::string_view bytes) {
   if (bytes.size() < kFixedBytes || !bytes.starts_with(kMagic))
-    return fail("no fracture film: it does not begin with {}", kMagic);
+    return fail("not a fracture film: it does not begin with {}", kMagic);
   std::uint32_t numbers[2];
   std::memcpy(numbers, bytes.data() + kMagic.size(), sizeof numbers);
   if (numbers[0] != kVersion) return fail("fracture film of version {}, expected {}", numbers[0], kVersion);
   if (numbers[1] > bytes.size() - kFixedBytes) return fail("the header is cut off");
   const json header = json::parse(bytes.substr(kFixedBytes, numbers[1]), nullptr, false);
-  if (header.is_discarded()) return fail("the header is no JSON");
+  if (header.is_discarded()) return fail("the header is not JSON");
   return read_film_parts(header, bytes.substr(kFixedBytes + numbers[1]));
 }
 

@@ -12,7 +12,7 @@ namespace nacre::film {
 /// The film as the content of a .film file.
 std::string encode(const Film& film);
 
-/// A film out of bytes that may be anything. The error says what is wrong where.
+/// A film from arbitrary bytes. The error says what is wrong and where.
 Result<Film> decode(std::string_view bytes);
 
 /// Throws InputError naming the file.

@@ -23,8 +23,9 @@ std::string compressed(const std::string& bytes) {
 }
 
 /// The section's content, which must be `size` bytes long.
-Result<std::string> content(const std::vector<Section>& sections, const std::string& name, std::size_t size) {
-  const auto section = std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == name; });
+Result<std::string> content(const std::vector<FilmSection>& sections, const std::string& name, std::size_t size) {
+  const auto section =
+      std::find_if(sections.begin(), sections.end(), [&](const FilmSection& s) { return s.name == name; });
   if (section == sections.end()) return fail("there is no section {}", name);
   std::string bytes(size, '\0');
   uLongf length = static_cast<uLongf>(size);
@@ -52,7 +53,7 @@ std::string break_bytes(const Film& film) {
 std::string energy_bytes(const Film& film) {
   std::string bytes;
   std::vector<std::uint8_t> previous(film.material.size(), 0);
-  for (const Frame& frame : film.frames) {
+  for (const FilmFrame& frame : film.frames) {
     for (std::size_t e = 0; e < previous.size(); ++e) bytes += static_cast<char>(frame.energy_level[e] - previous[e]);
     previous = frame.energy_level;
   }
@@ -65,7 +66,7 @@ std::string displacement_bytes(const Film& film) {
   std::string bytes(2 * values * film.frames.size(), '\0');
   std::vector<std::int16_t> previous(values, 0);
   std::size_t at = 0;
-  for (const Frame& frame : film.frames)
+  for (const FilmFrame& frame : film.frames)
     for (std::size_t i = 0; i < values; ++i, ++at) {
       const auto change = static_cast<std::uint16_t>(frame.displacement_step[i] - previous[i]);
       previous[i] = frame.displacement_step[i];
@@ -107,7 +108,7 @@ Result<void> read_energy(const std::string& bytes, Film& film) {
   const std::size_t elements = film.material.size();
   std::vector<std::uint8_t> levels(elements, 0);
   std::size_t at = 0;
-  for (Frame& frame : film.frames) {
+  for (FilmFrame& frame : film.frames) {
     for (std::uint8_t& level : levels) {
       level = static_cast<std::uint8_t>(level + static_cast<std::uint8_t>(bytes[at++]));
       if (level >= kEnergyLevels) return fail("section energy: level {}, expected below {}", level, kEnergyLevels);
@@ -121,7 +122,7 @@ void read_displacement(const std::string& bytes, Film& film) {
   const std::size_t half = bytes.size() / 2;
   std::vector<std::int16_t> steps(2 * static_cast<std::size_t>(film.node_count()), 0);
   std::size_t at = 0;
-  for (Frame& frame : film.frames) {
+  for (FilmFrame& frame : film.frames) {
     for (std::int16_t& step : steps) {
       const int change = static_cast<std::uint8_t>(bytes[at]) | static_cast<std::uint8_t>(bytes[half + at]) << 8;
       step = static_cast<std::int16_t>(static_cast<std::uint16_t>(step + change));
@@ -133,14 +134,14 @@ void read_displacement(const std::string& bytes, Film& film) {
 
 }  // namespace
 
-std::vector<Section> sections_of(const Film& film) {
+std::vector<FilmSection> sections_of(const Film& film) {
   return {{"material", compressed({film.material.begin(), film.material.end()})},
           {"breaks", compressed(break_bytes(film))},
           {"energy", compressed(energy_bytes(film))},
           {"displacement", compressed(displacement_bytes(film))}};
 }
 
-Result<void> read_sections(const std::vector<Section>& sections, Film& film) {
+Result<void> read_sections(const std::vector<FilmSection>& sections, Film& film) {
   const auto elements = static_cast<std::size_t>(film.columns) * static_cast<std::size_t>(film.rows);
   const std::size_t frames = film.frames.size();
   const auto read = [&](const std::string& name, std::size_t size, auto reader) -> Result<void> {

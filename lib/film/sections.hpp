@@ -10,16 +10,16 @@
 namespace nacre::film {
 
 /// A name and a zlib stream.
-struct Section {
+struct FilmSection {
   std::string name;
   std::string bytes;
 };
 
 /// material, breaks, energy, displacement: see docs/FORMATS.md.
-std::vector<Section> sections_of(const Film& film);
+std::vector<FilmSection> sections_of(const Film& film);
 
-/// Fills what the sections hold into a film whose header has been read and checked; sections of other names are passed
-/// over. Error: a section is missing, damaged or of another length.
-Result<void> read_sections(const std::vector<Section>& sections, Film& film);
+/// Adds the content of the sections to a film whose header has been read and checked; sections of other names are
+/// ignored. Error: a section is missing, damaged or of another length.
+Result<void> read_sections(const std::vector<FilmSection>& sections, Film& film);
 
 }  // namespace nacre::film

@@ -15,17 +15,17 @@ bool could_answer(const PrintedSpecimen& specimen, const Order& order) {
          std::abs(specimen.orientation_deg - order.conditions.orientation_deg) < 0.5;
 }
 
-bool is_proposed(const LaboratoryFacts& facts, const StatedApproval& decision) {
+bool is_proposed(const LaboratoryFacts& facts, const StatedApproval& approval) {
   return std::ranges::any_of(facts.proposed, [&](const ProposedForRound& each) {
-    return each.round == decision.proposal_round && each.design == decision.design;
+    return each.round == approval.proposal_round && each.design == approval.design;
   });
 }
 
-/// Proposed, not decided on and not ordered, whatever was printed or measured of it already.
-bool waits_for_an_answer(const LaboratoryFacts& facts, const pattern::Design& design) {
+/// Proposed, neither approved nor rejected nor ordered, whatever was printed or measured of it already.
+bool waits_for_approval(const LaboratoryFacts& facts, const pattern::Design& design) {
   return !are_both_ordered(facts.orders, design) &&
          std::ranges::any_of(facts.proposed, [&](const ProposedForRound& proposed) {
-           return proposed.design == design && std::ranges::none_of(facts.decisions, [&](const StatedApproval& each) {
+           return proposed.design == design && std::ranges::none_of(facts.approvals, [&](const StatedApproval& each) {
                     return each.proposal_round == proposed.round && each.design == design;
                   });
          });
@@ -79,29 +79,32 @@ std::vector<int> printed_for(std::span<const Order> orders, std::span<const Prin
   return counts;
 }
 
-std::optional<StatedApproval> decision_against(const LaboratoryFacts& facts, const StatedApproval& decision) {
-  const auto first = std::find_if(facts.decisions.begin(), facts.decisions.end(), [&](const StatedApproval& each) {
-    return each.proposal_round == decision.proposal_round && each.design == decision.design;
+std::optional<StatedApproval> approval_against(const LaboratoryFacts& facts, const StatedApproval& approval) {
+  const auto first = std::find_if(facts.approvals.begin(), facts.approvals.end(), [&](const StatedApproval& each) {
+    return each.proposal_round == approval.proposal_round && each.design == approval.design;
   });
-  if (first == facts.decisions.end() || first->approved == decision.approved) return std::nullopt;
+  if (first == facts.approvals.end() || first->approved == approval.approved) return std::nullopt;
   return *first;
 }
 
-std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& decision,
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& approval,
                                     bool asks_for_approvals) {
-  const std::string name = decision.design.name();
-  if (decision.proposal_round < 0) {
-    if (!decision.approved) return fmt::format("{}: a design of one's own is not refused, but not added", name);
-    if (asks_for_approvals && waits_for_an_answer(facts, decision.design))
-      return fmt::format("{} is proposed and waits for an answer: say yes to the proposal", name);
-    if (are_both_ordered(facts.orders, decision.design)) return fmt::format("{} was ordered before: that stands", name);
+  const std::string name = approval.design.name();
+  if (approval.proposal_round < 0) {
+    if (!approval.approved)
+      return fmt::format("{}: a design that was not proposed cannot be rejected; simply do not add it", name);
+    if (asks_for_approvals && waits_for_approval(facts, approval.design))
+      return fmt::format("{} is proposed and waits for approval: approve it in the proposal", name);
+    if (are_both_ordered(facts.orders, approval.design))
+      return fmt::format("{} was already ordered; the order is kept", name);
     return std::nullopt;
   }
-  if (!asks_for_approvals) return "this game does not ask for approvals: what is proposed is ordered";
-  if (!is_proposed(facts, decision)) return fmt::format("{} is not in proposal {}", name, decision.proposal_round);
-  const auto first = decision_against(facts, decision);
+  if (!asks_for_approvals) return "this game does not ask for approvals: proposed designs are ordered at once";
+  if (!is_proposed(facts, approval)) return fmt::format("{} is not in proposal {}", name, approval.proposal_round);
+  const auto first = approval_against(facts, approval);
   if (!first) return std::nullopt;
-  return fmt::format("{} was {} before by {}: that stands", name, first->approved ? "approved" : "rejected", first->by);
+  return fmt::format("{} was already {} by {}, which is kept", name, first->approved ? "approved" : "rejected",
+                     first->by);
 }
 
 measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts) {
@@ -148,22 +151,22 @@ std::vector<DesignState> design_states(const LaboratoryFacts& facts) {
     state.valid += specimen.valid;
   }
   for (auto& [name, state] : states) {
-    state.printed = std::max(state.printed, state.arrived);  // what was measured came out of a printer, told or not
+    state.printed = std::max(state.printed, state.arrived);  // a measured specimen was printed, reported or not
     state.stage = stage_of(state, all_complete[name]);
   }
   std::map<std::string, bool> decided;
-  for (const StatedApproval& decision : facts.decisions) {
-    // What the validation agent passes over decides nothing: a proposal that is not there, a design of one's own that
+  for (const StatedApproval& approval : facts.approvals) {
+    // Without effect, as for the validation agent: an approval of an unknown proposal, or of a person's own design that
     // is proposed and waits.
-    const auto known = states.find(decision.design.name());
+    const auto known = states.find(approval.design.name());
     const bool waits = known != states.end() && known->second.stage == DesignStage::pending;
-    if (decision.proposal_round >= 0 ? !is_proposed(facts, decision) : waits) continue;
-    if (!decided.emplace(decision.design.name(), true).second) continue;
-    DesignState& state = state_of(decision.design);
-    state.decided_by = decision.by;
-    state.why = decision.why;
+    if (approval.proposal_round >= 0 ? !is_proposed(facts, approval) : waits) continue;
+    if (!decided.emplace(approval.design.name(), true).second) continue;
+    DesignState& state = state_of(approval.design);
+    state.decided_by = approval.by;
+    state.why = approval.why;
     if (state.stage == DesignStage::pending)
-      state.stage = decision.approved ? DesignStage::approved : DesignStage::rejected;
+      state.stage = approval.approved ? DesignStage::approved : DesignStage::rejected;
   }
   std::vector<DesignState> result;
   for (auto& [name, state] : states) result.push_back(std::move(state));

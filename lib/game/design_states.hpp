@@ -1,6 +1,6 @@
 #pragma once
-// How far each design has got between proposal and measurement: what a laboratory works from. Nothing is kept here: the
-// states follow from what was said, ordered, printed and measured, so that they survive every restart.
+// The stage of each design between proposal and measurement, as a laboratory needs it. Nothing is stored here: the
+// states follow from approvals, orders, prints and measurements, so that they survive every restart.
 
 #include <optional>
 #include <span>
@@ -12,19 +12,20 @@
 
 #include "game/measurement_book.hpp"
 #include "measurement/consistency.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::game {
 
 enum class DesignStage {
-  pending,   ///< proposed, waiting for a person's yes or for its round
-  rejected,  ///< a person said no
+  pending,   ///< proposed, waiting for a person's approval or for its round
+  rejected,  ///< by a person
   approved,  ///< ordered: to be printed
-  printed,   ///< some specimens are printed, not all orders are answered
-  measured,  ///< every order is answered, or it was measured without one
+  printed,   ///< some specimens are printed, not all orders are complete
+  measured,  ///< every order is complete, or it was measured without one
 };
 std::string_view to_string(DesignStage stage);
 
-/// A person's word on a design.
+/// A person's approval or rejection of a design.
 struct StatedApproval {
   int proposal_round = 0;
   pattern::Design design;
@@ -39,7 +40,7 @@ struct PrintedSpecimen {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   double orientation_deg = 0.0;
-  std::string order_id;  ///< empty when nobody ordered it
+  std::string order_id;  ///< empty when it was not ordered
   bool operator==(const PrintedSpecimen&) const = default;
 };
 
@@ -48,10 +49,10 @@ struct ProposedForRound {
   pattern::Design design;
 };
 
-/// What is known of the laboratory's work.
+/// All that is known of the laboratory's work.
 struct LaboratoryFacts {
   std::vector<ProposedForRound> proposed;
-  std::vector<StatedApproval> decisions;  ///< in the order in which they arrived: the first that counts stands
+  std::vector<StatedApproval> approvals;  ///< in the order of arrival: the first valid one counts
   std::vector<Order> orders;
   std::vector<PrintedSpecimen> printed;
   MeasurementBook book;
@@ -59,8 +60,8 @@ struct LaboratoryFacts {
   int enough_valid = 0;  ///< of the scenario
 };
 
-/// When replicates are enough: as many as the game orders, of which `enough_valid` agree, or the thesis' three where
-/// the scenario says nothing, or all of fewer.
+/// When replicates are enough: as many as the game orders, of which `enough_valid` agree, or three as in the thesis
+/// where the scenario sets none, or all of fewer.
 measurement::ConsistencySettings consistency_settings(const LaboratoryFacts& facts);
 
 /// One design and its specimens, all tests together.
@@ -72,21 +73,21 @@ struct DesignState {
   std::string decided_by, why;
 };
 
-/// As `nacre designs --json` and the dashboard tell it.
+/// As in `nacre designs --json` and on the dashboard.
 nlohmann::ordered_json to_json(const DesignState& state);
 
 /// Designs by name. Homogeneous ones, coupons and designs that a person brought are among them.
 std::vector<DesignState> design_states(const LaboratoryFacts& facts);
 
-/// The decision that counts in place of this one: the first on the same design of the same proposal, when it says the
+/// The approval that counts in place of this one: the first on the same design of the same proposal, when it is the
 /// opposite. Nothing where this one may count.
-std::optional<StatedApproval> decision_against(const LaboratoryFacts& facts, const StatedApproval& decision);
+std::optional<StatedApproval> approval_against(const LaboratoryFacts& facts, const StatedApproval& approval);
 
-/// Why a decision would change nothing, as a sentence; nothing where it counts. `asks_for_approvals`: the game does.
-std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& decision,
+/// Why an approval would have no effect, as a sentence; nothing where it counts. `asks_for_approvals`: the game does.
+std::optional<std::string> why_void(const LaboratoryFacts& facts, const StatedApproval& approval,
                                     bool asks_for_approvals);
 
-/// Printed specimens of each order: those that carry its id, then those that fit and carry none.
+/// Printed specimens of each order: those with its id, then those that fit and have none.
 std::vector<int> printed_for(std::span<const Order> orders, std::span<const PrintedSpecimen> printed);
 
 }  // namespace nacre::game

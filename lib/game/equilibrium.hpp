@@ -14,14 +14,14 @@ struct RoundFigures {
   double signed_gap = 0.0;         ///< hv(gamut) - hv(measured)
 };
 
-/// The decision and the number it rests on, in words.
+/// The result of the criterion and the figure that decided it, in words.
 struct EquilibriumCheck {
   bool equilibrium = false;
   std::string decided_by;
 };
 
-/// Equilibrium: in two rounds running (a) the measured hypervolume grew by less than its standard error, or not at all,
-/// and (b) the signed gap lies within twice that error or changed by less than 10 %. `history` holds one entry per
+/// Equilibrium: in two consecutive rounds (a) the measured hypervolume grew by less than its standard error, or not at
+/// all, and (b) the signed gap lies within twice that error or changed by less than 10 %. `history` holds one entry per
 /// round, ascending, the newest last; a round counts only when its predecessor had measurements, so the earliest end is
 /// round 3.
 EquilibriumCheck judge_equilibrium(std::span<const RoundFigures> history);

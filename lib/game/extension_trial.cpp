@@ -11,8 +11,8 @@ namespace nacre::game {
 namespace {
 
 const double kDecisiveBayesFactor = std::log10(20.0);
-/// What the others may say against it: five to one. Designs that both foretell within the scatter, one from either
-/// side, come to that.
+/// Smallest Bayes factor without any one design: one to five. Designs that both models predict within the scatter, one
+/// from either side, reach that.
 constexpr double kStraddling = -0.7;
 constexpr int kFewestDesigns = 3;
 constexpr double kFreedom = 4.0;
@@ -29,13 +29,13 @@ void add_error(std::vector<OutOfSampleError>& errors, int round, const std::stri
 /// Errors in units of their scatter, by the round of the prediction.
 using ByRound = std::map<int, std::vector<double>>;
 
-/// Density of an error about its round's offset, both in units of the scatter: Student's t, and now and then anything.
-/// Without that, of two models that are both far off a design the less wrong one would be sure to be right.
+/// Density of an error about its round's offset, both in units of the scatter: Student's t, with rare outliers of any
+/// size. Without these, the less wrong of two models that are both far off one design would win by that alone.
 double density(double x, double scatter) {
-  constexpr double kSurprises = 0.05, kRange = 6.0;  // one design in twenty; over logarithms, a factor of 400
-  const double peak = 0.375;                         // of Student's t with 4 degrees of freedom
-  return (1.0 - kSurprises) * peak * std::pow(1.0 + x * x / kFreedom, -0.5 * (kFreedom + 1.0)) +
-         kSurprises * scatter / kRange;
+  constexpr double kOutliers = 0.05, kRange = 6.0;  // one design in twenty; over logarithms, a factor of 400
+  const double peak = 0.375;                        // of Student's t with 4 degrees of freedom
+  return (1.0 - kOutliers) * peak * std::pow(1.0 + x * x / kFreedom, -0.5 * (kFreedom + 1.0)) +
+         kOutliers * scatter / kRange;
 }
 
 /// Log likelihood of the errors of one round, up to a constant: their common offset is integrated out over a standard
@@ -61,6 +61,7 @@ double scatter_of(std::span<const OutOfSampleError> errors, double OutOfSampleEr
   return std::max(least, 1.4826 * quantile(std::move(sizes), 0.5));
 }
 
+/// Decadic logarithm of a model's Bayes factor against the mean prediction.
 double evidence(std::span<const OutOfSampleError> errors, double OutOfSampleError::*model, double least) {
   const double scatter = scatter_of(errors, model, least);
   ByRound of_model, of_mean;
@@ -74,7 +75,7 @@ double evidence(std::span<const OutOfSampleError> errors, double OutOfSampleErro
   return logarithm / std::numbers::ln10;
 }
 
-/// Evidence for the extension where any one design is left out: the least of all.
+/// The least Bayes factor of the extension (log10) when any one design is left out.
 double least_without_one(std::span<const OutOfSampleError> errors, double least) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -87,9 +88,9 @@ double least_without_one(std::span<const OutOfSampleError> errors, double least)
 
 }  // namespace
 
-void TrialErrors::add(int round, const std::vector<measurement::Replicates>& measured,
-                      const std::map<std::string, sysid::Prediction>& adopted,
-                      const std::map<std::string, sysid::Prediction>& extended) {
+void ExtensionTrialErrors::add(int round, const std::vector<measurement::Replicates>& measured,
+                               const std::map<std::string, sysid::Prediction>& adopted,
+                               const std::map<std::string, sysid::Prediction>& extended) {
   for (const measurement::Replicates& each : measured) {
     const std::string name = each.design.name();
     const auto by_adopted = adopted.find(name), by_extended = extended.find(name);
@@ -100,8 +101,8 @@ void TrialErrors::add(int round, const std::vector<measurement::Replicates>& mea
   }
 }
 
-TrialStanding standing_of(std::span<const OutOfSampleError> errors, double least) {
-  TrialStanding standing;
+ExtensionTrialStanding standing_of(std::span<const OutOfSampleError> errors, double least) {
+  ExtensionTrialStanding standing;
   standing.designs = static_cast<int>(errors.size());
   if (errors.empty()) return standing;
   for (const OutOfSampleError& each : errors) {
@@ -113,9 +114,9 @@ TrialStanding standing_of(std::span<const OutOfSampleError> errors, double least
   return standing;
 }
 
-bool gain_is_established(const TrialErrors& errors) {
-  const TrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
-                      toughness = standing_of(errors.toughness, kLeastToughnessError);
+bool gain_is_established(const ExtensionTrialErrors& errors) {
+  const ExtensionTrialStanding modulus = standing_of(errors.modulus, kLeastModulusError),
+                               toughness = standing_of(errors.toughness, kLeastToughnessError);
   return modulus.designs >= kFewestDesigns && modulus.for_extended >= kDecisiveBayesFactor &&
          toughness.for_adopted < kDecisiveBayesFactor &&
          least_without_one(errors.modulus, kLeastModulusError) >= kStraddling;

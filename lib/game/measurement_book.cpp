@@ -5,28 +5,29 @@
 #include <fmt/format.h>
 
 #include "measurement/conditions.hpp"
+#include "measurement/specimen_checks.hpp"
 
 namespace nacre::game {
 
-bool answers(const measurement::SpecimenRecord& specimen, const Order& order) {
+bool fulfils(const measurement::SpecimenRecord& specimen, const Order& order) {
   return specimen.test == order.test && specimen.design == order.design &&
-         answers(specimen.conditions, order.conditions);
+         fulfils(specimen.conditions, order.conditions);
 }
 
-std::optional<std::string> beside_orders(const measurement::SpecimenRecord& specimen, std::span<const Order> orders) {
+std::optional<std::string> order_mismatch(const measurement::SpecimenRecord& specimen, std::span<const Order> orders) {
   const Order* near = nullptr;
   for (const Order& order : orders) {
-    if (answers(specimen, order)) return std::nullopt;
+    if (fulfils(specimen, order)) return std::nullopt;
     tester::TestConditions as_ordered = specimen.conditions;
     as_ordered.strain_rate_per_s = order.conditions.strain_rate_per_s;
     as_ordered.thickness_mm = order.conditions.thickness_mm;
-    const bool same_question = specimen.test == order.test && specimen.design == order.design;
-    if (same_question && answers(as_ordered, order.conditions)) near = &order;
+    const bool same_test = specimen.test == order.test && specimen.design == order.design;
+    if (same_test && fulfils(as_ordered, order.conditions)) near = &order;
   }
   if (near == nullptr) return std::nullopt;
   return fmt::format(
-      "specimen {} of {}, {} test, does not answer its order: pulled at {:.3g} /s and {:.3g} mm thick, ordered at "
-      "{:.3g} /s and {:.3g} mm (answered within {:.0f} and {:.0f} %)",
+      "specimen {} of {}, {} test, does not fulfil its order: pulled at {:.3g} /s and {:.3g} mm thick, ordered at "
+      "{:.3g} /s and {:.3g} mm (tolerances {:.0f} and {:.0f} %)",
       specimen.specimen, specimen.design.name(), tester::to_string(specimen.test),
       specimen.conditions.strain_rate_per_s, specimen.conditions.thickness_mm, near->conditions.strain_rate_per_s,
       near->conditions.thickness_mm, 100.0 * measurement::kRateTolerance, 100.0 * measurement::kThicknessTolerance);
@@ -73,7 +74,7 @@ const Review* MeasurementBook::review_of(const std::string& specimen) const {
 bool MeasurementBook::valid(const Reported& reported) const {
   const auto review = reviews_.find(reported.record.specimen);
   if (review == reviews_.end()) return reported.record.valid;
-  // A person may bring a specimen back, but neither one that says nothing nor a number of another unit.
+  // A review may make a specimen valid again, but not one without a result or with a wrong unit.
   return review->second.valid && !measurement::why_unusable(reported.record);
 }
 
@@ -96,7 +97,7 @@ std::vector<OrderProgress> MeasurementBook::progress(std::span<const Order> orde
   std::map<std::string, std::vector<const Reported*>> assigned;
   for (const auto& [name, reported] : entries_) {
     const auto order = by_id.find(reported.order_id);
-    if (order != by_id.end() && answers(reported.record, *order->second)) {
+    if (order != by_id.end() && fulfils(reported.record, *order->second)) {
       assigned[reported.order_id].push_back(&reported);
     } else {
       unassigned.push_back(&reported);
@@ -113,7 +114,7 @@ std::vector<OrderProgress> MeasurementBook::progress(std::span<const Order> orde
     for (const Reported* reported : assigned[order.id]) count(*reported);
     for (const Reported*& reported : unassigned) {
       if (progress.arrived >= order.replicates) break;
-      if (reported == nullptr || !answers(reported->record, order)) continue;
+      if (reported == nullptr || !fulfils(reported->record, order)) continue;
       count(*reported);
       reported = nullptr;
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "measurement/measurement.hpp"
 #include "sysid/objective.hpp"
 
 namespace nacre::game {

@@ -1,18 +1,17 @@
 #pragma once
-// Whether a specimen can be what it is said to be, by the model of the day: units are mistaken by factors of ten and
-// more, models by less.
+// Whether a specimen's values are plausible by the current model: wrong units are off by factors of ten and more,
+// models by less.
 
 #include <map>
 #include <optional>
 #include <string>
 
 #include "material/parameters.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::game {
 
-/// Doubts about the units of valid specimens. A modulus is held against that which the model simulates for the design
+/// Doubts about the units of valid specimens. A modulus is compared with the simulated one of the design
 /// (milliseconds, once for all replicates), a notched specimen's curve by the slope of its beginning.
 class UnitDoubts {
  public:

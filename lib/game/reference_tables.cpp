@@ -34,7 +34,7 @@ std::vector<measurement::Replicates> read_base_materials(const std::filesystem::
     if (known == std::end(kRigidFractions))
       table.fail_at(row, "material", "expected TB, VW or IF, found '" + name + "'");
     if (!found.emplace(name, read_material(table, row, known->second)).second) {
-      table.fail_at(row, "material", name + " stands here a second time");
+      table.fail_at(row, "material", name + " is listed a second time");
     }
   }
   std::vector<measurement::Replicates> materials;

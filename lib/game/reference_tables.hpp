@@ -1,11 +1,11 @@
 #pragma once
-// The measured tables that a game starts from: the base materials of round 0 and, where a scenario names one, the
+// The measured tables that a game starts from: the base materials of round 0 and, where a scenario names it, the
 // homogeneous benchmark line. CSV, columns by name.
 
 #include <filesystem>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/summary.hpp"
 #include "optimize/pareto.hpp"
 
 namespace nacre::game {

@@ -109,15 +109,16 @@ std::vector<Order> person_orders(const Scenario& scenario, int round, const Desi
   return orders;
 }
 
-std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments) {
+std::vector<Order> discrimination_orders(const Scenario& scenario, int round,
+                                         std::span<const DiscriminationTest> experiments) {
   std::vector<Order> orders;
-  for (const Experiment& experiment : experiments) {
+  for (const DiscriminationTest& experiment : experiments) {
     if (static_cast<int>(orders.size()) >= scenario.diagnosis.discrimination_orders) break;
-    const auto same_question = [&](const Order& order) {
+    const auto same_test = [&](const Order& order) {
       return order.design == experiment.design && order.test == experiment.test &&
-             order.loading == experiment.loading && answers(experiment.conditions, order.conditions);
+             order.loading == experiment.loading && fulfils(experiment.conditions, order.conditions);
     };
-    if (std::any_of(orders.begin(), orders.end(), same_question)) continue;
+    if (std::any_of(orders.begin(), orders.end(), same_test)) continue;
     // The number keeps the id apart from a proposal's and from the same design's at another rate or thickness.
     orders.push_back({.id = fmt::format("{}/discrimination-{}",
                                         order_id(round, experiment.design, experiment.test, experiment.conditions),
@@ -134,14 +135,14 @@ std::vector<Order> discrimination_orders(const Scenario& scenario, int round, st
   return orders;
 }
 
-std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates) {
+std::vector<DiscriminationTest> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates) {
   std::vector<pattern::Pattern> ordered(patterns.begin(), patterns.end());
   std::sort(ordered.begin(), ordered.end(), [](const pattern::Pattern& a, const pattern::Pattern& b) {
     const int length_a = interface_length(a);
     const int length_b = interface_length(b);
     return length_a != length_b ? length_a > length_b : a < b;
   });
-  std::vector<Experiment> experiments;
+  std::vector<DiscriminationTest> experiments;
   for (const pattern::Pattern& each : ordered) {
     experiments.push_back(
         {.design = each, .test = TestKind::modulus, .conditions = {.orientation_deg = 90.0}, .replicates = replicates});
@@ -149,14 +150,14 @@ std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns
   return experiments;
 }
 
-bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
+bool fulfils(const tester::TestConditions& tested, const tester::TestConditions& ordered) {
   return measurement::same_conditions(tested, ordered);
 }
 
 bool are_both_ordered(std::span<const Order> orders, const pattern::Design& design) {
   const auto is_ordered = [&](tester::TestKind test) {
     return std::ranges::any_of(orders, [&](const Order& order) {
-      return order.design == design && order.test == test && answers(order.conditions, {});
+      return order.design == design && order.test == test && fulfils(order.conditions, {});
     });
   };
   return is_ordered(tester::TestKind::modulus) && is_ordered(tester::TestKind::toughness);

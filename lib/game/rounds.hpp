@@ -1,5 +1,5 @@
 #pragma once
-// Which specimens are ordered in which round.
+// The orders of each round.
 
 #include <span>
 #include <string>
@@ -10,7 +10,7 @@
 #include "game/scenario.hpp"
 #include "pattern/design.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::game {
 
@@ -31,8 +31,8 @@ struct Order {
   OrderReason reason = OrderReason::proposal;
 };
 
-/// A test that would tell rival causes apart (diagnosis), before it is given an order number.
-struct Experiment {
+/// A test that discriminates between rival causes (diagnosis), before it gets an order number.
+struct DiscriminationTest {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
   tester::TestConditions conditions;
@@ -45,7 +45,7 @@ std::string order_id(int round, const pattern::Design& design, tester::TestKind 
                      const tester::TestConditions& conditions);
 
 /// Modulus and toughness orders of the pure materials, the scenario's mixtures and the random patterns: measured in
-/// round 1 beside the first proposals. A mixture named twice (0.5 is the interface material) is ordered once.
+/// round 1 with the first proposals. A mixture named twice (0.5 is the interface material) is ordered once.
 std::vector<Order> opening_orders(const Scenario& scenario, std::span<const pattern::Pattern> random_patterns);
 
 /// Modulus and toughness orders of designs proposed for `round`.
@@ -57,16 +57,17 @@ std::vector<Order> family_orders(const Scenario& scenario, int round, std::span<
 /// Modulus and toughness orders of a design that a person wants measured.
 std::vector<Order> person_orders(const Scenario& scenario, int round, const pattern::Design& design);
 
-/// At most diagnosis.discrimination_orders of the experiments; a question asked twice is ordered once.
-std::vector<Order> discrimination_orders(const Scenario& scenario, int round, std::span<const Experiment> experiments);
+/// At most diagnosis.discrimination_orders of the experiments; equal experiments are ordered once.
+std::vector<Order> discrimination_orders(const Scenario& scenario, int round,
+                                         std::span<const DiscriminationTest> experiments);
 
 /// The experiments of round 1, when there is no diagnosis yet: modulus tests of the patterns with the longest
-/// interface, printed turned by 90 degrees, which shows whether the printer's axes matter.
-std::vector<Experiment> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates);
+/// interface, printed turned by 90 degrees, to see whether the printer's axes matter.
+std::vector<DiscriminationTest> rotated_twins(std::span<const pattern::Pattern> patterns, int replicates);
 
-/// Whether a specimen tested under `tested` answers an order for `ordered`: same orientation, rate within a quarter,
-/// thickness within a tenth (a person's callipers never show 3.2 exactly).
-bool answers(const tester::TestConditions& tested, const tester::TestConditions& ordered);
+/// Whether a specimen tested under `tested` fulfils an order for `ordered`: same orientation, rate within a quarter,
+/// thickness within a tenth (callipers never read exactly 3.2).
+bool fulfils(const tester::TestConditions& tested, const tester::TestConditions& ordered);
 
 /// Whether E and T of the design itself are ordered: not only one of them, or a twin that is turned or pulled faster.
 bool are_both_ordered(std::span<const Order> orders, const pattern::Design& design);

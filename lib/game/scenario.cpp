@@ -65,7 +65,7 @@ void read_table(std::string_view source, std::string_view table, const toml::tab
   }
 }
 
-/// Where the first of these keys (`table.name`, or `name`) stands that the file has; the file itself when it has none.
+/// Place of the first of these keys (`table.name`, or `name`) that the file has; the file itself when it has none.
 std::string place_of(std::string_view source, const toml::table& entries,
                      std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : keys) {
@@ -76,7 +76,7 @@ std::string place_of(std::string_view source, const toml::table& entries,
   return std::string(source);
 }
 
-/// What no key shows by itself.
+/// Checks that concern several keys.
 void check_together(std::string_view source, const toml::table& entries, const Scenario& scenario) {
   const ValidationSettings& validation = scenario.validation;
   if (validation.enough_valid > validation.replicates) {
@@ -92,7 +92,7 @@ void check_together(std::string_view source, const toml::table& entries, const S
   }
 }
 
-/// The document, and the scenario that it says.
+/// The document and its scenario.
 std::pair<toml::table, Scenario> parse(std::string_view text, std::string_view source) {
   toml::table entries = read_toml(text, source);
   Scenario scenario;
@@ -101,7 +101,7 @@ std::pair<toml::table, Scenario> parse(std::string_view text, std::string_view s
   return {std::move(entries), std::move(scenario)};
 }
 
-/// Folders that a file named in a scenario is looked for in, nearest first.
+/// Folders in which a file named in a scenario is searched, nearest first.
 std::vector<std::filesystem::path> search_folders(const std::filesystem::path& scenario_path) {
   std::vector<std::filesystem::path> folders;
   const auto add_with_parents = [&](std::filesystem::path folder) {

@@ -1,6 +1,5 @@
 #pragma once
-// A scenario: everything a run is configured by, one documented struct, validated, written back in full beside the
-// logs.
+// A scenario: the configuration of a run, one documented struct, validated, written back in full to the run's folder.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::game {
 
@@ -19,7 +18,7 @@ struct ProposalSettings {
   int seeds = 2;                    ///< independent searches merged into one gamut
   int population = 20;              ///< of each search
   int designs = 4;                  ///< selected for the laboratory each round
-  int realisations = 3;  ///< further simulations of T of whatever may be selected, under parameters moved by a fifth
+  int realisations = 3;  ///< further simulations of T of every candidate for selection, with perturbed parameters
   bool operator==(const ProposalSettings&) const = default;
 };
 
@@ -29,10 +28,10 @@ struct ValidationSettings {
   int enough_valid = 0;     ///< an order is also complete with this many valid specimens; 0 means all replicates
   int calibration_evaluations = 25;  ///< evaluations of the toughness calibration set per round
   int modulus_evaluations = 120;     ///< evaluations of the modulus calibration set per round
-  int calibration_batch = 3;         ///< evaluations asked for at once
+  int calibration_batch = 3;         ///< parameter sets evaluated at once
   std::vector<double> mixtures = {0.5,  0.6, 0.65, 0.7,
                                   0.75, 0.8, 0.85, 0.9};  ///< homogeneous benchmark, measured in round 1
-  bool approval = false;                                  ///< proposals wait for a person's yes
+  bool approval = false;                                  ///< proposals wait for a person's approval
   bool operator==(const ValidationSettings&) const = default;
 };
 
@@ -40,15 +39,15 @@ struct FarmSettings {
   std::string executor =
       "local";  ///< local: threads of the farm's machine; slurm: tasks of a cluster; cuda: fracture tests on a GPU
   std::vector<std::string> slurm_options;  ///< further options of sbatch, e.g. "--partition=short"
-  int batch_s = 20;                        ///< work that one task is given, in seconds of one core
+  int batch_s = 20;                        ///< work of one task, in seconds of one core
   bool operator==(const FarmSettings&) const = default;
 };
 
-struct DiagnosisSettings {
+struct DiagnosisStageSettings {
   bool enabled = true;
   int discrimination_orders = 2;  ///< extra tests a round that separate rival causes
   int bootstraps = 2000;
-  bool operator==(const DiagnosisSettings&) const = default;
+  bool operator==(const DiagnosisStageSettings&) const = default;
 };
 
 struct LaboratorySettings {
@@ -88,22 +87,22 @@ struct Scenario {
   std::string model_file;   ///< parameters that round 0 begins with, extensions included; empty: the built-in ones
   std::string ranges_file;  ///< of the parameters, for other inks; empty: the thesis'
   std::string discretisation_floor_file =
-      "data/discretisation_floor.toml";  ///< what two numerics of one truth differ by; empty: nothing
+      "data/discretisation_floor.toml";  ///< discretisation floor of the diagnosis; empty: none
   FarmSettings farm;
   ProposalSettings proposal;
   ValidationSettings validation;
-  DiagnosisSettings diagnosis;
+  DiagnosisStageSettings diagnosis;
   FamilySettings families;
   LaboratorySettings laboratory;
-  /// Nodes that take part, in start order.
+  /// The nodes of this scenario, in start order.
   std::vector<std::string> nodes() const;
   bool operator==(const Scenario&) const = default;
 };
 
 /// Reads and validates a scenario. Unknown keys and values out of range throw InputError with file, line, key, value,
-/// range. Files that it names are looked for beside the scenario, in the folders above it, in the working folder and in
-/// the folders above it and above the program, in this order; the result holds the paths found. A file that is nowhere
-/// is an InputError.
+/// range. Files that it names are searched in the scenario's folder, in the folders above it, in the working folder and
+/// in the folders above it and above the program, in this order; the result holds the paths found. A file that is not
+/// found is an InputError.
 Scenario read_scenario(const std::filesystem::path& path);
 
 /// The same from text, with file names left as written; `source` names the place in errors.

@@ -204,7 +204,7 @@ std::vector<ScenarioKey> make_top_level_keys() {
                         at(&Scenario::rounds)),
       fidelity_key(),
       flag("", "stop_at_equilibrium",
-           "end before the last round when two rounds running add nothing (launch/README.md)",
+           "end before the last round once two consecutive rounds bring no progress (launch/README.md)",
            at(&Scenario::stop_at_equilibrium)),
       choice("", "hosts", "where the nodes run: this machine, or machines of one local network", {"local", "lan"},
              at(&Scenario::hosts)),
@@ -212,16 +212,18 @@ std::vector<ScenarioKey> make_top_level_keys() {
                         at(&Scenario::port)),
       whole_number<int>("", "farm_threads", "threads of the simulator farm; 0: all allowed cores", 0, 4096,
                         at(&Scenario::farm_threads)),
-      file_name("", "benchmark_file", "measured homogeneous line for the selection when no mixtures are measured",
+      file_name("", "benchmark_file",
+                "measured homogeneous benchmark line for the selection when no mixtures are measured",
                 at(&Scenario::benchmark_file)),
       file_name("", "base_materials_file",
-                "measured base materials that round 0 is fitted to; \"\": taken as it begins",
+                "measured base materials to which the model of round 0 is fitted; \"\": not fitted",
                 at(&Scenario::base_materials_file)),
-      file_name("", "model_file", "parameters that round 0 begins with, extensions included; \"\": the built-in ones",
+      file_name("", "model_file", "initial parameters of round 0, extensions included; \"\": the built-in ones",
                 at(&Scenario::model_file)),
       file_name("", "ranges_file", "ranges of the fitted parameters, for other inks; \"\": those of the thesis",
                 at(&Scenario::ranges_file)),
-      file_name("", "numerics_floor_file", "how far two numerics of one truth differ: the floor of every diagnosis",
+      file_name("", "numerics_floor_file",
+                "discretisation floor: errors of the simulation itself, below which a diagnosis finds no cause",
                 at(&Scenario::discretisation_floor_file)),
   };
 }
@@ -230,10 +232,10 @@ std::vector<ScenarioKey> make_farm_keys() {
   constexpr auto table = &Scenario::farm;
   return {
       choice("farm", "executor",
-             "who simulates: threads of the farm's machine, tasks of a Slurm cluster, or a GPU beside threads",
+             "where simulations run: threads of the farm's machine, tasks of a Slurm cluster, or a GPU and threads",
              {"local", "slurm", "cuda"}, at(table, &FarmSettings::executor)),
       cluster_options_key(),
-      whole_number<int>("farm", "batch_s", "work that a task of the cluster is given, in seconds of one core", 1, 3600,
+      whole_number<int>("farm", "batch_s", "work of one task of the cluster, in seconds of one core", 1, 3600,
                         at(table, &FarmSettings::batch_s)),
   };
 }
@@ -241,7 +243,7 @@ std::vector<ScenarioKey> make_farm_keys() {
 std::vector<ScenarioKey> make_proposal_keys() {
   constexpr auto table = &Scenario::proposal;
   return {
-      choice("proposal", "algorithm", "how the gamut is searched",
+      choice("proposal", "algorithm", "search algorithm for the gamut",
              {"nsga2", "nsga2-single-pixel", "nsga2-rollback", "random", "learned", "tsemo", "dgemo"},
              at(table, &ProposalSettings::algorithm)),
       whole_number<int>("proposal", "samples", "simulations per gamut, all searches together", 1, 1'000'000,
@@ -252,9 +254,10 @@ std::vector<ScenarioKey> make_proposal_keys() {
                         at(table, &ProposalSettings::population)),
       whole_number<int>("proposal", "designs", "designs chosen for the laboratory each round", 1, 100,
                         at(table, &ProposalSettings::designs)),
-      whole_number<int>("proposal", "redraws",
-                        "further fracture tests of every candidate, parameters moved by a fifth; its T is their mean",
-                        0, 100, at(table, &ProposalSettings::realisations)),
+      whole_number<int>(
+          "proposal", "redraws",
+          "further realisations (perturbed parameters) of every candidate's fracture; its T is their mean", 0, 100,
+          at(table, &ProposalSettings::realisations)),
   };
 }
 
@@ -266,13 +269,13 @@ std::vector<ScenarioKey> make_validation_keys() {
       whole_number<int>("validation", "replicates", "specimens per design and test", 1, 100,
                         at(table, &ValidationSettings::replicates)),
       whole_number<int>("validation", "enough_valid",
-                        "an order is also complete with so many valid specimens; 0: all replicates", 0, 100,
+                        "an order is complete with this many valid specimens; 0: with all replicates", 0, 100,
                         at(table, &ValidationSettings::enough_valid)),
       whole_number<int>("validation", "calibration_evaluations", "evaluations of the toughness set per round", 0,
                         100'000, at(table, &ValidationSettings::calibration_evaluations)),
       whole_number<int>("validation", "modulus_evaluations", "evaluations of the modulus set per round", 0, 100'000,
                         at(table, &ValidationSettings::modulus_evaluations)),
-      whole_number<int>("validation", "calibration_batch", "parameter sets asked for at once", 1, 64,
+      whole_number<int>("validation", "calibration_batch", "parameter sets evaluated at once", 1, 64,
                         at(table, &ValidationSettings::calibration_batch)),
       mixtures_key(),
       flag("validation", "approval", "proposed designs wait for a person's `nacre approve`",
@@ -284,13 +287,13 @@ std::vector<ScenarioKey> make_remaining_keys() {
   constexpr auto diagnosis = &Scenario::diagnosis;
   constexpr auto laboratory = &Scenario::laboratory;
   return {
-      flag("diagnosis", "enabled", "ask each round what the simulation gets wrong and why",
-           at(diagnosis, &DiagnosisSettings::enabled)),
+      flag("diagnosis", "enabled", "diagnose after each round which cause explains the prediction errors",
+           at(diagnosis, &DiagnosisStageSettings::enabled)),
       whole_number<int>("diagnosis", "discrimination_orders",
-                        "extra tests a round, each with its replicates, that tell rival causes apart", 0, 20,
-                        at(diagnosis, &DiagnosisSettings::discrimination_orders)),
-      whole_number<int>("diagnosis", "bootstraps", "resamplings behind the decision threshold", 1000, 1'000'000,
-                        at(diagnosis, &DiagnosisSettings::bootstraps)),
+                        "extra tests per round, each with its replicates, that discriminate between rival causes", 0,
+                        20, at(diagnosis, &DiagnosisStageSettings::discrimination_orders)),
+      whole_number<int>("diagnosis", "bootstraps", "bootstrap resamples for the decision threshold", 1000, 1'000'000,
+                        at(diagnosis, &DiagnosisStageSettings::bootstraps)),
       flag("laboratory", "virtual_lab", "true: the virtual laboratory measures; false: a person does (nacre inject)",
            at(laboratory, &LaboratorySettings::virtual_lab)),
       file_name("laboratory", "file", "LAB.toml of the virtual laboratory; \"\": its truth is drawn from the seed",
@@ -303,7 +306,7 @@ std::vector<ScenarioKey> make_family_keys() {
   return {
       flag("families", "enabled", "after the last round: families of good designs, each with a model of its own",
            at(table, &FamilySettings::enabled)),
-      whole_number<int>("families", "rank", "seeds are measured designs that are non-dominated up to this rank", 1, 100,
+      whole_number<int>("families", "rank", "seeds are measured designs of non-domination rank up to this", 1, 100,
                         at(table, &FamilySettings::rank)),
       whole_number<int>("families", "samples", "variants simulated around the seeds of a family", 1, 100'000,
                         at(table, &FamilySettings::samples)),

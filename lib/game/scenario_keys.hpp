@@ -1,5 +1,5 @@
 #pragma once
-// The keys of a scenario file, each described once: where it stands, what it means, how it is read, checked and
+// The keys of a scenario file, each described once: its table and name, its meaning, how it is read, checked and
 // written.
 
 #include <functional>

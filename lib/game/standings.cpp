@@ -15,7 +15,7 @@
 namespace nacre::game {
 namespace {
 
-// Specimens that answer the same nominal question are replicates of each other.
+// Specimens under the same nominal conditions are replicates of each other.
 std::vector<measurement::Replicates> summarise_nominally(const std::vector<measurement::SpecimenRecord>& specimens) {
   return measurement::summarise(measurement::at_nominal_conditions(specimens));
 }
@@ -34,7 +34,7 @@ double mean_of_realisations(const std::vector<double>& values, RandomStream& ran
 
 }  // namespace
 
-bool is_standard(const tester::TestConditions& conditions) { return answers(conditions, {}); }
+bool is_standard(const tester::TestConditions& conditions) { return fulfils(conditions, {}); }
 
 std::vector<measurement::Replicates> under_standard_conditions(std::vector<measurement::Replicates> measured) {
   std::erase_if(measured, [](const measurement::Replicates& each) { return !is_standard(each.conditions); });
@@ -112,16 +112,16 @@ std::vector<measurement::Replicates> calibration_set(const std::vector<measureme
 
 std::vector<std::string> specimens_to_name(const std::vector<measurement::SpecimenRecord>& specimens,
                                            std::size_t most_bytes) {
-  std::map<std::string, std::string> question;  // that a specimen answers, by its name
+  std::map<std::string, std::string> group_of;  // nominal design, test and conditions, by specimen
   for (const measurement::SpecimenRecord& each : measurement::at_nominal_conditions(specimens)) {
     if (!each.valid) continue;
     const tester::TestConditions& tested = each.conditions;
-    question[each.specimen] = fmt::format("{} {} {} {} {}", each.design.name(), tester::to_string(each.test),
+    group_of[each.specimen] = fmt::format("{} {} {} {} {}", each.design.name(), tester::to_string(each.test),
                                           tested.orientation_deg, tested.strain_rate_per_s, tested.thickness_mm);
   }
-  std::map<std::string, int> count;                       // of replicates, by question
+  std::map<std::string, int> count;                       // of replicates, by group
   std::vector<std::pair<int, std::string>> by_replicate;  // number, name
-  for (const auto& [name, asked] : question) by_replicate.emplace_back(count[asked]++, name);
+  for (const auto& [name, group] : group_of) by_replicate.emplace_back(count[group]++, name);
   std::ranges::sort(by_replicate);
   std::vector<std::string> names;
   constexpr std::size_t kLengthAndEnd = 5;
@@ -146,9 +146,9 @@ std::vector<measurement::Replicates> patterns_with_both(const std::vector<measur
   return set;
 }
 
-Predicted predicted_among(const std::vector<measurement::Replicates>& measured,
-                          const std::map<std::string, sysid::Prediction>& predictions) {
-  Predicted predicted;
+PredictedDesigns predicted_among(const std::vector<measurement::Replicates>& measured,
+                                 const std::map<std::string, sysid::Prediction>& predictions) {
+  PredictedDesigns predicted;
   for (const measurement::Replicates& each : under_standard_conditions(measured)) {
     const auto prediction = predictions.find(each.design.name());
     if (prediction == predictions.end()) continue;

@@ -1,5 +1,6 @@
 #pragma once
-// How the game stands: measured fronts, their hypervolume with its error, the homogeneous benchmark, prediction errors.
+// The state of the game: measured fronts, their hypervolume with its error, the homogeneous benchmark, out-of-sample
+// prediction errors.
 
 #include <cstdint>
 #include <map>
@@ -8,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+#include "measurement/summary.hpp"
 #include "optimize/pareto.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
 
 namespace nacre::game {
 
@@ -20,10 +22,10 @@ struct MeasuredValues {
   std::vector<double> toughness_pa;
 };
 
-/// Whether these answer the standard conditions, which proposals and their predictions mean.
+/// Whether these are the standard conditions, to which proposals and their predictions refer.
 bool is_standard(const tester::TestConditions& conditions);
 
-/// The groups tested under standard conditions: a twin pulled ten times faster is no measurement of the design itself.
+/// The groups tested under standard conditions: a twin pulled ten times faster does not measure the design itself.
 std::vector<measurement::Replicates> under_standard_conditions(std::vector<measurement::Replicates> measured);
 
 /// Valid specimens of patterns tested under standard conditions, by pattern: what the measured front is made of.
@@ -44,11 +46,11 @@ double hypervolume_error(const std::map<pattern::Pattern, MeasuredValues>& value
 /// fraction.
 std::vector<optimize::Performance> benchmark_line(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens that
-/// answer the same nominal question are replicates even where callipers read 3.17 and 3.24 mm.
+/// Designs that the model is calibrated on: layouts printed upright with at least one valid value. Specimens under
+/// the same nominal conditions are replicates even where callipers read 3.17 and 3.24 mm.
 std::vector<measurement::Replicates> calibration_set(const std::vector<measurement::SpecimenRecord>& specimens);
 
-/// Names, sorted, of the valid specimens that one question about all of them can list: every one where `most_bytes`
+/// Names, sorted, of the valid specimens that one request about all of them can list: every one where `most_bytes`
 /// hold the names as LCM writes them (5 bytes more than letters), else of each design in each test under each nominal
 /// conditions equally many replicates, the first by name, as many as fit.
 std::vector<std::string> specimens_to_name(const std::vector<measurement::SpecimenRecord>& specimens,
@@ -62,13 +64,13 @@ std::optional<pattern::Pattern> eightfold_pattern(const pattern::Design& design)
 std::vector<measurement::Replicates> patterns_with_both(const std::vector<measurement::SpecimenRecord>& specimens);
 
 /// Designs with the predictions that were made before they were measured, one each.
-struct Predicted {
+struct PredictedDesigns {
   std::vector<measurement::Replicates> measured;
   std::vector<sysid::Prediction> predicted;
 };
-/// Those of `measured` that `predictions` foretold, in their order. Predictions are of standard conditions, by
+/// Those of `measured` that have a prediction, in their order. Predictions are of standard conditions, by
 /// canonical design name.
-Predicted predicted_among(const std::vector<measurement::Replicates>& measured,
-                          const std::map<std::string, sysid::Prediction>& predictions);
+PredictedDesigns predicted_among(const std::vector<measurement::Replicates>& measured,
+                                 const std::map<std::string, sysid::Prediction>& predictions);
 
 }  // namespace nacre::game

@@ -1,5 +1,7 @@
 #include "game/starting_point.hpp"
 
+#include "material/parameter_file.hpp"
+
 namespace nacre::game {
 
 material::ParameterRanges ranges_of(const Scenario& scenario) {

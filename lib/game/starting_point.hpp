@@ -1,5 +1,5 @@
 #pragma once
-// What a game begins with, from the files that its scenario names.
+// The initial state of a game, from the files that its scenario names.
 
 #include "game/scenario.hpp"
 #include "material/parameters.hpp"
@@ -7,7 +7,7 @@
 
 namespace nacre::game {
 
-/// Where parameters are looked for: `ranges_file`, or the thesis' ranges. Throws InputError.
+/// Ranges of the fitted parameters: `ranges_file`, or those of the thesis. Throws InputError.
 material::ParameterRanges ranges_of(const Scenario& scenario);
 
 /// The model before anything was fitted: `model_file` over the built-in parameters, brought inside the ranges. Throws

@@ -1,5 +1,5 @@
 #pragma once
-// Tables 3.4 and A.3 to A.6 of the thesis (data/thesis), to set one's own figures beside.
+// Tables 3.4 and A.3 to A.6 of the thesis (data/thesis), for comparison.
 
 #include <array>
 #include <filesystem>

@@ -42,13 +42,13 @@ Result<tester::ToughnessResult> PreparedTest::result(const std::vector<std::int3
   Result<tester::ToughnessResult> taken = watch_.take();
   if (!taken) return taken;
   tester::ToughnessResult result = *std::move(taken);
-  // Elements that stand are looked at only where they fail: what is no number has passed no threshold.
+  // Intact elements are checked only where they fail, and a value that is not a number has passed no threshold.
   if (!std::isfinite(result.toughness_pa)) return fail("toughness tester: the solution blew up: T is not a number");
   for (std::size_t element = 0; element < failed_at.size(); ++element) {
     const std::int32_t step = failed_at[element];
     if (step >= 0 && step < steps_) result.breaks.push_back({static_cast<int>(element), strain_at(step)});
   }
-  // In the order of failing; within one step they stay in that of the elements.
+  // In the order of failing; within one step in that of the elements.
   std::stable_sort(result.breaks.begin(), result.breaks.end(),
                    [](const tester::Break& a, const tester::Break& b) { return a.strain < b.strain; });
   return result;

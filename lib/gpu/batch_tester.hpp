@@ -1,6 +1,6 @@
 #pragma once
-// Fracture tests by the batch: specimens wait in line for a place on a device, are pulled there side by side, and make
-// room for the next.
+// Fracture tests by the batch: specimens wait in a queue for a place on a device, are pulled there in parallel, and are
+// replaced by the next when finished.
 
 #include <deque>
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "gpu/device.hpp"
 #include "tester/fracture_watch.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::gpu {
 
@@ -27,7 +28,7 @@ class PreparedTest {
 
  private:
   PreparedTest(const tester::FractureTest& test, const tester::MountedSpecimen<float>& specimen);
-  /// Strain of the grips in a step, as the machine counts it.
+  /// Strain of the grips in a step, from where they carry no force.
   double strain_at(std::int64_t step) const;
 
   SpecimenImage image_;
@@ -36,7 +37,7 @@ class PreparedTest {
   std::int64_t steps_ = 0;
 };
 
-/// A test and what its owner knows it by.
+/// A test and its number for the caller.
 struct NumberedTest {
   int number = 0;
   PreparedTest test;
@@ -54,10 +55,10 @@ class BatchTester {
   const Device& device() const { return *device_; }
 
   void add(NumberedTest test) { waiting_.push_back(std::move(test)); }
-  /// Tests in line and in places.
+  /// Tests in the queue and in places.
   int pending() const;
-  /// Fills free places, makes one chunk of steps, and returns the tests that are over. Throws DeviceLost; what was not
-  /// finished is the caller's to begin again elsewhere.
+  /// Fills free places, makes one chunk of steps, and returns the tests that are over. Throws DeviceLost; the caller
+  /// then repeats unfinished tests elsewhere.
   std::vector<NumberedResult> turn();
 
  private:
@@ -68,7 +69,7 @@ class BatchTester {
   std::vector<std::optional<NumberedTest>> places_;
 };
 
-/// How many specimens of this kind a device should hold: what its memory bears, at most `most`.
+/// Number of specimens of this kind that fit into a device's memory, at most `most`.
 int places_for(const Device& device, const SpecimenImage& typical, int most);
 
 }  // namespace nacre::gpu

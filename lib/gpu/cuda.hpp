@@ -8,7 +8,7 @@
 
 namespace nacre::gpu {
 
-/// Error, in words for a person: built without CUDA, no device, or one that cannot be used.
+/// Error, as a sentence: built without CUDA, no device, or one that cannot be used.
 Result<std::unique_ptr<Device>> cuda_device(int places);
 
 }  // namespace nacre::gpu

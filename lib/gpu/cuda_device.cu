@@ -179,8 +179,8 @@ class CudaDevice : public Device {
   };
 
   void write_place(int place) {
-    check(cudaMemcpyAsync(specimens_.get() + place, &places_[place].specimen,
-                          sizeof(Specimen), cudaMemcpyHostToDevice, stream_),
+    check(cudaMemcpyAsync(specimens_.get() + place, &places_[place].specimen, sizeof(Specimen), cudaMemcpyHostToDevice,
+                          stream_),
           "specimen");
   }
   /// A graph is made for specimens of a size; a larger one needs another.
@@ -234,7 +234,7 @@ class CudaDevice : public Device {
 std::unique_ptr<Device> make_cuda_device(int places) {
   int count = 0;
   check(cudaGetDeviceCount(&count), "devices");
-  if (count == 0) throw DeviceLost("there is none");
+  if (count == 0) throw DeviceLost("none was found");
   return std::make_unique<CudaDevice>(places);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// What carries out the steps of a batch of specimens: an accelerator, or this processor in its place. For host code and
-// for CUDA's compiler, which does not bear fmt: nothing here includes base/result.hpp.
+// The interface to what computes the steps of a batch of specimens: an accelerator, or this processor in its place
+// (emulated_device.hpp). For host code and for CUDA's compiler, which cannot compile fmt: nothing here includes
+// base/result.hpp.
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +18,7 @@ struct Reactions {
   float bottom[kChunkSteps] = {}, top[kChunkSteps] = {};
 };
 
-/// How a place of the batch stands after a chunk.
+/// State of a place of the batch after a chunk.
 struct PlaceReport {
   Reactions reactions;
   std::int32_t inverted = -1;  ///< an element that failed with J <= 0 or not a number; -1: none
@@ -35,19 +36,16 @@ class Device {
   virtual void load(int place, const SpecimenImage& image) = 0;
   /// Frees a place.
   virtual void unload(int place) = 0;
-  /// kChunkSteps steps of every specimen; returns when they have been asked for, perhaps before they are done.
+  /// Starts kChunkSteps steps of every specimen; may return before they are done.
   virtual void advance() = 0;
-  /// The places after the chunk asked for last; waits for it.
+  /// The places after the last chunk; waits for it.
   virtual std::vector<PlaceReport> reports() = 0;
-  /// Steps, counted from 0, in which the elements of a place failed, -1 while they stand; by element of the grid.
+  /// Steps, counted from 0, in which the elements of a place failed, -1 for intact ones; by element of the grid.
   virtual std::vector<std::int32_t> failed_at(int place) = 0;
 };
 
 struct DeviceLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// This processor, element by element in the order of a device: slow, for tests.
-std::unique_ptr<Device> emulated_device(int places);
 
 }  // namespace nacre::gpu

@@ -1,15 +1,13 @@
-// The device's steps on this processor: every pass over all of its threads before the next one, as a device's barriers
-// have it.
+#include "gpu/emulated_device.hpp"
 
 #include <algorithm>
 
-#include "gpu/device.hpp"
 #include "gpu/step.hpp"
 
 namespace nacre::gpu {
 namespace {
 
-struct Place {
+struct EmulatedPlace {
   Specimen specimen;
   std::vector<float> memory;
   std::vector<std::int32_t> failed_at;
@@ -35,7 +33,7 @@ class EmulatedDevice : public Device {
   std::size_t free_bytes() const override { return std::size_t{1} << 30; }
 
   void load(int place, const SpecimenImage& image) override {
-    Place& p = places_[place];
+    EmulatedPlace& p = places_[place];
     p.memory.assign(image.device_numbers(), 0.0f);
     std::copy(image.block.begin(), image.block.end(), p.memory.begin());
     p.failed_at.assign(image.elements, -1);
@@ -49,7 +47,7 @@ class EmulatedDevice : public Device {
 
   void advance() override {
     for (int k = 0; k < kChunkSteps; ++k, ++steps_) {
-      for (Place& p : places_) {
+      for (EmulatedPlace& p : places_) {
         if (!p.specimen.occupied) continue;
         const std::int64_t step = steps_ - p.specimen.begun_at;
         p.specimen.state.strain = strain_at(p.specimen, step);
@@ -62,16 +60,16 @@ class EmulatedDevice : public Device {
   }
   std::vector<PlaceReport> reports() override {
     std::vector<PlaceReport> reports;
-    for (const Place& p : places_) reports.push_back(p.report);
+    for (const EmulatedPlace& p : places_) reports.push_back(p.report);
     return reports;
   }
   std::vector<std::int32_t> failed_at(int place) override {
-    const Place& p = places_[place];
+    const EmulatedPlace& p = places_[place];
     return by_element(p.specimen.state, p.failed_at);
   }
 
  private:
-  std::vector<Place> places_;
+  std::vector<EmulatedPlace> places_;
   std::int64_t steps_ = 0;
 };
 

@@ -16,7 +16,7 @@ namespace nacre::gpu {
 struct SpecimenImage {
   std::vector<float> block;             ///< arrays one after the other, in the order of bind()
   std::size_t nodes = 0, elements = 0;  ///< numbers in an array of nodes, of elements
-  Specimen specimen;                    ///< constants; its pointers say which arrays there are, no more
+  Specimen specimen;                    ///< constants; its pointers only tell which arrays exist
 
   /// Numbers of device memory that the specimen takes: the block, the second velocities, and the corner forces.
   std::size_t device_numbers() const { return block.size() + 2 * nodes + 8 * elements; }

@@ -4,8 +4,8 @@
 // fem/extended_law.ipp).
 //
 // A step is two passes. Elements: forces on the four corners, failure. Nodes, a tile per block of threads: v += f into
-// the block's own memory, one node further on every side; then, once all have come so far, the filter of Eq. 2.4 and
-// the motion. Velocities go from one buffer to the other, so that neighbouring tiles read what they expect.
+// the block's own memory, one node further on every side; then, after a barrier, the filter of Eq. 2.4 and the motion.
+// Velocities go from one buffer to the other, so that neighbouring tiles read those of the step before.
 
 #include <cmath>
 #include <cstdint>
@@ -31,7 +31,7 @@ inline constexpr int kRimColumns = kTileColumns + 2, kRimRows = kTileRows + 2;
 /// Partial sums of a grip's reaction.
 inline constexpr int kShares = 32;
 
-/// What the threads of a tile share.
+/// Memory that the threads of a tile share.
 struct Tile {
   float vx[kRimRows][kRimColumns], vy[kRimRows][kRimColumns];
   float share[2][kShares];
@@ -63,7 +63,7 @@ NACRE_INLINE void erase(const fem::ExtendedState<float>& s, int element) {
     for (int i = 0; i < 3; ++i) s.branch[point][i][element] = 0.0f;
 }
 
-/// Whether an element is turned inside out, or not a number.
+/// Whether an element is inverted (J <= 0), or not a number.
 NACRE_INLINE bool is_inverted(const fem::ExtendedState<float>& s, int node) {
   const scalar::Gradient<float> g = scalar::gradient<float>(s, node);
   for (int i = 0; i < 2; ++i)
@@ -72,8 +72,8 @@ NACRE_INLINE bool is_inverted(const fem::ExtendedState<float>& s, int node) {
   return false;
 }
 
-/// First pass: the element at `row`, `column`; notes in `inverted`, unless that names another, that it failed inside
-/// out, as a solution does that blows up.
+/// First pass: the element at `row`, `column`; notes in `inverted`, unless that names another, that it failed with
+/// J <= 0, which is blow-up.
 NACRE_INLINE void step_element(const Specimen& specimen, std::int64_t step, int row, int column,
                                std::int32_t& inverted) {
   const fem::ExtendedState<float>& s = specimen.state;

@@ -1,11 +1,10 @@
-// How a laboratory's truth is drawn. Every constant has a random stream of its own, so that adding one changes no
-// other.
+#include "laboratory/draw.hpp"
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/random.hpp"
-#include "laboratory/truth.hpp"
 
 namespace nacre::laboratory {
 namespace {

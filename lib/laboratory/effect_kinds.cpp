@@ -1,8 +1,6 @@
-// The table of effects that the laboratory can hide.
+#include "laboratory/effect_kinds.hpp"
 
 #include <array>
-
-#include "laboratory/truth.hpp"
 
 namespace nacre::laboratory {
 namespace {

@@ -51,9 +51,9 @@ TimeStep time_step(double wave_m_per_s, double gamma_per_s) {
 }
 
 /// Nodes and elements of the specimen, rows padded so that a vector may read past the last column.
-class Specimen {
+class SpecimenMesh {
  public:
-  Specimen(const Raster& raster, const TimeStep& step)
+  SpecimenMesh(const Raster& raster, const TimeStep& step)
       : columns_(raster.columns),
         rows_(raster.rows),
         stride_(static_cast<std::size_t>(raster.columns) + 32),
@@ -76,7 +76,7 @@ class Specimen {
     }
   }
 
-  /// Takes up what the material hides; `state` must outlive the specimen's steps.
+  /// Adds the hidden effects of the material; `state` must outlive the specimen's steps.
   void hide(HiddenSpecimen* state) { hidden_ = state; }
   /// Slows all motion down, to come to rest.
   void brake(float share) {
@@ -191,7 +191,7 @@ class Specimen {
 };
 
 /// The recorder of the testing machine: averages over windows of strain, and whether the specimen has separated.
-class Recorder {
+class CurveRecorder {
  public:
   void record(double strain, double stress_pa) {
     curve.strain.push_back(strain);
@@ -212,7 +212,7 @@ class Recorder {
 };
 
 /// Lets a specimen of shrunk material come to rest between grips that give way to its force; returns their strain.
-Result<double> come_to_rest(Specimen& specimen, HiddenSpecimen& hidden, const Raster& raster, double gamma_per_s) {
+Result<double> come_to_rest(SpecimenMesh& specimen, HiddenSpecimen& hidden, const Raster& raster, double gamma_per_s) {
   if (raster.law.eigenstrain.empty()) return 0.0;
   const double wave = fastest_wave(raster),
                transit_steps = raster.rows * kElementM / wave / time_step(wave, gamma_per_s).dt_s;
@@ -234,7 +234,7 @@ Result<double> come_to_rest(Specimen& specimen, HiddenSpecimen& hidden, const Ra
 
 Result<PulledSpecimen> pull_to_separation(const Raster& raster, const Pull& pull) {
   const TimeStep step = time_step(fastest_wave(raster), pull.gamma_per_s);
-  Specimen specimen(raster, step);
+  SpecimenMesh specimen(raster, step);
   std::optional<HiddenSpecimen> hidden;
   if (raster.law.any()) specimen.hide(&hidden.emplace(raster, step.dt_s));
   double rest_strain = 0.0;
@@ -245,7 +245,7 @@ Result<PulledSpecimen> pull_to_separation(const Raster& raster, const Pull& pull
   }
   const double strain_step = pull.strain_rate_per_s * step.dt_s;
   const auto window = std::max<std::int64_t>(1, std::llround(kWindowStrain / strain_step));
-  Recorder recorder;
+  CurveRecorder recorder;
   double sum_pa = 0.0;
   for (std::int64_t n = 1; n <= pull.step_limit; ++n) {
     const Result<double> stress_pa =

@@ -8,11 +8,11 @@
 namespace nacre::laboratory {
 
 /// Strain at which an unnotched homogeneous coupon, pulled at the machine's rate, has taken up `share` of the energy
-/// that parts it (per volume), with what the truth hides in its material; at most 2.
+/// that parts it (per volume), with the hidden effects of its material; at most 2.
 double coupon_strain(const Truth& truth, double rigid_fraction, const Making& making, double share);
 
-/// Curve of an unnotched homogeneous coupon at the machine's rate, pulled and unloaded along `strains` from 0, with
-/// what the truth hides in its material. Stress of the softened coupon is the mean over its cross-section.
+/// Curve of an unnotched homogeneous coupon at the machine's rate, pulled and unloaded along `strains` from 0, with the
+/// hidden effects of its material. Stress of the softened coupon is the mean over its cross-section.
 tester::Curve coupon_curve(const Truth& truth, double rigid_fraction, const Making& making,
                            const std::vector<double>& strains);
 

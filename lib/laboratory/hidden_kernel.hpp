@@ -1,6 +1,6 @@
 #pragma once
-// The inner loop of the fracture bench for specimens whose material hides something. The laboratory's own formulation,
-// in Green's strain: plastic strain and the viscous strain of the Maxwell branch are subtracted from it.
+// The inner loop of the fracture bench for specimens whose material has hidden effects. The laboratory's own
+// formulation, in Green's strain: plastic strain and the viscous strain of the Maxwell branch are subtracted from it.
 
 #include "laboratory/fracture_kernel.hpp"
 

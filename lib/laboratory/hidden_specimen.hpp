@@ -1,5 +1,5 @@
 #pragma once
-// The history of a specimen whose material hides something, for the fracture bench.
+// The history of a specimen whose material has hidden effects, for the fracture bench.
 
 #include <array>
 #include <vector>

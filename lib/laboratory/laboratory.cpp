@@ -15,6 +15,7 @@
 #include "laboratory/modulus_bench.hpp"
 #include "laboratory/specimen_raster.hpp"
 #include "material/neo_hookean.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "tester/fidelity.hpp"
 #include "thesis/constants.hpp"
 
@@ -37,17 +38,17 @@ Making making_of(const Experiment& experiment, int specimen = 0) {
           .specimen = specimen};
 }
 
-Result<Response> respond_modulus(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond_modulus(const Truth& truth, const Experiment& experiment) {
   if (const pattern::Mixture* mixture = experiment.design.mixture()) {
-    return Response{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(experiment)),
-                    .curve = {},
-                    .remark = {}};
+    return TrueResponse{.modulus_pa = homogeneous_modulus(truth, mixture->rigid_fraction, making_of(experiment)),
+                        .curve = {},
+                        .remark = {}};
   }
   const SpecimenSize size = specimen_size(TestKind::modulus, experiment.fidelity);
   const Result<double> modulus_pa =
       pull_elastically(modulus_raster(truth, experiment.design, making_of(experiment), size));
   if (!modulus_pa) return tl::unexpected(modulus_pa.error());
-  return Response{.modulus_pa = *modulus_pa, .curve = {}, .remark = {}};
+  return TrueResponse{.modulus_pa = *modulus_pa, .curve = {}, .remark = {}};
 }
 
 Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, int specimen) {
@@ -60,8 +61,8 @@ Result<PulledSpecimen> pulled(const Truth& truth, const Experiment& experiment, 
                .strain_limit = raster.all_soft ? thesis::kSoftStrainLimit.value : thesis::kStrainLimit.value});
 }
 
-Result<Response> respond_toughness(const Truth& truth, const Experiment& experiment) {
-  Response response;
+Result<TrueResponse> respond_toughness(const Truth& truth, const Experiment& experiment) {
+  TrueResponse response;
   const int specimens = truth.effects.strength_scatter > 0.0 ? truth.replicates : 1;
   for (int specimen = 0; specimen < specimens; ++specimen) {
     const Result<PulledSpecimen> one = pulled(truth, experiment, specimen);
@@ -92,10 +93,10 @@ std::vector<double> coupon_strains(const Truth& truth, const Experiment& experim
   return tester::strain_path(loading, way / (kCurvePoints - 1));
 }
 
-Result<Response> respond_tensile(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond_tensile(const Truth& truth, const Experiment& experiment) {
   const pattern::Mixture* mixture = experiment.design.mixture();
   if (!mixture) return fail("an unnotched coupon is homogeneous, expected rigid, soft, interface or mix:F");
-  Response response;
+  TrueResponse response;
   const std::vector<double> strains = coupon_strains(truth, experiment, mixture->rigid_fraction);
   if (hides_a_curve(truth.effects)) {
     response.curve = coupon_curve(truth, mixture->rigid_fraction, making_of(experiment), strains);
@@ -112,7 +113,7 @@ Result<Response> respond_tensile(const Truth& truth, const Experiment& experimen
 /// exp(N(0, sd)): a factor with median 1.
 double lognormal(RandomStream& stream, double sd) { return std::exp(sd * stream.normal()); }
 
-/// How this specimen differs from the truth's average one.
+/// How this specimen differs from the average one.
 struct Scatter {
   double modulus = 1.0, stress = 1.0, strain = 1.0;
 };
@@ -135,24 +136,24 @@ double stress_gain(const HiddenEffects& effects, double thickness_mm) {
 }
 
 /// A modulus as it is recorded: load train and gain.
-double shown_modulus(const HiddenEffects& effects, double gain, double modulus_pa) {
+double recorded_modulus(const HiddenEffects& effects, double gain, double modulus_pa) {
   return effects.machine_compliance_per_pa == 0.0 ? gain * modulus_pa
                                                   : gain / (1.0 / modulus_pa + effects.machine_compliance_per_pa);
 }
 
 /// A specimen's curve as it is recorded: slack, then the load train's stretch added to the specimen's, the gain.
-tester::Curve shown_curve(const HiddenEffects& effects, double gain, const tester::Curve& curve) {
-  tester::Curve shown;
+tester::Curve recorded_curve(const HiddenEffects& effects, double gain, const tester::Curve& curve) {
+  tester::Curve recorded;
   if (effects.toe_slack > 0.0) {
-    shown.strain.push_back(0.0);
-    shown.stress_pa.push_back(0.0);
+    recorded.strain.push_back(0.0);
+    recorded.stress_pa.push_back(0.0);
   }
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    shown.strain.push_back(curve.strain[i] + effects.toe_slack +
-                           effects.machine_compliance_per_pa * curve.stress_pa[i]);
-    shown.stress_pa.push_back(gain * curve.stress_pa[i]);
+    recorded.strain.push_back(curve.strain[i] + effects.toe_slack +
+                              effects.machine_compliance_per_pa * curve.stress_pa[i]);
+    recorded.stress_pa.push_back(gain * curve.stress_pa[i]);
   }
-  return shown;
+  return recorded;
 }
 
 /// How many batches came before: the number at the end of its name, less that of the first one; 0 without a number.
@@ -173,32 +174,32 @@ double drift_of(const HiddenEffects& effects, const SpecimenRecord& record) {
 }
 
 /// The curve of replicate `number` among those that were pulled.
-const tester::Curve& curve_of(const Response& response, int number) {
+const tester::Curve& curve_of(const TrueResponse& response, int number) {
   const auto which = static_cast<std::size_t>(std::max(0, number - 1)) % (response.other_curves.size() + 1);
   return which == 0 ? response.curve : response.other_curves[which - 1];
 }
 
-void fill_in(SpecimenRecord& record, const Truth& truth, const Response& response, int number) {
+void fill_in(SpecimenRecord& record, const Truth& truth, const TrueResponse& response, int number) {
   Scatter scatter = scatter_of(truth, record.specimen);
   const double drift = drift_of(truth.effects, record);
   scatter.modulus *= drift;
   scatter.stress *= drift;
   const double gain = stress_gain(truth.effects, record.conditions.thickness_mm);
   if (record.test == TestKind::modulus) {
-    record.modulus_pa = shown_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
+    record.modulus_pa = recorded_modulus(truth.effects, gain, scatter.modulus * response.modulus_pa);
     return;
   }
   const double stress = record.test == TestKind::tensile ? scatter.modulus : scatter.stress;
   tester::Curve curve = curve_of(response, number);
   for (double& value : curve.strain) value *= scatter.strain;
   for (double& value : curve.stress_pa) value *= stress;
-  record.curve = shown_curve(truth.effects, gain, curve);
+  record.curve = recorded_curve(truth.effects, gain, curve);
   if (record.test == TestKind::toughness) record.toughness_pa = tester::area_under(record.curve);
 }
 
 }  // namespace
 
-Result<Response> respond(const Truth& truth, const Experiment& experiment) {
+Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment) {
   if (experiment.test != TestKind::tensile && !experiment.loading.turns.empty())
     return fail("loading \"{}\": only unnotched coupons are unloaded here", tester::to_string(experiment.loading));
   const double orientation = experiment.conditions.orientation_deg;
@@ -214,7 +215,7 @@ Result<Response> respond(const Truth& truth, const Experiment& experiment) {
   return fail("an unknown test");
 }
 
-SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment, const Result<Response>& response,
+SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment, const Result<TrueResponse>& response,
                                const Replicate& replicate) {
   SpecimenRecord record;
   record.specimen = replicate.specimen;
@@ -227,7 +228,7 @@ SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
   record.note = response ? response->remark : response.error().message;
   if (!response) return record;
   fill_in(record, truth, *response, replicate.number);
-  // No laboratory hands in what no game can use: the specimen failed.
+  // A laboratory reports no value that no game can use: the specimen failed.
   if (const auto fault = measurement::why_unusable(record)) {
     record.valid = false;
     record.note = fmt::format("{} {}", fault->column, fault->reason);

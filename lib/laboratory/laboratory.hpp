@@ -3,18 +3,16 @@
 // (the same for all replicates) and what scatters or is added by the machine are two steps, so that one simulation
 // serves every replicate.
 
-#include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "laboratory/truth.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "tester/loading.hpp"
 
 namespace nacre::laboratory {
 
-/// What one simulation answers.
+/// One test of one design: the laboratory's unit of work, which one simulation serves.
 struct Experiment {
   pattern::Design design;
   tester::TestKind test = tester::TestKind::modulus;
@@ -25,55 +23,31 @@ struct Experiment {
 };
 
 /// The specimen's true response, without scatter and before the machine: a modulus, or a curve.
-struct Response {
+struct TrueResponse {
   double modulus_pa = 0.0;  ///< test `modulus`
   tester::Curve curve;      ///< `toughness` and `tensile`
   std::string remark;       ///< what a lab book would note, or empty
-  /// Where voxels have strengths of their own: curves of further specimens beside `curve`, as many in all as the truth
+  /// Where voxels have strengths of their own: curves of further specimens after `curve`, as many in all as the truth
   /// has replicates. Whoever asks for more gets them again: every one costs a simulation.
   std::vector<tester::Curve> other_curves = {};
 };
 
-/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; a question that makes no sense
+/// Simulates one test. Pure and thread-safe. Error: what went wrong in the simulation; an experiment that makes no
+/// sense
 /// (`tensile` of a layout, an orientation other than 0 and 90).
-Result<Response> respond(const Truth& truth, const Experiment& experiment);
+Result<TrueResponse> respond(const Truth& truth, const Experiment& experiment);
 
 /// One replicate: how it is called and where it was printed.
 struct Replicate {
   std::string specimen;  ///< names the streams of its scatter
   std::string batch;
   int print_order = 0;
-  int number = 1;  ///< among those of its order, from 1: which specimen of a Response with several it is
+  int number = 1;  ///< among those of its order, from 1: which specimen of a TrueResponse with several it is
 };
 
 /// The record of one specimen: the response with this specimen's scatter, seen through the machine, its curve in at
 /// most 200 points. A failed simulation gives an invalid specimen with a note, never a number.
 measurement::SpecimenRecord record_specimen(const Truth& truth, const Experiment& experiment,
-                                            const Result<Response>& response, const Replicate& replicate);
-
-/// What is measured in one go.
-struct Campaign {
-  std::vector<pattern::Design> designs;
-  std::vector<tester::TestKind> tests = {tester::TestKind::modulus, tester::TestKind::toughness};
-  /// 0 and 90, each at most once: {0, 90} prints a turned twin of every design. Homogeneous coupons look the same from
-  /// everywhere and are measured once.
-  std::vector<double> orientations_deg = {0.0};
-};
-
-/// Told while a campaign is simulated, from any thread: share 0..1 of the expected time, simulations done, of how many.
-using CampaignProgress = std::function<void(double share, int done, int all)>;
-
-/// Measures designs one by one: modulus and toughness specimens (of `mix:0.5` and its like too), all replicates,
-/// replicate k of everything in batch k, in an order of printing drawn from the seed. Simulations run on all allowed
-/// cores.
-std::vector<measurement::SpecimenRecord> measure(const Truth& truth, const Campaign& campaign,
-                                                 const CampaignProgress& progress = {});
-
-/// `nacre measure`: measures as LAB.toml says, writes the measurement set `folder` and, sealed, `folder`.truth.toml
-/// beside it. Returns the records. Throws InputError for a bad laboratory file, a folder that holds a set already or
-/// has a truth beside it (before anything is simulated) or one that cannot be written.
-std::vector<measurement::SpecimenRecord> measure_set(const std::filesystem::path& laboratory_file,
-                                                     const std::filesystem::path& folder, const Campaign& campaign,
-                                                     const CampaignProgress& progress = {});
+                                            const Result<TrueResponse>& response, const Replicate& replicate);
 
 }  // namespace nacre::laboratory

@@ -1,7 +1,8 @@
-// LAB.toml: read strictly, written back in full.
+#include "laboratory/laboratory_file.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -10,7 +11,8 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "base/toml_file.hpp"
-#include "laboratory/truth.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "measurement/limits.hpp"
 
 namespace nacre::laboratory {
@@ -90,12 +92,12 @@ class Section {
   std::vector<std::string> known_;
 };
 
-struct Range {
+struct AllowedRange {
   double minimum, maximum;
 };
 
 /// Values that the benches can compute with.
-Range range_of(std::string_view parameter) {
+AllowedRange range_of(std::string_view parameter) {
   if (parameter.starts_with("nu_")) return {0.0, 0.5};
   if (parameter.starts_with("gamma_")) return {1.0, 1e8};
   if (parameter.starts_with("e_")) return {measurement::kModulusPa.least, measurement::kModulusPa.most};
@@ -106,7 +108,7 @@ Range range_of(std::string_view parameter) {
 template <class Vector>
 Vector read_constants(Section section, std::span<const std::string_view> names, Vector constants) {
   for (std::size_t i = 0; i < constants.size(); ++i) {
-    const Range range = range_of(names[i]);
+    const AllowedRange range = range_of(names[i]);
     constants[i] = section.number(names[i], range.minimum, range.maximum, constants[i]);
   }
   section.refuse_others();
@@ -147,7 +149,7 @@ void read_effect(const toml::table& table, std::string_view source, std::uint64_
   if (kind == effect_kinds().end()) {
     const toml::node* given = table.get("name");
     throw fault_at(source, given ? *given : static_cast<const toml::node&>(table), "effect.name",
-                   name == kDraw ? "no value beside the name \"draw\"" : "one of " + effect_names());
+                   name == kDraw ? "no value with the name \"draw\"" : "one of " + effect_names());
   }
   const bool drawn = !value || value->value_exact<std::string_view>() == kDraw;
   if (kind->second.value != nullptr) effects.*kind->second.value = draw_second_value(seed, *kind);

@@ -125,8 +125,8 @@ bool rigid_at(const pattern::Layout& layout, int column, int row) {
   return layout.rigid(pattern::kSide - 1 - wrapped(row), wrapped(column));
 }
 
-Unit unit_of(const pattern::Layout& layout, const HiddenEffects& effects) {
-  Unit unit;
+LaidUnit unit_of(const pattern::Layout& layout, const HiddenEffects& effects) {
+  LaidUnit unit;
   for (int row = 0; row < kUnitElements; ++row) {
     for (int column = 0; column < kUnitElements; ++column) {
       const Site site = site_at(layout, (column + 0.5) * kElementM, (row + 0.5) * kElementM);

@@ -15,7 +15,7 @@ inline constexpr double kInterfaceReach = 0.25;
 inline constexpr int kUnitElements = static_cast<int>(pattern::kSide * kPixelM / kElementM + 0.5);
 
 /// The unit's elements, row 0 at the bottom.
-struct Unit {
+struct LaidUnit {
   std::vector<Site> site;
   std::vector<double> rigid_fraction;
 };
@@ -25,6 +25,6 @@ inline std::size_t unit_index(int row, int column) { return static_cast<std::siz
 bool rigid_at(const pattern::Layout& layout, int column, int row);
 
 /// Sites from the drawn layout; rigid fractions with what hidden effects do to them (growth, mixing).
-Unit unit_of(const pattern::Layout& layout, const HiddenEffects& effects);
+LaidUnit unit_of(const pattern::Layout& layout, const HiddenEffects& effects);
 
 }  // namespace nacre::laboratory

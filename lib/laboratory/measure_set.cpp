@@ -1,4 +1,4 @@
-// The laboratory as a batch tool.
+#include "laboratory/measure_set.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,9 +11,10 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/result.hpp"
-#include "laboratory/laboratory.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_table.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::laboratory {
 namespace {
@@ -37,13 +38,13 @@ std::vector<Experiment> experiments_of(const Truth& truth, const Campaign& campa
   return experiments;
 }
 
-/// Simulated time of a question, in arbitrary units: a fracture takes thousands of times longer than a modulus.
+/// Effort of an experiment, in arbitrary units: a fracture takes thousands of times longer than a modulus.
 double effort_of(const Experiment& experiment) { return experiment.test == tester::TestKind::modulus ? 1.0 : 1000.0; }
 
-/// Asks all of them, reporting as they come in.
-std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
-                                           const CampaignProgress& progress) {
-  std::vector<std::optional<Result<Response>>> responses(experiments.size());
+/// Makes all experiments, reporting progress as they end.
+std::vector<Result<TrueResponse>> responses_to(const Truth& truth, const std::vector<Experiment>& experiments,
+                                               const CampaignProgress& progress) {
+  std::vector<std::optional<Result<TrueResponse>>> responses(experiments.size());
   double whole = 0.0, spent = 0.0;
   for (const Experiment& experiment : experiments) whole += effort_of(experiment);
   int done = 0;
@@ -55,12 +56,12 @@ std::vector<Result<Response>> responses_to(const Truth& truth, const std::vector
     spent += effort_of(experiments[q]);
     if (progress) progress(spent / whole, ++done, static_cast<int>(experiments.size()));
   });
-  std::vector<Result<Response>> all;
+  std::vector<Result<TrueResponse>> all;
   for (auto& response : responses) all.push_back(*std::move(response));
   return all;
 }
 
-/// A specimen to be recorded: which question it answers, and which replicate it is.
+/// A specimen to be recorded: of which experiment, and which replicate it is.
 struct Planned {
   std::size_t experiment = 0;
   Replicate replicate;
@@ -87,7 +88,7 @@ std::filesystem::path truth_file(const std::filesystem::path& folder) {
   return without_last_slash(std::filesystem::weakly_canonical(folder)).concat(".truth.toml");
 }
 
-/// A set is not measured over: judgements, and the truth beside it, belong to the specimens that it holds.
+/// A set is not measured over: reviews, and the truth next to it, belong to the specimens that it holds.
 void require_new(const std::filesystem::path& folder) {
   std::error_code unreadable;
   if (std::filesystem::exists(folder / measurement::kTableName, unreadable)) {
@@ -103,7 +104,7 @@ void require_new(const std::filesystem::path& folder) {
 
 std::vector<SpecimenRecord> measure(const Truth& truth, const Campaign& campaign, const CampaignProgress& progress) {
   const std::vector<Experiment> experiments = experiments_of(truth, campaign);
-  const std::vector<Result<Response>> responses = responses_to(truth, experiments, progress);
+  const std::vector<Result<TrueResponse>> responses = responses_to(truth, experiments, progress);
   std::vector<Planned> plan;
   for (std::size_t q = 0; q < experiments.size(); ++q) {
     const Experiment& experiment = experiments[q];

@@ -222,7 +222,7 @@ UnitElements unit_elements(const Constants& constants, const Truth& truth, const
     return unit;
   }
   const pattern::Layout& layout = *design.layout();  // outline and layout are turned together when printed
-  const Unit printed = unit_of(layout, effects);
+  const LaidUnit printed = unit_of(layout, effects);
   unit.rigid_fraction = printed.rigid_fraction;
   for (int row = 0; row < kUnitElements; ++row) {
     for (int column = 0; column < kUnitElements; ++column) {

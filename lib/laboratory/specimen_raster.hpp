@@ -8,7 +8,7 @@
 #include "laboratory/truth.hpp"
 #include "material/neo_hookean.hpp"
 #include "pattern/design.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::laboratory {

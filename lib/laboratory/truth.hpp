@@ -1,18 +1,12 @@
 #pragma once
-// What the virtual laboratory knows and nobody else may: the constants of its materials, its hidden effects and its
-// scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include headers of this
-// folder.
+// The hidden truth of a virtual laboratory, which nobody else may know: the constants of its materials, its hidden
+// effects and its scatter. Only the laboratory itself, `nacre measure` and the program that scores blind trials include
+// headers of this folder.
 
 #include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "material/parameters.hpp"
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::laboratory {
 
@@ -44,13 +38,13 @@ struct HiddenEffects {
   double residual_strain = 0.0;
   double plane_strain = 0.0;
   double batch_drift = 0.0;
-  // Other forms of effects that the diagnosis knows.
+  // Other forms of effects of the diagnosis' library.
   double smooth_mixing_pixels = 0.0;
   double longer_notch = 0.0;
   double soft_overstress = 0.0, soft_relaxation_s = 0.0;
   double drawn_out_damage = 0.0;
   double order_drift = 0.0;
-  // Effects that it does not know.
+  // Unmodelled causes: not in its library.
   double void_gradient = 0.0;
   double edge_layer = 0.0;
   double weak_layers = 0.0;
@@ -61,32 +55,6 @@ struct HiddenEffects {
   double thickness_error_mm = 0.0;
   bool operator==(const HiddenEffects&) const = default;
 };
-
-/// One number of an effect: what it means, which values are allowed in a file and which are drawn.
-struct EffectNumber {
-  std::string_view unit;
-  std::string_view meaning;
-  double minimum = 0.0, maximum = 0.0;
-  double drawn_minimum = 0.0, drawn_maximum = 0.0;  ///< magnitudes drawn, log-uniform
-  double HiddenEffects::*value = nullptr;
-};
-
-/// One sort of hidden effect: its name in LAB.toml, what its value means, which values are allowed and which are drawn.
-struct EffectKind {
-  std::string_view name;
-  std::string_view unit;
-  std::string_view meaning;
-  double minimum = 0.0, maximum = 0.0;              ///< allowed in a file
-  double drawn_minimum = 0.0, drawn_maximum = 0.0;  ///< magnitudes drawn, log-uniform
-  bool either_sign = false;                         ///< the drawn value takes a sign by the toss of a coin
-  bool drawn_unasked = false;                       ///< a laboratory without file may hide it
-  bool in_library = true;                           ///< false: the diagnosis has no name for it
-  std::string_view family = {};                     ///< of the library that it belongs to all the same, or empty
-  bool even = false;                                ///< acts on all specimens of one condition by one factor
-  double HiddenEffects::*value = nullptr;
-  EffectNumber second = {};  ///< its second number, where it has one (second.value not null)
-};
-std::span<const EffectKind> effect_kinds();
 
 /// The hidden truth of one laboratory.
 struct Truth {
@@ -99,30 +67,5 @@ struct Truth {
   HiddenEffects effects;
   bool operator==(const Truth&) const = default;
 };
-
-/// Material constants of this seed, near those that microstructures show (Table A.2) and different from the bulk's.
-material::ModulusParameters draw_modulus_parameters(std::uint64_t seed);
-material::ToughnessParameters draw_toughness_parameters(std::uint64_t seed);
-
-/// None, one or two effects (30, 50, 20 %) with magnitudes that matter.
-HiddenEffects draw_effects(std::uint64_t seed);
-/// The magnitude that this seed gives to one effect, and to its second number.
-double draw_effect_value(std::uint64_t seed, const EffectKind& kind);
-double draw_second_value(std::uint64_t seed, const EffectKind& kind);
-
-/// The truth of a laboratory that has no file: everything drawn from the seed.
-Truth draw_truth(std::uint64_t seed, tester::Fidelity fidelity);
-
-/// Reads LAB.toml. Tables that it lacks are drawn from its seed, which is `seed` where the file names none. Throws
-/// InputError naming file, line, key and what was expected.
-Truth read_laboratory(const std::filesystem::path& path, std::uint64_t seed = 1);
-/// The same from text; `source` names the place in errors.
-Truth parse_laboratory(std::string_view toml, std::string_view source, std::uint64_t seed = 1);
-
-/// The whole truth as TOML: parse_laboratory(to_toml(truth)) == truth.
-std::string to_toml(const Truth& truth);
-
-/// Writes the truth for the scoring program alone: mode 0400. Throws InputError.
-void write_sealed(const std::filesystem::path& path, const Truth& truth);
 
 }  // namespace nacre::laboratory

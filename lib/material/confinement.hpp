@@ -6,8 +6,9 @@
 
 namespace nacre::material {
 
-/// Share of the way to plane strain at a thickness: the value itself at the standard 3.2 mm, nearer to 1 in thicker
-/// specimens, t / (t + l) with the length l that the value stands for. 0 without the extension, at any thickness.
+/// Degree of plane strain at a thickness, 0 to 1: the extension's value at the standard 3.2 mm, nearer to 1 in thicker
+/// specimens, t / (t + l) with the length l that gives the value at the standard thickness. 0 without the extension, at
+/// any thickness.
 double plane_strain_share(const Extensions& extensions, double thickness_mm);
 
 /// Constants whose two-dimensional law has the same mu and lambda = lambda' + share (lambda3 - lambda'), lambda' being

@@ -1,8 +1,6 @@
-// The table of effects: names, units, ranges, where each acts and what it is in words.
+#include "material/effect_library.hpp"
 
 #include <array>
-
-#include "material/extensions.hpp"
 
 namespace nacre::material {
 namespace {
@@ -23,7 +21,7 @@ constexpr std::array kRateDependence = {
 constexpr std::array kProgressiveDamage = {
     EffectParameter{"energy spent in softening over the threshold energy", "1", 0.0, 4.0}};
 constexpr std::array kTensionOnlyFailure = {
-    EffectParameter{"share of the compressive energy that breaks nothing", "1", 0.0, 1.0}};
+    EffectParameter{"share of the compressive energy that causes no failure", "1", 0.0, 1.0}};
 constexpr std::array kStrengthScatter = {
     EffectParameter{"coefficient of variation of the thresholds of elements", "1", 0.0, 0.6}};
 constexpr std::array kBluntNotch = {EffectParameter{"radius of the notch root", "share of the width", 0.0, 0.05}};
@@ -38,7 +36,7 @@ constexpr std::array kBatchDrift = {
     EffectParameter{"growth of stiffness and stress from one batch to the next", "relative per batch step", -0.2, 0.2}};
 constexpr std::array kLoadCellGain = {EffectParameter{"error of the recorded force", "relative", -0.3, 0.3}};
 
-/// Which tests an effect shows in.
+/// The tests in which an effect acts.
 struct ActsOn {
   bool modulus = false, toughness = false, tensile = false;
 };
@@ -57,11 +55,11 @@ constexpr Effect effect(std::string_view name, std::string_view family, EffectSi
           .explanation = explanation};
 }
 
-// In the order in which they are reported. An effect stands here once all its code does.
+// In the order in which they are reported.
 constexpr std::array kLibrary = {
     effect("interface_anisotropy", "interface", EffectSide::material, kInterfaceAnisotropy, kLayouts,
-           "Interfaces between x-neighbours and between y-neighbours differ in stiffness and strength; shows in "
-           "rotated twins and in runs along against across the load."),
+           "Interfaces between x-neighbours and between y-neighbours differ in stiffness and strength; seen in "
+           "rotated twins and between laminates along and across the load."),
     effect("droplet_mixing", "geometry", EffectSide::material, kDropletMixing, kLayouts,
            "Droplets of the two materials mix over some pixels before they cure; depends on run length, not on the "
            "rigid fraction."),
@@ -71,10 +69,8 @@ constexpr std::array kLibrary = {
            "The rigid phase flows beyond a yield stress: a knee in the curve, and a permanent set on unloading."),
     effect("soft_stiffening", "soft bulk", EffectSide::material, kSoftStiffening, kLargeStrain,
            "The chains of the soft phase reach their limit (Gent): the late curve rises, its start is unchanged."),
-    effect(
-        "rate_dependence", "rate", EffectSide::material, kRateDependence, kEverything,
-        "All materials answer more stiffly the faster they are pulled (a Maxwell branch); a second strain rate shows "
-        "it."),
+    effect("rate_dependence", "rate", EffectSide::material, kRateDependence, kEverything,
+           "All materials are stiffer the faster they are pulled (a Maxwell branch); seen at a second strain rate."),
     effect("progressive_damage", "failure", EffectSide::material, kProgressiveDamage, kLargeStrain,
            "Material softens before it breaks: a rounder peak and a longer tail."),
     effect("tension_only_failure", "failure", EffectSide::material, kTensionOnlyFailure, kFracture,
@@ -82,21 +78,20 @@ constexpr std::array kLibrary = {
     effect("strength_scatter", "failure", EffectSide::material, kStrengthScatter, kFracture,
            "The strength of voxels scatters (Weibull); replicates scatter more and mean toughness falls."),
     effect("blunt_notch", "geometry", EffectSide::material, kBluntNotch, kFracture,
-           "The root of the notch is round instead of sharp; changes toughness alone, and a twin without notch not at "
-           "all."),
+           "The root of the notch is round instead of sharp; changes toughness alone, and no specimen without notch."),
     effect("residual_strain", "residual", EffectSide::material, kResidualStrain, kFracture,
-           "The rigid phase shrank when it cured and stands under stress before any load: stress that is there from "
-           "the start adds to what the pull brings."),
+           "The rigid phase shrank when it cured and is under residual stress before any load, which adds to the "
+           "stress of the test."),
     effect("plane_strain", "stress state", EffectSide::material, kPlaneStrain, kEverything,
-           "The specimen cannot contract freely through its thickness; shows between two thicknesses."),
+           "The specimen cannot contract freely through its thickness; seen between two thicknesses."),
     effect("machine_compliance", "measurement", EffectSide::measurement, kMachineCompliance, kEverything,
            "A spring in series with the specimen: the error grows with stiffness, in loading and unloading alike."),
     effect("toe_slack", "measurement", EffectSide::measurement, kToeSlack, kLargeStrain,
            "The grips move before the specimen carries; only the first part of the curve changes."),
     effect("batch_drift", "batch", EffectSide::measurement, kBatchDrift, kEverything,
-           "Stiffness and stress drift from print batch to print batch; a reference coupon in each batch shows it."),
+           "Stiffness and stress drift from print batch to print batch; seen in a reference coupon in each batch."),
     effect("load_cell_gain", "measurement", EffectSide::measurement, kLoadCellGain, kEverything,
-           "The load cell shows too much or too little; other constants of the materials explain it exactly."),
+           "The load cell reads too high or too low; collinear with other constants of the materials."),
 };
 
 }  // namespace

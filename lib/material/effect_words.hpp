@@ -8,7 +8,7 @@ namespace nacre::material {
 /// An effect as a sentence names it: "droplet mixing" for `droplet_mixing`.
 std::string effect_in_words(std::string_view name);
 
-/// Its unit behind a number, with a blank before it; empty where the parameter is a pure number ("1").
+/// The unit of a parameter after a number, with a blank before it; empty where the parameter is a pure number ("1").
 std::string unit_behind_number(std::string_view unit);
 
 }  // namespace nacre::material

@@ -8,33 +8,33 @@
 namespace nacre::material {
 namespace {
 
-/// Share of J_m from which chains stretch on at this stiffness: a law without end would have no state for a coupon that
-/// was pulled farther than some J_m allows.
+/// Share of J_m from which chains stretch on at this stiffness: a singular law would have no state for a coupon that is
+/// pulled farther than some J_m allows.
 constexpr double kFullChains = 0.98;
 
-/// Symmetric tensors by components 11, 22, 12.
-using Symmetric = std::array<double, 3>;
+/// SymmetricTensor tensors by components 11, 22, 12.
+using SymmetricTensor = std::array<double, 3>;
 
-Symmetric scaled_sum(double a, const Symmetric& x, double b, const Symmetric& y) {
+SymmetricTensor scaled_sum(double a, const SymmetricTensor& x, double b, const SymmetricTensor& y) {
   return {a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]};
 }
 
 /// C_e - 1 for the elastic part of the displacement gradient.
-Symmetric strain_of(const Eigen::Matrix2d& h) {
+SymmetricTensor strain_of(const Eigen::Matrix2d& h) {
   const double a = h(0, 0), b = h(0, 1), c = h(1, 0), d = h(1, 1);
   return {2.0 * a + a * a + c * c, 2.0 * d + d * d + b * b, b + c + a * b + c * d};
 }
 
 /// The elastic state of a point; half = I / 2, deviator half the difference of the squares of the principal stretches.
 struct Elastic {
-  double change, log_j;  ///< J_e - 1, ln J_e
-  Symmetric inverse;     ///< C_e^-1
-  Symmetric plastic;     ///< G - 1
+  double change, log_j;     ///< J_e - 1, ln J_e
+  SymmetricTensor inverse;  ///< C_e^-1
+  SymmetricTensor plastic;  ///< G - 1
   double half, deviator;
 };
 
-Elastic elastic_state(const Eigen::Matrix2d& h, const Symmetric& plastic) {
-  const Symmetric x = strain_of(h);
+Elastic elastic_state(const Eigen::Matrix2d& h, const SymmetricTensor& plastic) {
+  const SymmetricTensor x = strain_of(h);
   Elastic e{.change = volume_change(h), .log_j = 0.0, .inverse = {}, .plastic = plastic, .half = 0.0, .deviator = 0.0};
   e.log_j = std::log1p(e.change);
   const double square = (1.0 + e.change) * (1.0 + e.change);
@@ -44,7 +44,7 @@ Elastic elastic_state(const Eigen::Matrix2d& h, const Symmetric& plastic) {
   return e;
 }
 
-/// Flow: scales the deviator back to Y / (2 mu) and returns the energy that went.
+/// Flow: scales the deviator back to Y / (2 mu) and returns the dissipated energy.
 double flow(const ExtendedLaw& law, Elastic& e) {
   const double limit = law.yield_pa / (2.0 * law.lame.mu_pa);
   if (!(e.deviator > limit)) return 0.0;
@@ -62,26 +62,26 @@ double flow(const ExtendedLaw& law, Elastic& e) {
 /// mu times the part of I - 2 l that a principal stretch of square 1 + x holds, where it is shorter than at rest.
 double shortened(double x) { return x < 0.0 ? x - std::log1p(x) : 0.0; }
 
-/// The part of the energy density that shortened principal stretches and lost area hold.
+/// The compressive part of the energy density: of shortened principal stretches and lost area.
 double compressive_energy(const Lame& lame, const Elastic& e) {
   const double principal = shortened(e.half - e.deviator) + shortened(e.half + e.deviator);
   return 0.5 * (lame.mu_pa * principal + (e.log_j < 0.0 ? lame.lambda_pa * e.log_j * e.log_j : 0.0));
 }
 
 /// Advances the Maxwell branch to stress `s`, exactly for a stress that grew evenly over the step; returns its energy.
-double relax(const ExtendedLaw& law, const Symmetric& s, double dt_s, PointHistory& history) {
+double relax(const ExtendedLaw& law, const SymmetricTensor& s, double dt_s, PointHistory& history) {
   const double steps = dt_s / law.relaxation_time_s;
   const double kept = std::exp(-steps), passed = steps > 0.0 ? -std::expm1(-steps) / steps : 1.0;
   for (std::size_t i = 0; i < 3; ++i)
     history.overstress[i] = kept * history.overstress[i] + passed * law.overstress * (s[i] - history.stress[i]);
   history.stress = s;
-  const Symmetric& q = history.overstress;
+  const SymmetricTensor& q = history.overstress;
   const double trace = q[0] + q[1], share = law.lame.lambda_pa / (2.0 * (law.lame.lambda_pa + law.lame.mu_pa));
   const double square = q[0] * q[0] + q[1] * q[1] + 2.0 * q[2] * q[2] - share * trace * trace;
   return square / (4.0 * law.lame.mu_pa * law.overstress);
 }
 
-/// What softening leaves at failure energy `energy`.
+/// Integrity, the share of stress left by softening, at failure energy `energy`.
 double integrity_at(const ExtendedLaw& law, double energy) {
   const double s = std::sqrt(std::max(0.0, energy / law.threshold_j_per_m3)), last = 1.0 + law.softening;
   if (s <= 1.0) return 1.0;
@@ -138,7 +138,7 @@ PointResponse respond(const Eigen::Matrix2d& h, double dt_s, const ExtendedLaw& 
   history.plastic = e.plastic;
   const double k = 2.0 * (e.half - e.log_j), filled = std::min(law.inverse_limit * k, kFullChains);
   const double shear = law.lame.mu_pa / (1.0 - filled), pressure = law.lame.lambda_pa * e.log_j;
-  Symmetric s = scaled_sum(shear, e.plastic, pressure - shear, e.inverse);
+  SymmetricTensor s = scaled_sum(shear, e.plastic, pressure - shear, e.inverse);
   for (const std::size_t i : {0u, 1u}) s[i] += shear;
   const double chains = law.inverse_limit > 0.0 ? -std::log1p(-filled) / law.inverse_limit +
                                                       (k - filled / law.inverse_limit) / (1.0 - filled)

@@ -1,5 +1,5 @@
 #pragma once
-// What extensions make of the law of Eq. 2.1: eigenstrain, limited chain extension, flow, a Maxwell branch, softening
+// The law of Eq. 2.1 with extensions: eigenstrain, limited chain extension, flow, a Maxwell branch, softening
 // and failure by tension alone. Symbols: C_e metric of the elastic deformation, G inverse of the plastic metric (det G
 // = 1), I = tr(C_e G) - 2, l = ln J_e, S second Piola-Kirchhoff stress.
 //
@@ -7,7 +7,7 @@
 //   J_m (Gent)         W = -mu J_m / 2 ln(1 - K / J_m) + lambda / 2 l^2,  K = I - 2 l; the base law for J_m ->
 //   infinity.
 //                      K is I_1 - 2 at constant area; with I_1 - 2 itself a compressible law would start stiffer.
-//                      Beyond K = 0.98 J_m, where a notched specimen has long parted, g stays at 50
+//                      Beyond K = 0.98 J_m, where a notched specimen has long separated, g stays at 50
 //   stress             S = mu g (G - C_e^-1) + lambda l C_e^-1,  g = 1 / (1 - K / J_m),  P = F S
 //   flow at Y          largest difference of principal Kirchhoff stresses <= Y: the in-plane deviator of C_e G is
 //   scaled
@@ -44,12 +44,12 @@ struct LawExtensions {
 /// Reads the extensions that change the law; a Maxwell branch without a relaxation time is none.
 LawExtensions law_extensions(const Extensions& extensions);
 
-/// How far a mixture is rigid phase (0 up to the interface, 1 in rigid material), or soft phase: what acts in one phase
-/// alone fades with its share.
+/// Share of rigid phase in a mixture (0 up to the interface, 1 in rigid material), and of soft phase: an effect of one
+/// phase alone is scaled by its share.
 double rigid_share(double rigid_fraction);
 double soft_share(double rigid_fraction);
 
-/// E over its relaxed value as a tensile test at a constant rate shows it: the chord between 0.05 and 0.25 % strain
+/// E over its relaxed value in a tensile test at a constant rate: the chord between 0.05 and 0.25 % strain
 /// (ISO 527), 1 + r tau (exp(-t1/tau) - exp(-t2/tau)) / (t2 - t1).
 double rate_stiffening(const LawExtensions& extensions, double strain_rate_per_s);
 
@@ -69,7 +69,7 @@ struct ExtendedLaw {
 ExtendedLaw extended_law(const LawExtensions& extensions, const Lame& lame, double threshold_j_per_m3,
                          double rigid_fraction);
 
-/// What a point remembers, by components 11, 22, 12.
+/// The internal variables of a point, by components 11, 22, 12.
 struct PointHistory {
   std::array<double, 3> plastic{};     ///< G - 1
   std::array<double, 3> overstress{};  ///< Q, Pa
@@ -86,7 +86,7 @@ struct PointResponse {
 /// The point at displacement gradient `h` (J > 0), `dt_s` after the last call with this history, which it advances.
 PointResponse respond(const Eigen::Matrix2d& h, double dt_s, const ExtendedLaw& law, PointHistory& history);
 
-/// Largest stiffness of the law against any stretch, Pa, up to where the energy density reaches `energy`: what limits
+/// Largest stiffness of the law against any stretch, Pa, up to where the energy density reaches `energy`: it limits
 /// the time step. lambda + 2 mu without extensions.
 double stiffest_tangent_pa(const ExtendedLaw& law, double energy_j_per_m3);
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "material/effect_library.hpp"
+
 namespace nacre::material {
 namespace {
 

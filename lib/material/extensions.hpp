@@ -12,14 +12,14 @@ namespace nacre::material {
 
 enum class EffectSide { material, measurement };
 
-/// How an effect's strength goes with the value of a parameter.
+/// How an effect's strength depends on the value of a parameter.
 enum class Strength {
   proportional,  ///< grows with the value; 0 is the base model
-  reciprocal,    ///< a limit: the smaller, the stronger; 0 stands for no limit, the base model
-  scale,         ///< says where or when the effect acts, not how strongly; searched in log10
+  reciprocal,    ///< a limit: the smaller, the stronger; 0 means no limit, the base model
+  scale,         ///< where or when the effect acts, not how strongly; searched in log10
 };
 
-/// One parameter of an effect: what it means, its unit and the values it may take: 0, and from `minimum` or, where that
+/// One parameter of an effect: its meaning, its unit and the values it may take: 0, and from `minimum` or, where that
 /// is given, `smallest` up to `maximum`.
 struct EffectParameter {
   std::string_view meaning;
@@ -35,13 +35,13 @@ struct EffectParameter {
 };
 
 /// Value of a parameter at `strength`, -1 or 0 to 1, where 0 is the base model and 1 the strongest allowed: strength
-/// times the largest size, the smallest limit over strength (0 where that is beyond the range), or, for a scale, the
-/// point between smallest and largest in log10.
+/// times the largest effect size, the smallest limit over strength (0 where that is beyond the range), or, for a scale,
+/// the point between smallest and largest in log10.
 double value_at_strength(const EffectParameter& parameter, double strength);
 /// The inverse of value_at_strength().
 double strength_of(const EffectParameter& parameter, double value);
 
-/// A named extension of the model. `family` groups effects that one set of data may not tell apart.
+/// A named extension of the model. `family` groups effects whose signatures may be collinear in one set of data.
 struct Effect {
   std::string_view name;
   std::string_view family;
@@ -53,12 +53,9 @@ struct Effect {
   std::string_view explanation;
 };
 
-/// All effects that the model can be extended by, in a fixed order.
-std::span<const Effect> effect_library();
-
 /// The effect of that name, or nullptr.
 const Effect* find_effect(std::string_view name);
-/// Whether that effect acts in the testing machine; false where there is none of the name.
+/// Whether that effect acts in the testing machine; false for an unknown name.
 bool acts_in_measurement(std::string_view name);
 
 /// Value of parameter `index` of extension `name`; 0 when the extension is absent.

@@ -1,4 +1,4 @@
-// The parameter file (TOML): tables [modulus], [toughness] and [extension.NAME].
+#include "material/parameter_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,13 @@
 #include <toml++/toml.h>
 
 #include "base/toml_file.hpp"
-#include "material/extensions.hpp"
-#include "material/parameters.hpp"
+#include "material/effect_library.hpp"
 
 namespace nacre::material {
 namespace {
 
-/// Where a fault stands in the file.
-struct Place {
+/// Errors that name the place in the file.
+struct FilePlace {
   std::string file;
   [[nodiscard]] InputError error(const toml::node& node, std::string_view key, std::string_view expected) const {
     const std::string value = node.is_value() ? " = " + shown(node) : "";
@@ -28,7 +27,7 @@ std::string joined(std::span<const std::string_view> names) {
   return text;
 }
 
-double positive_number(const Place& place, const toml::node& node, const std::string& key, bool is_poisson) {
+double positive_number(const FilePlace& place, const toml::node& node, const std::string& key, bool is_poisson) {
   const std::optional<double> value = node.value<double>();
   const bool usable = value && std::isfinite(*value) && (is_poisson ? *value >= 0.0 && *value <= 0.5 : *value > 0.0);
   if (!usable)
@@ -38,7 +37,7 @@ double positive_number(const Place& place, const toml::node& node, const std::st
 
 /// Overwrites the values that the table names.
 template <class Vector>
-void read_values(const Place& place, const toml::node& node, std::string_view table_name,
+void read_values(const FilePlace& place, const toml::node& node, std::string_view table_name,
                  std::span<const std::string_view> names, Vector& vector) {
   const toml::table* table = node.as_table();
   if (table == nullptr) throw place.error(node, table_name, "expected a table");
@@ -51,7 +50,7 @@ void read_values(const Place& place, const toml::node& node, std::string_view ta
   }
 }
 
-std::vector<double> extension_values(const Place& place, const toml::node& node, const std::string& path,
+std::vector<double> extension_values(const FilePlace& place, const toml::node& node, const std::string& path,
                                      const Effect& effect) {
   std::vector<const toml::node*> entries;
   if (const toml::array* array = node.as_array()) {
@@ -72,7 +71,7 @@ std::vector<double> extension_values(const Place& place, const toml::node& node,
   return values;
 }
 
-void read_extensions(const Place& place, const toml::node& node, Extensions& extensions) {
+void read_extensions(const FilePlace& place, const toml::node& node, Extensions& extensions) {
   const toml::table* table = node.as_table();
   if (table == nullptr) throw place.error(node, "extension", "expected tables [extension.NAME]");
   for (const auto& [name, content] : *table) {
@@ -104,7 +103,7 @@ std::string table_text(std::string_view name, std::span<const std::string_view> 
 }  // namespace
 
 ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start) {
-  const Place place{path.string()};
+  const FilePlace place{path.string()};
   const toml::table file = read_toml_file(path);
   ModulusVector modulus = to_vector(start.modulus);
   ToughnessVector toughness = to_vector(start.toughness);

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, kToughnessParameterCount> kToughnessNames
     "e_tb_pa", "e_vw_pa",       "e_if_pa",       "nu_tb",         "nu_vw",
     "nu_if",   "w_tb_j_per_m3", "w_vw_j_per_m3", "w_if_j_per_m3", "gamma_per_s"};
 
-/// A sentence about the first value that the testers cannot compute with.
+/// A sentence about the first value with which the testers cannot compute.
 template <class Vector>
 std::string vector_fault(std::string_view table, std::span<const std::string_view> names, const Vector& vector) {
   for (std::size_t i = 0; i < vector.size(); ++i) {

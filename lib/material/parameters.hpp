@@ -51,7 +51,7 @@ ToughnessParameters toughness_from_vector(const ToughnessVector& vector);
 /// absent extension and one at zero are the same model.
 using Extensions = std::map<std::string, std::vector<double>, std::less<>>;
 
-/// Everything a simulation needs to know about the material model.
+/// All parameters of the material model.
 struct ParameterSet {
   ModulusParameters modulus;
   ToughnessParameters toughness;
@@ -59,19 +59,13 @@ struct ParameterSet {
   bool operator==(const ParameterSet&) const = default;
 };
 
-/// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5): a draw of what
-/// nobody knows better.
+/// eta with every parameter multiplied by 1 + relative x a standard normal number (nu held below 0.5): a draw from the
+/// uncertainty of the parameters.
 ToughnessParameters perturbed(const ToughnessParameters& eta, double relative, RandomStream& random);
 
 /// Built-in defaults (the content of data/defaults.toml): the measured base materials of Table 3.4 for the modulus
 /// tester, the geometric middle of Table A.2 for the toughness tester.
 ParameterSet default_parameters();
-
-/// Reads a parameter file (TOML, tables [modulus], [toughness], [extension.NAME]); keys that are absent keep the value
-/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (nu: 0 to 0.5)
-/// throw InputError naming file, line, key and what was expected.
-ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
-std::string to_toml(const ParameterSet& parameters);
 
 /// A sentence when the set lies outside what the testers can compute (E <= 0, nu outside [0, 0.5], W <= 0, unknown
 /// extension, extension parameter outside its range, anything not finite); empty when it is usable.

@@ -11,7 +11,7 @@ class PulledBar {
   explicit PulledBar(const ExtendedLaw& law) : law_(law) {}
 
   /// Stretches the bar to a nominal strain (F22 - 1 > -1) within `dt_s`, its width free; returns the nominal stress,
-  /// Pa. Not finite where the law has no state, as beyond a limit of its chains.
+  /// Pa. Not finite where the law has no state, as beyond the limit of its chains.
   double pull(double strain, double dt_s);
 
   double sideways() const { return sideways_; }  ///< F11 - 1

@@ -129,7 +129,7 @@ ParameterRanges parse_ranges(std::string_view text, const std::string& source) {
   for (std::size_t row = 0; row < file.size(); ++row) {
     ParameterRange& range = range_of(ranges, file, row);
     if (!given.insert(&range).second)
-      file.fail_at(row, "parameter", fmt::format("{} stands here a second time", range.name));
+      file.fail_at(row, "parameter", fmt::format("{} is listed a second time", range.name));
     range.minimum = file.positive(row, "minimum");
     range.maximum = file.positive(row, "maximum");
     if (range.name.starts_with("nu_") && range.maximum > kLargestPoissonRatio)

@@ -1,5 +1,5 @@
 #pragma once
-// Where the parameters of the two testers are looked for: the thesis' Tables A.1 and A.2, or those of other inks.
+// Feasible ranges of the parameters of the two testers: the thesis' Tables A.1 and A.2, or those of other inks.
 
 #include <array>
 #include <filesystem>
@@ -24,7 +24,7 @@ struct ParameterRange {
 double to_unit(const ParameterRange& range, double value);
 double from_unit(const ParameterRange& range, double unit);
 
-/// What the ranges are meant for: base materials one by one (Table A.1), or microstructures (Table A.2).
+/// The purpose of a range: base materials one by one (Table A.1), or microstructures (Table A.2).
 enum class FitTarget { base, microstructures };
 
 /// A range for every parameter of theta and eta, in the order of their vectors.
@@ -39,8 +39,8 @@ struct ParameterRanges {
 /// Tables A.1 and A.2 (the content of data/thesis/parameter_ranges.csv), for TangoBlackPlus and VeroWhitePlus.
 const ParameterRanges& thesis_ranges();
 
-/// `set` with the middle of its range for microstructures in place of every parameter that lies outside: where a search
-/// for other inks begins, which knows nothing of them but the ranges.
+/// `set` with every parameter outside its range for microstructures replaced by the middle of that range: the initial
+/// guess for other inks, of which only the ranges are known.
 ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& ranges);
 
 /// Ranges for other inks, CSV: `tester` (modulus, toughness), `fitted_to` (base, microstructures), `parameter`,
@@ -48,7 +48,7 @@ ParameterSet brought_inside(const ParameterSet& set, const ParameterRanges& rang
 /// absent are the thesis'. Throws InputError naming file, line, column.
 ParameterRanges read_ranges(const std::filesystem::path& path);
 ParameterRanges parse_ranges(std::string_view text, const std::string& source);
-/// All of them as such a table; parse_ranges() has them back to the bit.
+/// All ranges as such a table; parse_ranges() reads them back to the bit.
 std::string to_csv(const ParameterRanges& ranges);
 
 }  // namespace nacre::material

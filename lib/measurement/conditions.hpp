@@ -1,13 +1,13 @@
 #pragma once
-// When two specimens were asked the same question, though callipers and clocks say slightly different things.
+// When two specimens were tested under the same nominal conditions, though measured rate and thickness differ slightly.
 
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::measurement {
 
-/// How far rate and thickness may be from those that were ordered, relative to these.
+/// Tolerances of rate and thickness, relative to the ordered ones.
 inline constexpr double kRateTolerance = 0.25, kThicknessTolerance = 0.1;
 
 /// Same orientation, rate and thickness within their tolerances of `ordered`.
@@ -17,7 +17,8 @@ bool same_conditions(const tester::TestConditions& tested, const tester::TestCon
 bool is_standard(const tester::TestConditions& tested);
 
 /// The specimens under nominal conditions: the standard ones where same_conditions() holds, otherwise those of the
-/// first specimen (by name) of the same kind, so that replicates of 3.17 and 3.24 mm come together. The order is kept.
+/// first specimen (by name) of the same kind, so that replicates of 3.17 and 3.24 mm are in one group. The order is
+/// kept.
 std::vector<SpecimenRecord> at_nominal_conditions(std::vector<SpecimenRecord> specimens);
 
 }  // namespace nacre::measurement

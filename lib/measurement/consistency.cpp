@@ -12,6 +12,8 @@
 #include "base/statistics.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/specimen_checks.hpp"
+#include "measurement/summary.hpp"
 #include "measurement/tester_text.hpp"
 
 namespace nacre::measurement {
@@ -28,8 +30,8 @@ double peak_of(const tester::Curve& curve) {
   return curve.empty() ? 0.0 : *std::max_element(curve.stress_pa.begin(), curve.stress_pa.end());
 }
 
-/// The forward curves of replicates, as far as they say the same: how far a coupon is pulled is the operator's choice,
-/// and a modulus test's curve says nothing but the modulus. Empty where there is nothing to compare.
+/// The comparable parts of replicates' forward curves: how far a coupon is pulled is the operator's choice, and a
+/// modulus test's curve has no information beyond the modulus. Empty where there is nothing to compare.
 std::vector<tester::Curve> comparable_curves(const Members& members) {
   std::vector<tester::Curve> curves;
   double common_strain = std::numeric_limits<double>::infinity();
@@ -47,7 +49,7 @@ std::vector<tester::Curve> comparable_curves(const Members& members) {
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-/// How far a number is from the others, in their scatter or the usual one, whichever is larger.
+/// Distance of a number from the median of the others, over their scatter or the usual one, whichever is larger.
 double scatters_from_others(double value, const std::vector<double>& others, double usual) {
   std::vector<double> distances;
   const double centre = median(others);
@@ -56,10 +58,10 @@ double scatters_from_others(double value, const std::vector<double>& others, dou
   return std::abs(value - centre) / std::max(kMadOfNormal * median(distances), usual);
 }
 
-/// Holds the valid members of one group against each other.
-class Jury {
+/// Compares the valid members of one group with each other.
+class GroupComparison {
  public:
-  Jury(Members members, const ConsistencySettings& settings)
+  GroupComparison(Members members, const ConsistencySettings& settings)
       : members_(std::move(members)), settings_(settings), forward_(comparable_curves(members_)) {}
 
   std::vector<OutlierReason> reasons_against(std::size_t suspect) const {
@@ -118,11 +120,11 @@ class Jury {
     if (distance <= settings_.far) return;
     reasons.push_back(
         {"curve", distance,
-         fmt::format("its curve is {:.0f} % of the area under them away from the others, they are {:.0f} % apart",
+         fmt::format("its curve differs from the others by {:.0f} % of the area under them, they differ by {:.0f} %",
                      100.0 * median(own), 100.0 * median(among_others))});
   }
 
-  /// In plain words without punctuation: persons spell one course in many ways.
+  /// In plain words without punctuation: people spell the same crack path differently.
   static std::string path_of(const SpecimenRecord& specimen) {
     const auto noted = specimen.other_columns.find("path");
     if (noted == specimen.other_columns.end()) return "";
@@ -161,10 +163,10 @@ double severity(const ProposedOutlier& outlier, double far) {
 
 std::vector<ProposedOutlier> outliers_among(const Members& valid, const ConsistencySettings& settings) {
   std::vector<ProposedOutlier> outliers;
-  if (valid.size() < 3) return outliers;  // of two nobody can say which
-  const Jury jury(valid, settings);
+  if (valid.size() < 3) return outliers;  // of two, either may be the outlier
+  const GroupComparison comparison(valid, settings);
   for (std::size_t i = 0; i < valid.size(); ++i) {
-    auto reasons = jury.reasons_against(i);
+    auto reasons = comparison.reasons_against(i);
     if (!reasons.empty()) outliers.push_back({valid[i]->specimen, std::move(reasons)});
   }
   std::stable_sort(outliers.begin(), outliers.end(),
@@ -220,7 +222,7 @@ ReplicateGroup review_group(const Members& members, const ConsistencySettings& s
   return group;
 }
 
-using Groups = std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members>;
+using ReplicateMembers = std::map<std::tuple<std::string, tester::TestKind, double, double, double>, Members>;
 
 /// Under nominal conditions, by name, each once.
 std::vector<SpecimenRecord> nominal_by_name(const std::vector<SpecimenRecord>& specimens) {
@@ -232,8 +234,8 @@ std::vector<SpecimenRecord> nominal_by_name(const std::vector<SpecimenRecord>& s
   return nominal;
 }
 
-Groups groups_of(const std::vector<SpecimenRecord>& nominal) {
-  Groups groups;
+ReplicateMembers groups_of(const std::vector<SpecimenRecord>& nominal) {
+  ReplicateMembers groups;
   for (const SpecimenRecord& specimen : nominal) {
     const tester::TestConditions& c = specimen.conditions;
     groups[{specimen.design.name(), specimen.test, c.orientation_deg, c.strain_rate_per_s, c.thickness_mm}].push_back(
@@ -269,14 +271,14 @@ std::vector<UnitDoubt> doubts_of_units(const std::vector<SpecimenRecord>& specim
       if (is_held(member)) logs.push_back(std::log(value_of(*member)));
     }
     if (logs.size() < 2) continue;
-    // Of two nobody can say which: each is held against the other.
+    // Of two, either may be wrong: each is compared with the other.
     const double far = std::log(kFar) / (logs.size() == 2 ? 2.0 : 1.0), middle = median(logs);
     for (const SpecimenRecord* member : members) {
       const double value = value_of(*member);
       if (!is_held(member) || std::abs(std::log(value) - middle) <= far) continue;
       doubts.push_back(
           {member->specimen,
-           fmt::format("specimen {}: its {} is {:.3g} times the middle of the {} replicates of {}: is a unit wrong?",
+           fmt::format("specimen {}: its {} is {:.3g} times the median of the {} replicates of {}: is a unit wrong?",
                        member->specimen, tester::to_string(member->test), value / std::exp(middle), logs.size(),
                        member->design.name())});
     }

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::measurement {
 
-/// When a replicate is out of line. The scatters are what replicates of printed parts differ by as a matter of course
-/// (standard deviations of the logarithm): less than that is never held against a specimen.
+/// When a replicate is an outlier. The scatters are the usual ones of printed replicates (standard deviations of the
+/// logarithm): a smaller difference never makes a specimen an outlier.
 struct ConsistencySettings {
   int fewest_tested = 4;
   int fewest_consistent = 3;
@@ -19,7 +19,7 @@ struct ConsistencySettings {
   double usual_toughness_scatter = 0.12;
   double usual_peak_scatter = 0.06;
   double usual_curve_distance = 0.15;  ///< area between two curves over their mean area
-  double far = 4.0;                    ///< so many scatters from the others is out of line
+  double far = 4.0;                    ///< distance from the others, in scatters, beyond which a specimen is an outlier
 };
 
 /// Why a specimen is proposed as an outlier.
@@ -37,7 +37,7 @@ struct ProposedOutlier {
 enum class GroupState {
   complete,      ///< enough are tested, enough agree
   more_needed,   ///< too few tested, or too few valid
-  inconsistent,  ///< more are out of line than may be left out
+  inconsistent,  ///< more outliers than may be left out
 };
 std::string_view to_string(GroupState state);
 
@@ -56,38 +56,21 @@ struct ReplicateGroup {
   std::string representative = {};  ///< valid, not proposed, nearest to the mean and with a curve; may be empty
 };
 
-/// Every group, sorted by design, test and conditions. Each valid specimen is held against the others of its group: its
-/// modulus, or its toughness, the peak of its curve and the area between its curve and theirs (of coupons peak and
+/// Every group, sorted by design, test and conditions. Each valid specimen is compared with the others of its group:
+/// its modulus, or its toughness, the peak of its curve and the area between its curve and theirs (of coupons peak and
 /// curve, up to the largest strain that all were pulled to), and the course of the crack that a person noted (column
 /// `path`, but for case, blanks and punctuation) against the most common one. At most as many are proposed as leave
-/// `fewest_consistent`, the worst first; where more are out of line the group is inconsistent.
+/// `fewest_consistent`, the worst first; with more outliers the group is inconsistent.
 std::vector<ReplicateGroup> review_replicates(const std::vector<SpecimenRecord>& specimens,
                                               const ConsistencySettings& settings = {});
 
-/// Valid specimens whose modulus or toughness is more than eight times the middle of their group's, or less than an
-/// eighth of it, as sentences: units are mistaken by factors of ten and more. Of two, both are named. What is
-/// implausible by itself is left out.
+/// Valid specimens whose modulus or toughness is more than eight times the median of their group, or less than an
+/// eighth of it, as sentences: wrong units are off by factors of ten and more. Of two, both are named. Values that are
+/// implausible by themselves are left out.
 struct UnitDoubt {
   std::string specimen;
   std::string text;
 };
 std::vector<UnitDoubt> doubts_of_units(const std::vector<SpecimenRecord>& specimens);
-
-/// By how much specimens of one batch, operator, machine or date differ from others of the same designs.
-struct HistoryEffect {
-  std::string factor;  ///< `batch`, `operator`, `machine`, `date`; `print_order` for the trend
-  std::string level;   ///< which one; "per 10 specimens" for the trend
-  tester::TestKind test = tester::TestKind::modulus;
-  double relative = 0.0;        ///< exp(mean difference of log) - 1
-  double standard_error = 0.0;  ///< of it
-  int specimens = 0;
-  double chance = 1.0;  ///< of any of the effects being as large where there are none: Student's t, by Bonferroni
-  bool notable() const { return chance < 0.05; }
-};
-
-/// Effects of the specimens' history on modulus and toughness, each against the mean of its own design, so that it does
-/// not matter which designs were in a batch. Means of designs and levels cost the scatter degrees of freedom. Levels
-/// that share no design with others say nothing and are left out.
-std::vector<HistoryEffect> history_effects(const std::vector<SpecimenRecord>& specimens);
 
 }  // namespace nacre::measurement

@@ -1,4 +1,4 @@
-// What the history of specimens (batch, operator, machine, date, print order) does to their values.
+#include "measurement/history.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/statistics.hpp"
 #include "measurement/conditions.hpp"
-#include "measurement/consistency.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -27,7 +27,7 @@ std::string level_of(const SpecimenRecord& specimen, const std::string& factor) 
   return cell == specimen.other_columns.end() ? "" : cell->second;
 }
 
-/// Residuals of one test against groups of the same design and conditions; groups of one specimen say nothing.
+/// Residuals of one test against groups of the same design and conditions; groups of one specimen are left out.
 std::vector<Residual> residuals_of(const std::vector<SpecimenRecord>& specimens, tester::TestKind test) {
   std::map<std::tuple<std::string, double, double, double>, std::vector<Residual>> groups;
   for (const SpecimenRecord& specimen : specimens) {
@@ -51,7 +51,7 @@ std::vector<Residual> residuals_of(const std::vector<SpecimenRecord>& specimens,
   return residuals;
 }
 
-/// An effect on the logarithm, `left` degrees of freedom behind its error; `chance` is that of this one alone.
+/// An effect on the logarithm, its error with `left` degrees of freedom; `chance` is that of this one alone.
 HistoryEffect effect_of(double difference, double error, int left) {
   HistoryEffect effect;
   effect.relative = std::expm1(difference);
@@ -67,7 +67,7 @@ void add_levels(const std::vector<Residual>& residuals, const std::string& facto
   for (const Residual& each : residuals) ++counts[each.group][level_of(*each.specimen, factor)];
   std::erase_if(counts, [](const auto& group) { return group.second.size() < 2; });
   std::map<std::string, std::vector<double>> levels;
-  std::map<std::string, double> own;  // what is left of a level's variance beside its groups' means, times its count
+  std::map<std::string, double> own;  // variance of a level's mean relative to its groups' means, times its count
   for (const Residual& each : residuals) {
     const std::string level = level_of(*each.specimen, factor);
     const auto group = counts.find(each.group);
@@ -82,7 +82,8 @@ void add_levels(const std::vector<Residual>& residuals, const std::string& facto
   for (const auto& [level, values] : levels) {
     for (const double value : values) within.push_back(value - mean(values));
   }
-  const int lost = static_cast<int>(counts.size() + levels.size()) - 1;  // the levels' mean is the groups' own
+  const int lost =
+      static_cast<int>(counts.size() + levels.size()) - 1;  // the mean of the levels is fixed by the groups
   const int left = static_cast<int>(within.size()) - lost;
   if (left <= 0) return;
   const double scatter = root_mean_square(within, lost);

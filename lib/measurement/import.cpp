@@ -12,6 +12,7 @@
 #include "base/files.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/consistency.hpp"
+#include "measurement/limits.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/specimen_sheet.hpp"
 #include "thesis/constants.hpp"
@@ -27,7 +28,7 @@ double rounded(double value, int digits) {
   return std::round(value * scale) / scale;
 }
 
-/// Exports are read once, whoever asks.
+/// The exports, each read once.
 class Exports {
  public:
   Exports(const std::vector<fs::path>& files, fs::path folder) : files_(files), folder_(std::move(folder)) {}
@@ -41,8 +42,8 @@ class Exports {
     const auto count = static_cast<int>(records->size());
     if (row.part == 0 && count > 1) {
       return tl::unexpected(ImportFault{sheet, row.line, "part",
-                                        fmt::format("`{}` holds {} tests, expected a column `part` that says which one "
-                                                    "(from 1)",
+                                        fmt::format("`{}` holds {} tests, expected the number of one in the column "
+                                                    "`part` (from 1)",
                                                     row.file, count)});
     }
     if (row.part > count) {
@@ -59,7 +60,7 @@ class Exports {
     return (*records)[part - 1];
   }
 
-  /// Files that no row asked for.
+  /// Files that no row names.
   std::vector<std::string> unused() const {
     std::vector<std::string> names;
     for (const fs::path& file : files_) {
@@ -76,10 +77,11 @@ class Exports {
       return found;
     };
     if (files_.empty()) {
-      const fs::path beside = folder_ / name;
+      const fs::path in_folder = folder_ / name;
       std::error_code unreadable;
-      if (fs::exists(beside, unreadable)) return beside;
-      return fail("there is no file {}, expected an export beside the sheet or on the command line", beside.string());
+      if (fs::exists(in_folder, unreadable)) return in_folder;
+      return fail("there is no file {}, expected an export in the sheet's folder or on the command line",
+                  in_folder.string());
     }
     auto found = matching([&](const fs::path& file) { return file == name || file == folder_ / name; });
     if (found.empty())
@@ -87,12 +89,12 @@ class Exports {
     if (found.empty())
       return fail("`{}` is not among the {} exports given, expected one of that name", name, files_.size());
     if (found.size() > 1)
-      return fail("`{}` is the name of {} exports given, expected a path that tells which", name, found.size());
+      return fail("`{}` is the name of {} exports given, expected the path of one of them", name, found.size());
     used_.insert(found.front().string());
     return found.front();
   }
 
-  /// Columns of one file may be tests of their own.
+  /// Different columns of one file may be different tests.
   static std::string key_of(const fs::path& path, const ColumnChoice& choice) {
     return path.lexically_normal().string() + '\n' + choice.extension + '\n' + choice.force;
   }
@@ -149,7 +151,7 @@ void set_values(const ReducedTest& test, SpecimenRecord& record) {
   record.toughness_pa = rounded(test.toughness_pa, 6);
   if (test.separated) return;
   record.valid = false;
-  const std::string why = test.unloaded ? "not separated: the strain goes back with the force"
+  const std::string why = test.unloaded ? "not separated: the strain returns with the force"
                                         : fmt::format("not separated: the record ends at {:.0f} % of the peak force",
                                                       100.0 * test.residual_share);
   record.note += (record.note.empty() ? "" : "; ") + why;
@@ -174,7 +176,7 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   if (test->curve.size() < kFewestCurveRows)
     return fault("", fmt::format("{} points are left after the toe, expected at least {}", test->curve.size(),
                                  kFewestCurveRows));
-  // Of a modulus test that is unloaded the area is what noise leaves of it; its sign linear_part() has seen.
+  // The area of a modulus test that is unloaded is noise; linear_part() has checked its sign.
   if (row.record.test == tester::TestKind::toughness && test->toughness_pa <= 0.0)
     return fault("", "the area under the curve is not positive, expected a test in tension");
   ImportedSpecimen imported{.record = row.record,
@@ -187,7 +189,7 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   const auto rate = strain_rate(from.time_s, curve);
   if (rate && !row.rate_is_given) imported.record.conditions.strain_rate_per_s = rounded(*rate, 3);
   if (!rate && !row.rate_is_given && !from.time_s.empty()) {
-    warnings.push_back(fmt::format("specimen {}: its times tell no strain rate; {} 1/s is assumed",
+    warnings.push_back(fmt::format("specimen {}: no strain rate can be computed from its times; {} 1/s is assumed",
                                    imported.record.specimen, imported.record.conditions.strain_rate_per_s));
   }
   set_values(*test, imported.record);
@@ -195,7 +197,7 @@ tl::expected<ImportedSpecimen, ImportFault> import_one(const SheetRow& row, cons
   return imported;
 }
 
-/// A doubt about the size of a specimen as the sheet has it, or nothing: units are mistaken by factors of ten and more.
+/// A doubt about the size of a specimen in the sheet, or nothing: wrong units are off by factors of ten and more.
 std::string doubt_of_size(const SheetRow& row) {
   constexpr double kBarWidthMm = 13.0, kFactor = 2.0;  // ASTM D638, type I
   const bool notched = row.record.test == tester::TestKind::toughness;
@@ -218,7 +220,7 @@ std::string doubt_of_gauge(const TesterRecord& from, const SheetRow& row) {
                                : fmt::format(" (the file also has `{}`)", fmt::join(from.other_extensions, "`, `"));
   const bool same_name = std::count(from.other_extensions.begin(), from.other_extensions.end(), from.extension_column);
   if (same_name)
-    return fmt::format("`{}` stands twice in the file, the first was taken: expected names that differ",
+    return fmt::format("`{}` occurs twice in the file, the first was taken: expected names that differ",
                        from.extension_column);
   if (row.record.test == tester::TestKind::toughness) return "";
   const bool short_gauge = row.gauge_mm <= kNarrowSectionMm;
@@ -234,7 +236,7 @@ std::string doubt_of_gauge(const TesterRecord& from, const SheetRow& row) {
   return "";
 }
 
-/// Warns once of what several specimens have in common.
+/// One warning for several specimens with the same doubt.
 void collect_gauge_doubts(const std::map<std::string, std::vector<std::string>>& specimens_by_doubt,
                           std::vector<std::string>& warnings) {
   constexpr std::size_t kMostNamed = 5;
@@ -257,7 +259,7 @@ std::string doubt_of_rate(const SpecimenRecord& record, const SheetRow& row) {
   planned.strain_rate_per_s = row.planned_rate_per_s.value_or(rate);
   if (same_conditions(record.conditions, planned)) return "";
   return fmt::format(
-      "strain rate {} 1/s, planned was {}: was the speed another, or does the gauge ({} mm) not belong "
+      "strain rate {} 1/s, planned {}: was the speed different, or does the gauge ({} mm) not belong "
       "to the recorded extension?",
       rate, planned.strain_rate_per_s, row.gauge_mm);
 }
@@ -269,14 +271,14 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
     warnings.push_back(fmt::format("{}: {}; kept as not valid", who, one.record.note));
   constexpr double kStiff = 1.25;
   if (one.test.toe_kept != 0.0) {
-    warnings.push_back(fmt::format(
-        "{}: its straight part meets zero stress at {:.2f} % strain; of more than {} % nothing is taken off: "
-        "was the specimen slack in its grips, or loaded before?",
-        who, 100.0 * one.test.toe_kept, 100.0 * kLargestToe));
+    warnings.push_back(
+        fmt::format("{}: its straight part meets zero stress at {:.2f} % strain; a toe beyond {} % is not compensated: "
+                    "was the specimen slack in its grips, or preloaded?",
+                    who, 100.0 * one.test.toe_kept, 100.0 * kLargestToe));
   }
   if (one.test.stiffening > kStiff) {
     warnings.push_back(
-        fmt::format("{}: its peak stress is {:.1f} times what its first straight part leads to: does it "
+        fmt::format("{}: its peak stress is {:.1f} times the extrapolation of its straight part: does it "
                     "stiffen, or was it slack in its grips?",
                     who, one.test.stiffening));
   }
@@ -287,15 +289,15 @@ void collect_doubts(const ImportedSpecimen& one, const SheetRow& row, std::vecto
   }
   if (const std::string doubt = doubt_of_size(row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
   if (one.test.failure_strain > kMostUsualStrain)
-    warnings.push_back(fmt::format("{}: failure strain {:.3g} is no usual one: are extension and gauge ({} mm) right?",
-                                   who, one.test.failure_strain, row.gauge_mm));
+    warnings.push_back(fmt::format("{}: failure strain {:.3g} is unusual: are extension and gauge ({} mm) right?", who,
+                                   one.test.failure_strain, row.gauge_mm));
   if (one.test.peak_stress_pa > kUsualPeakPa.most)
-    warnings.push_back(fmt::format("{}: peak stress {:.3g} Pa is no usual one: are force and size right?", who,
-                                   one.test.peak_stress_pa));
+    warnings.push_back(
+        fmt::format("{}: peak stress {:.3g} Pa is unusual: are force and size right?", who, one.test.peak_stress_pa));
   if (const std::string doubt = doubt_of_rate(one.record, row); !doubt.empty()) warnings.push_back(who + ": " + doubt);
   if (!kUsualModulusPa.hold(one.test.modulus_pa)) {
     warnings.push_back(
-        fmt::format("{}: initial modulus {:.3g} Pa is no usual one: are the units of force and the size ({} x {} mm, "
+        fmt::format("{}: initial modulus {:.3g} Pa is unusual: are the units of force and the size ({} x {} mm, "
                     "gauge {} mm) right?",
                     who, one.test.modulus_pa, row.width_mm, one.record.conditions.thickness_mm, row.gauge_mm));
   }
@@ -308,7 +310,7 @@ std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRe
     return other.specimen != one.specimen && other.curve == one.curve;
   });
   if (twin == others.end()) return "";
-  return fmt::format("specimen {}: its readings are those of {}, to the last digit: is it one test under two names?",
+  return fmt::format("specimen {}: its readings equal those of {} to the last digit: is it one test under two names?",
                      one.specimen, twin->specimen);
 }
 

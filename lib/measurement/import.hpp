@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
 #include "measurement/reduction.hpp"
+#include "measurement/specimen_record.hpp"
 #include "measurement/tester_export.hpp"
 
 namespace nacre::measurement {
@@ -19,7 +19,7 @@ struct ImportedSpecimen {
   int line = 0;  ///< of the sheet
   std::string maker;
   std::string extension_column;  ///< its heading; empty where there is none
-  double gauge_mm = 0.0;         ///< that the extension was held to belong to
+  double gauge_mm = 0.0;         ///< assumed for the extension
   ReducedTest test;
 };
 
@@ -28,7 +28,7 @@ struct Import {
   std::vector<ImportFault> rejected;        ///< one per specimen or file that could not be used
   std::vector<std::string> warnings;
   int known = 0;     ///< how many of the specimens the set held before (write_import)
-  int replaced = 0;  ///< how many it held with another test, which this one now stands for
+  int replaced = 0;  ///< how many it held with another test, which this one replaces
 };
 
 struct ImportSettings {
@@ -36,18 +36,12 @@ struct ImportSettings {
 };
 
 /// Reads `sheet` (docs/FORMATS.md, "Specimen sheets") and the exports that it names: among `files` by path or file
-/// name, or, when `files` is empty, beside the sheet. What is wrong with one specimen or file loses no other. Throws
-/// InputError when the sheet itself cannot be used.
+/// name, or, when `files` is empty, in the sheet's folder. A fault in one specimen or file does not lose the others.
+/// Throws InputError when the sheet itself cannot be used.
 Import import_exports(const std::vector<std::filesystem::path>& files, const std::filesystem::path& sheet,
                       const ImportSettings& settings = {});
 
-/// A sentence where one of the others has the same curve, to the last digit: no two tests do. Else empty.
+/// A sentence where one of the others has the same curve to the last digit, which no two tests have. Else empty.
 std::string doubt_of_twins(const SpecimenRecord& one, std::span<const SpecimenRecord> others);
-
-/// Writes what came of `sheet` into the measurement set `folder`: a new one, or one that gains specimens. What the set
-/// holds stays: a specimen that it knows by the same test keeps the judgement that the set has of it (`import` then
-/// says that one), a known name with another test is moved to the rejected, or takes the old one's place and its
-/// judgement with `replace`. Throws InputError when the set cannot be read or written.
-void write_import(const std::filesystem::path& folder, const std::string& sheet, Import& import, bool replace = false);
 
 }  // namespace nacre::measurement

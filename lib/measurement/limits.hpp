@@ -1,6 +1,6 @@
 #pragma once
-// What a measurement may say. Tables, sheets and messages keep to the same limits, so that whatever can be read can
-// also be sent to a game.
+// Limits of measured values. Tables, sheets and messages have the same limits, so that every specimen that can be read
+// can also be sent to a game.
 
 #include <cstddef>
 
@@ -13,8 +13,8 @@ struct Limits {
   bool hold(double value) const { return value >= least && value <= most; }
 };
 
-/// Below: no printed material, but most likely GPa or MPa written as Pa, or MJ/m3 as J/m3. One such value in a game
-/// makes relative errors of a million and more, and the model follows it. Above: Pa written as MPa, or no material.
+/// Below: most likely GPa or MPa written as Pa, or MJ/m3 as J/m3. One such value in a game makes relative errors of a
+/// million and more, and distorts the model. Above: Pa written as MPa, or no material.
 inline constexpr Limits kModulusPa{1e4, 1e12};
 inline constexpr Limits kToughnessPa{10.0, 1e9};
 

@@ -1,29 +1,30 @@
+#include "measurement/observe.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 
 #include "material/extensions.hpp"
-#include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
 namespace {
 
 /// The machine as the extensions describe it, and how far the print has drifted in one context.
-struct Machine {
+struct TestingMachine {
   double compliance_per_pa = 0.0, slack = 0.0, gain = 1.0, drift = 1.0;
 
-  Machine(const material::Extensions& extensions, const PrintContext& context)
+  TestingMachine(const material::Extensions& extensions, const PrintContext& context)
       : compliance_per_pa(material::extension_value(extensions, "machine_compliance")),
         slack(material::extension_value(extensions, "toe_slack")),
         gain(1.0 + material::extension_value(extensions, "load_cell_gain")) {
     const double per_step = material::extension_value(extensions, "batch_drift");
     if (per_step != 0.0) drift = std::exp(context.batch_step * std::log1p(per_step));
   }
-  bool shows_the_truth() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
+  bool is_ideal() const { return compliance_per_pa == 0.0 && slack == 0.0 && gain == 1.0 && drift == 1.0; }
 };
 
-/// Less where `a` comes first: digits by their number, the rest letter by letter.
+/// Natural order: digits by their number, the rest letter by letter.
 bool natural_less(const std::string& a, const std::string& b) {
   const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   std::size_t i = 0, j = 0;
@@ -63,45 +64,45 @@ std::vector<PrintContext> print_contexts(const std::vector<SpecimenRecord>& spec
 }
 
 double observe_modulus(double modulus_pa, const material::Extensions& extensions, const PrintContext& context) {
-  const Machine machine(extensions, context);
-  if (machine.shows_the_truth()) return modulus_pa;
+  const TestingMachine machine(extensions, context);
+  if (machine.is_ideal()) return modulus_pa;
   const double printed_pa = machine.drift * modulus_pa;
   return machine.gain * printed_pa / (1.0 + machine.compliance_per_pa * printed_pa);
 }
 
 double observe_toughness(double toughness_pa, const material::Extensions& extensions, const PrintContext& context) {
-  const Machine machine(extensions, context);
+  const TestingMachine machine(extensions, context);
   return machine.gain * machine.drift * toughness_pa;
 }
 
-double modulus_behind(double shown_pa, const material::Extensions& extensions) {
-  const Machine machine(extensions, {});
-  const double left = machine.gain - machine.compliance_per_pa * shown_pa;
-  return left > 0.0 ? shown_pa / left : std::numeric_limits<double>::infinity();
+double modulus_behind(double recorded_pa, const material::Extensions& extensions) {
+  const TestingMachine machine(extensions, {});
+  const double left = machine.gain - machine.compliance_per_pa * recorded_pa;
+  return left > 0.0 ? recorded_pa / left : std::numeric_limits<double>::infinity();
 }
 
 tester::Curve observe_curve(const tester::Curve& curve, const material::Extensions& extensions,
                             const PrintContext& context) {
-  const Machine machine(extensions, context);
-  if (machine.shows_the_truth()) return curve;
-  tester::Curve shown;
-  if (machine.slack > 0.0) shown = {.strain = {0.0}, .stress_pa = {0.0}};
+  const TestingMachine machine(extensions, context);
+  if (machine.is_ideal()) return curve;
+  tester::Curve recorded;
+  if (machine.slack > 0.0) recorded = {.strain = {0.0}, .stress_pa = {0.0}};
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const double stress_pa = machine.drift * curve.stress_pa[i];
-    shown.strain.push_back(curve.strain[i] + machine.slack + machine.compliance_per_pa * stress_pa);
-    shown.stress_pa.push_back(machine.gain * stress_pa);
+    recorded.strain.push_back(curve.strain[i] + machine.slack + machine.compliance_per_pa * stress_pa);
+    recorded.stress_pa.push_back(machine.gain * stress_pa);
   }
-  return shown;
+  return recorded;
 }
 
-tester::Curve observe_along(const std::vector<double>& shown_strain, const Pull& pull,
+tester::Curve observe_along(const std::vector<double>& recorded_strain, const SpecimenResponse& pull,
                             const material::Extensions& extensions, const PrintContext& context) {
   constexpr double kSmallStrain = 1e-4, kWellKnown = 1e-9;
   constexpr int kMostPasses = 50;
-  const Machine machine(extensions, context);
-  if (machine.shows_the_truth()) return pull(shown_strain);
+  const TestingMachine machine(extensions, context);
+  if (machine.is_ideal()) return pull(recorded_strain);
   std::vector<double> own;
-  for (const double strain : shown_strain) own.push_back(std::max(0.0, strain - machine.slack));
+  for (const double strain : recorded_strain) own.push_back(std::max(0.0, strain - machine.slack));
   // A Newton step with the stiffness at the start: at once for a linear specimen, in a few passes for one that flows.
   const double per_pa = machine.compliance_per_pa * machine.drift;
   const double stiffness = per_pa > 0.0 ? pull({kSmallStrain}).stress_pa.front() / kSmallStrain : 0.0;
@@ -109,7 +110,7 @@ tester::Curve observe_along(const std::vector<double>& shown_strain, const Pull&
   for (int pass = 0; per_pa > 0.0 && pass < kMostPasses; ++pass) {
     double largest = 0.0;
     for (std::size_t i = 0; i < own.size(); ++i) {
-      const double excess = own[i] + machine.slack + per_pa * pulled.stress_pa[i] - shown_strain[i];
+      const double excess = own[i] + machine.slack + per_pa * pulled.stress_pa[i] - recorded_strain[i];
       const double next = std::max(0.0, own[i] - excess / (1.0 + per_pa * stiffness));
       largest = std::max(largest, std::abs(next - own[i]));
       own[i] = next;
@@ -117,7 +118,7 @@ tester::Curve observe_along(const std::vector<double>& shown_strain, const Pull&
     if (largest < kWellKnown) break;
     pulled = pull(own);
   }
-  pulled.strain = shown_strain;
+  pulled.strain = recorded_strain;
   for (double& stress : pulled.stress_pa) stress *= machine.gain * machine.drift;
   return pulled;
 }

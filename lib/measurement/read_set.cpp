@@ -1,4 +1,4 @@
-// Reads measurement sets. Rows are independent: what is wrong with one is reported and the others are kept.
+#include "measurement/read_set.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,11 +12,10 @@
 #include "base/files.hpp"
 #include "base/names.hpp"
 #include "measurement/consistency.hpp"
-#include "measurement/measurement.hpp"
-#include "measurement/planned_set.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/set_row.hpp"
+#include "measurement/specimen_checks.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -27,8 +26,8 @@ std::string unknown_column(const std::string& table, const CsvCell& cell, const 
   return fmt::format("{}:{}:{}: unknown column `{}` is kept but not used{}", table, cell.line, cell.column, name, hint);
 }
 
-/// The name under which an unknown column is kept: a second `x` is `x~2`, for both hold something.
-std::string name_of_its_own(const Heading& heading, const std::string& name) {
+/// The name under which an unknown column is kept: a second `x` is `x~2`, so that neither is lost.
+std::string name_of_its_own(const SetHeading& heading, const std::string& name) {
   const auto is_taken = [&](const std::string& wanted) {
     return std::ranges::any_of(heading.others, [&](const auto& other) { return other.second == wanted; });
   };
@@ -37,9 +36,9 @@ std::string name_of_its_own(const Heading& heading, const std::string& name) {
   return kept;
 }
 
-Heading read_heading(const CsvRow& row, const std::string& table, std::vector<std::string>& warnings) {
+SetHeading read_heading(const CsvRow& row, const std::string& table, std::vector<std::string>& warnings) {
   if (!row.fault.empty()) throw InputError::format("{}:{}:{}: {}", table, row.fault_line, row.fault_column, row.fault);
-  Heading heading;
+  SetHeading heading;
   heading.position.fill(kAbsent);
   heading.cell_count = row.cells.size();
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -49,7 +48,7 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
     if (known != kColumns.end()) {
       std::size_t& position = heading.position[std::size_t(known - kColumns.begin())];
       if (position != kAbsent)
-        throw InputError::format("{}:{}: column `{}` stands twice, expected once", table, row.line, name);
+        throw InputError::format("{}:{}: column `{}` occurs twice, expected once", table, row.line, name);
       position = i;
       continue;
     }
@@ -61,9 +60,9 @@ Heading read_heading(const CsvRow& row, const std::string& table, std::vector<st
   return heading;
 }
 
-void require_columns(const Heading& heading, const CsvRow& row, const std::string& table, bool planned) {
+void require_columns(const SetHeading& heading, const CsvRow& row, const std::string& table, bool planned) {
   const int line = row.line;
-  for (const Column required : {kSpecimen, kPattern, kTest}) {
+  for (const SetColumn required : {kSpecimen, kPattern, kTest}) {
     if (heading.position[required] == kAbsent) {
       throw InputError::format(
           "{}:{}: column `{}` is missing, expected a heading with at least specimen, pattern, test and "
@@ -72,61 +71,14 @@ void require_columns(const Heading& heading, const CsvRow& row, const std::strin
     }
   }
   if (planned) return;
-  const auto absent = [&](Column column) { return heading.position[column] == kAbsent; };
+  const auto absent = [&](SetColumn column) { return heading.position[column] == kAbsent; };
   if (absent(kModulus) && absent(kToughness) && absent(kCurve)) {
     throw InputError::format("{}:{}: no measured value, expected one of the columns modulus_pa, toughness_pa, curve",
                              table, line);
   }
 }
 
-/// Doubts about a curve: units that somebody forgot to convert, and a pull that was ended too early.
-void collect_curve_doubts(const SpecimenRecord& record, std::vector<std::string>& doubts) {
-  constexpr double kNotSeparated = 0.2;
-  if (record.curve.empty()) return;
-  const auto doubt = [&](const std::string& sentence) { doubts.push_back("column curve: " + sentence); };
-  const double peak_pa = std::ranges::max(record.curve.stress_pa), strain = std::ranges::max(record.curve.strain);
-  if (!kUsualPeakPa.hold(peak_pa))
-    doubt(fmt::format("the largest stress is {:.3g}, no usual one; is the unit Pa?", peak_pa));
-  if (strain > kMostUsualStrain)
-    doubt(fmt::format("strain reaches {:.3g}, no usual one; is it a ratio, not per cent?", strain));
-  if (record.test == tester::TestKind::toughness && record.curve.stress_pa.back() > kNotSeparated * peak_pa)
-    doubt(fmt::format("ends at {:.0f} % of its largest stress, expected a pull to separation",
-                      100.0 * record.curve.stress_pa.back() / peak_pa));
-}
-
-}  // namespace
-
-std::vector<std::string> doubts_about(const SpecimenRecord& record) {
-  std::vector<std::string> doubts;
-  constexpr double kAreaTolerance = 0.02;
-  const bool notched = record.test == tester::TestKind::toughness;
-  if (notched && record.toughness_pa && !record.curve.empty()) {
-    const double area = tester::area_under(record.curve);
-    if (std::abs(area - *record.toughness_pa) > kAreaTolerance * *record.toughness_pa) {
-      doubts.push_back(
-          fmt::format("column toughness_pa: {} is {:.1f} % off the area under the curve, {}; expected at "
-                      "most 2 %; the given value is used",
-                      *record.toughness_pa, 100.0 * std::abs(area / *record.toughness_pa - 1.0), area));
-    }
-  }
-  const auto warn_ignored = [&](const char* column) {
-    doubts.push_back(fmt::format("column {}: is not used in a {} test", column, tester::to_string(record.test)));
-  };
-  if (record.modulus_pa && record.test != tester::TestKind::modulus) warn_ignored("modulus_pa");
-  if (record.toughness_pa && !notched) warn_ignored("toughness_pa");
-  const std::optional<double> modulus = modulus_of(record);
-  if (const auto doubt = implausible_value(record)) {
-    doubts.push_back(fmt::format("column {}: {}", doubt->column, doubt->reason));
-  } else if (record.test == tester::TestKind::modulus && modulus && *modulus > kUsualModulusPa.most) {
-    doubts.push_back(fmt::format("column modulus_pa: {} Pa is no usual modulus; is the unit Pa?", *modulus));
-  }
-  collect_curve_doubts(record, doubts);
-  return doubts;
-}
-
-namespace {
-
-/// What a row must say: a test alone, a value of it, or a value that can be true.
+/// What a row must hold: a test alone, a measured value, or a plausible one.
 enum class Demand { planned, measured, plausible };
 
 /// Reads rows one after another into a set, and keeps specimen names unique.
@@ -143,7 +95,7 @@ class SetBuilder {
     do {
       if (!reader.next(row)) throw InputError::format("{}: is empty, expected a heading and rows", table_);
     } while (row.blank());
-    const Heading heading = read_heading(row, table_, set_.warnings);
+    const SetHeading heading = read_heading(row, table_, set_.warnings);
     require_columns(heading, row, table_, demand_ == Demand::planned);
     while (reader.next(row)) {
       if (!row.blank()) add(heading, row);
@@ -155,7 +107,7 @@ class SetBuilder {
   }
 
  private:
-  void add(const Heading& heading, const CsvRow& row) {
+  void add(const SetHeading& heading, const CsvRow& row) {
     if (point_count_ > kMostSetPoints) {
       throw InputError::format("{}:{}: the curves have more than {} points together, expected at most that many",
                                table_, row.line, kMostSetPoints);
@@ -187,9 +139,9 @@ class SetBuilder {
       set_.warnings.push_back(
           fmt::format("{}: specimen `{}` repeats line {} and is ignored", place, record->specimen, first_line));
     } else {
-      set_.rejected.push_back({row.line, "specimen",
-                               fmt::format("`{}` stands in line {} with other content, expected a unique name",
-                                           record->specimen, first_line)});
+      set_.rejected.push_back(
+          {row.line, "specimen",
+           fmt::format("`{}` is in line {} with other content, expected a unique name", record->specimen, first_line)});
     }
   }
 
@@ -213,13 +165,9 @@ class SetBuilder {
   std::map<std::string, std::pair<std::size_t, int>> index_of_;  ///< specimen -> index, line
 };
 
-}  // namespace
-
-namespace {
-
 MeasurementSet read_set(const std::filesystem::path& folder, Demand demand) {
   if (!std::filesystem::is_directory(folder)) {
-    throw InputError::format("{}: is no folder, expected a measurement set: a folder with {}", folder.string(),
+    throw InputError::format("{}: is not a folder, expected a measurement set: a folder with {}", folder.string(),
                              kTableName);
   }
   const Result<std::filesystem::path> table = file_inside(folder, kTableName);

@@ -12,40 +12,40 @@ constexpr double kWindow = 0.2, kHighestStart = 0.6, kHighestEnd = 0.8, kStartSt
 constexpr double kLongestWindow = 0.02;  // strain: a soft coupon locks within a fifth of its peak stress
 constexpr double kStartStepStrain = 0.1 * kLongestWindow;
 constexpr double kStraight = 0.01;  // share by which the halves of a straight part may differ in slope
-constexpr double kVague = 0.2;      // standard error over slope of what slack may be
-// Standard errors up to which a bend is taken for noise. A toe that is missed lowers the modulus, a straight part that
-// is missed costs points alone; noise that cuts windows short would choose among their slopes.
+constexpr double kVague = 0.2;      // standard error over slope above which a part may be slack
+// Standard errors up to which a bend is taken for noise. A missed toe lowers the modulus, a missed straight part costs
+// only points; if noise shortened windows, it would select among their slopes.
 constexpr double kErrorsOfToe = 0.5, kErrorsOfBend = 1.0, kErrorsWhileVague = 2.5;
-constexpr double kWidened = 1.25;           // how much longer a window becomes at once
+constexpr double kWidened = 1.25;           // factor by which a window is widened at once
 constexpr double kSeparated = 0.02;         // of the peak stress
 constexpr double kMostGivenBack = 0.05;     // of the largest strain: noise and recoil of the grips
 constexpr std::size_t kMostStretches = 20;  // of a record, each with a rate of its own
 constexpr std::size_t kFewestPoints = 3, kEnoughPoints = 5;
 
-struct Line {
+struct FittedLine {
   double slope = 0.0, slope_error = 0.0;
   double zero = 0.0;
 };
 
-/// The part of a curve on the way to its peak that is loaded for the first time, loops of unloading left out.
-struct Loading {
+/// First loading: the part of a curve before its peak without loops of unloading.
+struct FirstLoading {
   std::vector<std::size_t> index;  ///< of the curve
   std::vector<double> strain, stress_pa;
-  std::vector<double> risen_pa;  ///< the stress that never falls which is nearest by least squares
+  std::vector<double> risen_pa;  ///< isotonic regression of the stress: the nearest that never falls
   std::size_t size() const { return index.size(); }
   double peak_pa() const { return risen_pa.back(); }
 };
 
-/// Pools neighbours that fall. A level that noise crosses to and fro is then reached once, neither early nor late.
+/// Isotonic regression by pooling adjacent violators: a level that noise crosses repeatedly is then reached once.
 std::vector<double> nearest_rising(const std::vector<double>& values) {
-  struct Block {
+  struct PooledBlock {
     double sum;
     std::size_t count;
     double mean() const { return sum / static_cast<double>(count); }
   };
-  std::vector<Block> blocks;
+  std::vector<PooledBlock> blocks;
   for (const double value : values) {
-    Block block{value, 1};
+    PooledBlock block{value, 1};
     while (!blocks.empty() && blocks.back().mean() >= block.mean()) {
       block = {block.sum + blocks.back().sum, block.count + blocks.back().count};
       blocks.pop_back();
@@ -53,12 +53,12 @@ std::vector<double> nearest_rising(const std::vector<double>& values) {
     blocks.push_back(block);
   }
   std::vector<double> rising;
-  for (const Block& block : blocks) rising.insert(rising.end(), block.count, block.mean());
+  for (const PooledBlock& block : blocks) rising.insert(rising.end(), block.count, block.mean());
   return rising;
 }
 
-Loading first_loading(const tester::Curve& curve, std::size_t peak) {
-  Loading path;
+FirstLoading first_loading(const tester::Curve& curve, std::size_t peak) {
+  FirstLoading path;
   for (std::size_t i = 0; i <= peak; ++i) {
     if (path.size() > 0 && curve.strain[i] <= path.strain.back()) continue;
     path.index.push_back(i);
@@ -70,13 +70,13 @@ Loading first_loading(const tester::Curve& curve, std::size_t peak) {
 }
 
 /// Points first..last of a loading.
-struct Window {
+struct SlopeWindow {
   std::size_t first = 0, last = 0;
   std::size_t points() const { return last - first + 1; }
 };
 
 /// Least squares; the slope's error is that of its residuals.
-Line fit(const std::vector<double>& x, const std::vector<double>& y, Window window) {
+FittedLine fit(const std::vector<double>& x, const std::vector<double>& y, SlopeWindow window) {
   const double count = static_cast<double>(window.points());
   double mean_x = 0.0, mean_y = 0.0, squares = 0.0, products = 0.0, left = 0.0;
   for (std::size_t k = window.first; k <= window.last; ++k) {
@@ -94,40 +94,40 @@ Line fit(const std::vector<double>& x, const std::vector<double>& y, Window wind
   return {slope, error, mean_x - mean_y / slope};
 }
 
-Line fit(const Loading& path, Window window) { return fit(path.strain, path.stress_pa, window); }
+FittedLine fit(const FirstLoading& path, SlopeWindow window) { return fit(path.strain, path.stress_pa, window); }
 
 /// How much steeper the second half of a window is than the first, over the slope of the whole, and the standard error
 /// of that.
 struct Bend {
   double steeper = 0.0, error = 0.0;
-  /// What is left of it beyond so many errors.
+  /// Its part beyond so many standard errors.
   double beyond(double errors) const {
     return std::copysign(std::max(0.0, std::abs(steeper) - errors * error), steeper);
   }
 };
 
-Bend bend_of(const Loading& path, Window window) {
+Bend bend_of(const FirstLoading& path, SlopeWindow window) {
   const std::size_t middle = window.first + (window.last - window.first) / 2;
-  const Line first = fit(path, {window.first, middle}), second = fit(path, {middle, window.last});
+  const FittedLine first = fit(path, {window.first, middle}), second = fit(path, {middle, window.last});
   const double slope = std::abs(fit(path, window).slope);
   return {(second.slope - first.slope) / slope, std::hypot(first.slope_error, second.slope_error) / slope};
 }
 
-/// Windows that begin somewhere on the way up.
+/// Windows on first loading.
 class Windows {
  public:
-  explicit Windows(const Loading& path)
+  explicit Windows(const FirstLoading& path)
       : path_(path), end_(std::min(reached(kHighestEnd * path.peak_pa()), path.size() - 1)) {}
 
   /// A fifth of the peak stress or 2 % strain, whichever is shorter, made longer while straight until its slope is
   /// known to 1 %.
-  std::optional<Window> from(std::size_t first) const {
+  std::optional<SlopeWindow> from(std::size_t first) const {
     const std::size_t enough = std::min(reached(path_.risen_pa[first] + kWindow * path_.peak_pa()),
                                         strained(path_.strain[first] + kLongestWindow));
-    Window window{first, std::min(std::max(enough, first + kEnoughPoints - 1), path_.size() - 1)};
+    SlopeWindow window{first, std::min(std::max(enough, first + kEnoughPoints - 1), path_.size() - 1)};
     if (window.points() < kFewestPoints) return std::nullopt;
     const auto is_vague = [&] {
-      const Line line = fit(path_, window);
+      const FittedLine line = fit(path_, window);
       return line.slope_error > kSureModulus * line.slope;
     };
     while (window.last < end_ && is_vague() &&
@@ -137,7 +137,7 @@ class Windows {
   }
 
   /// The same, made longer as long as its second half is as steep as its first.
-  Window straight(Window window) const {
+  SlopeWindow straight(SlopeWindow window) const {
     while (window.last < end_ && bend_of(path_, widened(window)).beyond(kErrorsOfBend) >= -kStraight)
       window = widened(window);
     return window;
@@ -154,26 +154,26 @@ class Windows {
   }
   std::size_t reached(double stress_pa) const { return first_at(path_.risen_pa, stress_pa); }
   std::size_t strained(double strain) const { return first_at(path_.strain, strain); }
-  Window widened(Window window) const {
+  SlopeWindow widened(SlopeWindow window) const {
     const auto longer = static_cast<std::size_t>(kWidened * static_cast<double>(window.points()));
     return {window.first, std::min(std::max(window.first + longer, window.last + 1), end_)};
   }
 
-  const Loading& path_;
+  const FirstLoading& path_;
   std::size_t end_;
 };
 
 /// The first window beyond the toe: its second half is not steeper than its first, and it rises by more than noise.
-/// Where there is none, the first of those that grow steeper least. Nothing where the curve does not rise.
-std::optional<Window> first_plateau(const Loading& path) {
+/// Without such a window, the one that steepens least. Nothing where the curve does not rise.
+std::optional<SlopeWindow> first_plateau(const FirstLoading& path) {
   const Windows windows(path);
-  std::optional<Window> straightest;
+  std::optional<SlopeWindow> straightest;
   double least = 0.0;
   for (std::size_t first = 0; first < path.size() && path.risen_pa[first] <= kHighestStart * path.peak_pa();
        first = windows.next(first)) {
     const auto window = windows.from(first);
     if (!window) break;
-    const Line line = fit(path, *window);
+    const FittedLine line = fit(path, *window);
     if (!(line.slope > 0.0)) continue;
     const double growth = std::max(0.0, bend_of(path, *window).beyond(kErrorsOfToe));
     if (growth <= kStraight && line.slope_error <= kVague * line.slope) return windows.straight(*window);
@@ -196,18 +196,19 @@ double largest_strain(const tester::Curve& curve, std::size_t end) {
   return *std::max_element(curve.strain.begin(), curve.strain.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-/// Whether the specimen gave its strain back on the way to the low stress at `end`: it was unloaded, not torn apart.
+/// Whether the strain returned before the low stress at `end`: the specimen was unloaded, not separated.
 bool is_unloaded(const tester::Curve& curve, std::size_t end) {
   return curve.strain[end] < (1.0 - kMostGivenBack) * largest_strain(curve, end);
 }
 
-/// Where strain counts from. A line that meets zero stress before the record began tells of a preload, which the first
-/// stress shows, or of a curve that bends, which shifts nothing.
+/// Origin of strain. A line that meets zero stress before the record began means a preload, as the first stress tells,
+/// or a bent curve, which shifts nothing.
 double toe_of(const tester::Curve& curve, const LinearPart& part) {
   return std::max(part.zero_strain, std::min(0.0, -curve.stress_pa.front() / part.slope_pa));
 }
 
-/// The curve with strain counted from `toe_strain`; what a toe recorded before the linear part gives way to its line.
+/// The curve with strain counted from `toe_strain`; the toe before the linear part is replaced by the extrapolated
+/// line.
 tester::Curve compensated(const tester::Curve& curve, const LinearPart& part, double toe_strain) {
   const std::size_t begin = toe_strain > 0.0 ? part.first : 0;
   tester::Curve shifted;
@@ -242,12 +243,12 @@ Result<LinearPart> linear_part(const tester::Curve& curve) {
   if (-*std::min_element(curve.stress_pa.begin(), curve.stress_pa.end()) > peak_pa)
     return fail("tension counts as positive: the force is negative, expected an export with its sign reversed");
   if (peak_pa <= 0.0) return fail("the force never becomes positive, expected tension to count as positive");
-  const Loading path = first_loading(curve, peak);
+  const FirstLoading path = first_loading(curve, peak);
   if (path.size() < kFewestPoints)
-    return fail("only {} points on the way to the peak, expected a curve that rises", path.size());
-  const std::optional<Window> part = first_plateau(path);
-  if (!part) return fail("no straight part on the way to the peak, expected a curve that rises");
-  const Line line = fit(path, *part);
+    return fail("only {} points before the peak, expected a curve that rises", path.size());
+  const std::optional<SlopeWindow> part = first_plateau(path);
+  if (!part) return fail("no straight part before the peak, expected a curve that rises");
+  const FittedLine line = fit(path, *part);
   return LinearPart{line.slope, line.slope_error, line.zero, path.index[part->first], path.index[part->last]};
 }
 
@@ -282,7 +283,7 @@ Result<ReducedTest> reduce(const tester::Curve& curve, Toe toe) {
 std::optional<double> strain_rate(const std::vector<double>& time_s, const tester::Curve& curve) {
   const auto peak = static_cast<std::size_t>(std::max_element(curve.stress_pa.begin(), curve.stress_pa.end()) -
                                              curve.stress_pa.begin());
-  std::vector<double> times, strains;  // where the clock ticks: rows between two ticks have no time of their own
+  std::vector<double> times, strains;  // at the ticks of the clock: rows between two ticks have the same time
   for (std::size_t i = 0; i < std::min(time_s.size(), peak + 1); ++i) {
     if (!times.empty() && time_s[i] <= times.back()) continue;
     times.push_back(time_s[i]);
@@ -292,7 +293,7 @@ std::optional<double> strain_rate(const std::vector<double>& time_s, const teste
   const std::size_t stretches = std::clamp<std::size_t>(times.size() / kEnoughPoints, 1, kMostStretches);
   std::vector<double> rates;
   for (std::size_t i = 0; i < stretches; ++i) {
-    const Window stretch{i * times.size() / stretches, (i + 1) * times.size() / stretches - 1};
+    const SlopeWindow stretch{i * times.size() / stretches, (i + 1) * times.size() / stretches - 1};
     rates.push_back(std::abs(fit(times, strains, stretch).slope));
   }
   const double rate_per_s = quantile(std::move(rates), 0.5);

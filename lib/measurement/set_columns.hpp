@@ -8,7 +8,7 @@ namespace nacre::measurement {
 inline constexpr std::string_view kTableName = "measurements.csv";
 
 /// Columns of measurements.csv (docs/FORMATS.md), in the order in which they are written.
-enum Column {
+enum SetColumn {
   kSpecimen,
   kPattern,
   kTest,
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, kColumnCount> kColumns = {
     "batch",    "print_order", "thickness_mm", "modulus_pa",      "toughness_pa",
     "curve",    "valid",       "note"};
 
-/// What else `nacre import` writes: kept with the specimen like any other column, but known.
+/// Further columns that `nacre import` writes: kept with the specimen like any other column, but known.
 inline constexpr std::array<std::string_view, 10> kHistoryColumns = {
     "date", "operator",       "machine",        "path",       "order_id",
     "tray", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};

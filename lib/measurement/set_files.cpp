@@ -13,7 +13,7 @@
 namespace nacre::measurement {
 namespace {
 
-/// Where the two columns of a curve stand.
+/// Positions of the two columns of a curve.
 struct CurveColumns {
   std::size_t strain = 0;
   std::size_t stress = 0;
@@ -28,7 +28,7 @@ Result<CurveColumns> find_columns(const CsvRow& header, const std::string& shown
     const std::string_view name = trimmed(header.cells[i].text);
     std::optional<std::size_t>* found = name == "strain" ? &strain : name == "stress_pa" ? &stress : nullptr;
     if (found == nullptr) continue;
-    if (*found) return fail("{}:{}: column `{}` stands twice, expected once", shown_name, header.line, name);
+    if (*found) return fail("{}:{}: column `{}` occurs twice, expected once", shown_name, header.line, name);
     *found = i;
   }
   if (!strain || !stress) {
@@ -40,7 +40,7 @@ Result<CurveColumns> find_columns(const CsvRow& header, const std::string& shown
 
 Result<double> number_at(const CsvRow& row, std::size_t index, const char* column, const std::string& shown_name) {
   if (index >= row.cells.size()) {
-    return fail("{}:{}: column {}: nothing there, expected a number", shown_name, row.line, column);
+    return fail("{}:{}: column {}: the cell is empty, expected a number", shown_name, row.line, column);
   }
   const CsvCell& cell = row.cells[index];
   const Result<double> value = number_from_text(cell.text);
@@ -83,7 +83,7 @@ Result<tester::Curve> curve_from_csv(std::string_view text, const std::string& s
     const Result<double> strain = number_at(row, columns->strain, "strain", shown_name);
     if (!strain) return tl::unexpected(strain.error());
     if (*strain <= -1.0) {
-      return fail("{}:{}: column strain: {} is no nominal strain, expected above -1", shown_name, row.line, *strain);
+      return fail("{}:{}: column strain: {} is not a nominal strain, expected above -1", shown_name, row.line, *strain);
     }
     const Result<double> stress = number_at(row, columns->stress, "stress_pa", shown_name);
     if (!stress) return tl::unexpected(stress.error());

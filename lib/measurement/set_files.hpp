@@ -1,5 +1,5 @@
 #pragma once
-// The files that a measurement set names: where they may lie, and the curve format.
+// The files that a measurement set names: where they may be, and the curve format.
 
 #include <filesystem>
 #include <string>

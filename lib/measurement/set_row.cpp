@@ -7,17 +7,19 @@
 
 #include "base/files.hpp"
 #include "base/names.hpp"
+#include "measurement/limits.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::measurement {
 namespace {
 
-/// Turns one row into a record. The first thing that is wrong is kept as the row's fault, the rest is then skipped.
+/// Turns one row into a record. The first fault is kept as the row's fault, the rest is then skipped.
 class RowParser {
  public:
-  RowParser(const std::filesystem::path& folder, const Heading& heading, const CsvRow& row, bool planned,
+  RowParser(const std::filesystem::path& folder, const SetHeading& heading, const CsvRow& row, bool planned,
             const CurveSource& curves)
       : folder_(folder), heading_(heading), row_(row), planned_(planned), curves_(curves) {}
 
@@ -51,7 +53,7 @@ class RowParser {
   void reject(std::string column, int line, std::string reason) {
     if (!fault_) fault_ = RejectedRow{line, std::move(column), std::move(reason)};
   }
-  void reject(Column column, const std::string& reason) {
+  void reject(SetColumn column, const std::string& reason) {
     const std::size_t position = heading_.position[column];
     const bool there = position < row_.cells.size();
     const std::string place =
@@ -84,12 +86,12 @@ class RowParser {
     return "";
   }
 
-  std::string text(Column column) const {
+  std::string text(SetColumn column) const {
     const std::size_t position = heading_.position[column];
     return position < row_.cells.size() ? std::string(trimmed(row_.cells[position].text)) : "";
   }
 
-  std::optional<double> positive_number(Column column, const char* expected, const Limits& limits) {
+  std::optional<double> positive_number(SetColumn column, const char* expected, const Limits& limits) {
     const std::string cell = text(column);
     if (cell.empty()) return std::nullopt;
     const Result<double> value = number_from_text(cell);
@@ -107,7 +109,7 @@ class RowParser {
 
   tester::TestKind test_kind() {
     const Result<tester::TestKind> kind = tester::test_kind_from_string(text(kTest));
-    if (!kind) reject(kTest, fmt::format("`{}` is no test, expected modulus, toughness or tensile", text(kTest)));
+    if (!kind) reject(kTest, fmt::format("`{}` is not a test, expected modulus, toughness or tensile", text(kTest)));
     return kind.value_or(tester::TestKind::modulus);
   }
 
@@ -202,17 +204,17 @@ class RowParser {
     }
   }
 
-  /// The notched specimen says nothing of the modulus, and a modulus test nothing of the toughness.
+  /// A notched specimen does not determine the modulus, nor a modulus test the toughness.
   void check_consistency(const SpecimenRecord& record) {
-    if (fault_ || planned_ || !record.valid) return;  // what failed need not have said anything
+    if (fault_ || planned_ || !record.valid) return;  // a failed test need not have a result
     const std::optional<RejectedRow> missing = missing_result(record);
     if (!missing) return;
     const auto column = std::ranges::find(kColumns, missing->column);
-    reject(static_cast<Column>(column - std::begin(kColumns)), missing->reason);
+    reject(static_cast<SetColumn>(column - std::begin(kColumns)), missing->reason);
   }
 
   const std::filesystem::path& folder_;
-  const Heading& heading_;
+  const SetHeading& heading_;
   const CsvRow& row_;
   bool planned_;
   const CurveSource& curves_;
@@ -221,7 +223,7 @@ class RowParser {
 
 }  // namespace
 
-tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
+tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const SetHeading& heading,
                                                     const CsvRow& row, bool planned, const CurveSource& curves) {
   return RowParser(folder, heading, row, planned, curves).parse();
 }

@@ -9,26 +9,26 @@
 #include <vector>
 
 #include "base/csv.hpp"
-#include "measurement/measurement.hpp"
 #include "measurement/set_columns.hpp"
+#include "measurement/specimen_record.hpp"
 
 namespace nacre::measurement {
 
 inline constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
 
-/// The heading: where the known columns stand, and which others there are.
-struct Heading {
+/// The heading: positions of the known columns, and the other ones.
+struct SetHeading {
   std::array<std::size_t, kColumnCount> position;
   std::vector<std::pair<std::size_t, std::string>> others;
   std::size_t cell_count = 0;
 };
 
-/// Where the curve that a row names is read from, by its name there.
+/// The source of the curve that a row names.
 using CurveSource = std::function<Result<tester::Curve>(const std::string& name)>;
 
-/// The record of a row, or the first thing that is wrong with it. Files are looked for in `folder`, curves too unless
-/// `curves` has them. `planned`: a row needs no measured value.
-tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const Heading& heading,
+/// The record of a row, or its first fault. Files are read from `folder`, curves too unless `curves` has them.
+/// `planned`: a row needs no measured value.
+tl::expected<SpecimenRecord, RejectedRow> parse_row(const std::filesystem::path& folder, const SetHeading& heading,
                                                     const CsvRow& row, bool planned = false,
                                                     const CurveSource& curves = {});
 

@@ -69,7 +69,7 @@ void SetTable::append(const std::map<std::string, std::string>& cells) {
   rows_.push_back(std::move(row));
 }
 
-void SetTable::judge(std::string_view specimen, bool valid, const std::string& note) {
+void SetTable::review(std::string_view specimen, bool valid, const std::string& note) {
   for (auto& row : rows_) {
     if (!is_of(row, specimen)) continue;
     cell(row, kColumns[kValid]) = valid ? "1" : "0";

@@ -1,13 +1,11 @@
 #pragma once
-// measurements.csv as cells: to change one thing about a set without writing the rest of it anew.
+// measurements.csv as cells: to change one thing in a set and leave the rest as it is.
 
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "measurement/measurement.hpp"
 
 namespace nacre::measurement {
 
@@ -16,7 +14,7 @@ class SetTable {
  public:
   /// The columns of docs/FORMATS.md and no row.
   SetTable();
-  /// The table of the set in `folder`. Throws InputError when it cannot be read, or when a row is no CSV, which could
+  /// The table of the set in `folder`. Throws InputError when it cannot be read, or when a row is not CSV, which could
   /// not be written back.
   explicit SetTable(const std::filesystem::path& folder);
 
@@ -27,8 +25,8 @@ class SetTable {
   void remove(std::string_view specimen);
   /// A row more, its cells by column; columns that the table lacks are added at the right.
   void append(const std::map<std::string, std::string>& cells);
-  /// Puts a judgement into every row of this name: `valid`, and the note behind the one that is there.
-  void judge(std::string_view specimen, bool valid, const std::string& note);
+  /// Sets `valid` in every row of this name, and appends the note to the existing one.
+  void review(std::string_view specimen, bool valid, const std::string& note);
   /// Writes measurements.csv, and nothing else. Throws InputError when it cannot be written.
   void write(const std::filesystem::path& folder) const;
 
@@ -40,9 +38,5 @@ class SetTable {
   std::vector<std::string> heading_;
   std::vector<std::vector<std::string>> rows_;
 };
-
-/// Adds specimens to the set in `folder`: their rows, in place of those of the same names, and curves in files of their
-/// own; what else is there stays. Throws InputError when the table cannot be read or something cannot be written.
-void add_to_measurement_set(const std::filesystem::path& folder, const std::vector<SpecimenRecord>& specimens);
 
 }  // namespace nacre::measurement

@@ -12,7 +12,9 @@
 #include "base/csv.hpp"
 #include "base/files.hpp"
 #include "base/names.hpp"
+#include "measurement/limits.hpp"
 #include "measurement/set_files.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "measurement/tester_text.hpp"
 #include "thesis/constants.hpp"
 
@@ -21,7 +23,7 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kRequired = {"file",     "specimen",     "pattern",
                                                        "width_mm", "thickness_mm", "gauge_mm"};
-/// `loading` is what a person is told to do, and not read: what was done the export tells.
+/// `loading` is an instruction to the operator and is not read: the export has the actual loading.
 constexpr std::array<std::string_view, 12> kOptional = {"part",
                                                         "test",
                                                         "orientation_deg",
@@ -38,7 +40,7 @@ constexpr std::array<std::string_view, 6> kMeasured = {
     "width_mm", "thickness_mm", "gauge_mm", "orientation_deg", "strain_rate_per_s", "planned_strain_rate_per_s"};
 /// Kept with the specimen under their own names.
 constexpr std::array<std::string_view, 6> kKept = {"date", "operator", "machine", "path", "order_id", "tray"};
-/// What the set works out from the export: a sheet's own column of that name has no place beside it.
+/// Columns that the set computes from the export: the sheet's own columns of these names are dropped.
 constexpr std::array<std::string_view, 7> kWorkedOut = {
     "modulus_pa", "toughness_pa", "curve", "peak_stress_pa", "failure_strain", "toe_strain", "initial_modulus_pa"};
 
@@ -98,7 +100,7 @@ class SheetReader {
     std::set<std::string> seen;
     for (const std::string& name : heading_) {
       if (!name.empty() && !seen.insert(name).second)
-        throw InputError::format("{}:{}: column `{}` stands twice, expected once", file_, line, name);
+        throw InputError::format("{}:{}: column `{}` occurs twice, expected once", file_, line, name);
       const bool known =
           contains(kRequired, name) || contains(kOptional, name) || contains(kKept, name) || name.empty();
       if (contains(kWorkedOut, name)) {
@@ -110,7 +112,7 @@ class SheetReader {
     }
   }
 
-  /// One mark for the sheet, as `9,875` does not say which it is. Nothing when the cells contradict each other.
+  /// One decimal mark for the whole sheet, as `9,875` alone is ambiguous. Nothing when the cells contradict each other.
   void find_decimal_mark() {
     bool point = false, comma = false, any_point = false, any_comma = false;
     for (std::size_t i = 1; i < rows_.size(); ++i) {
@@ -125,7 +127,7 @@ class SheetReader {
         any_comma = any_comma || cell.find(',') != std::string::npos;
       }
     }
-    if (!point && !comma && delimiter_ != ',') {  // as spreadsheets of a language with decimal commas write
+    if (!point && !comma && delimiter_ != ',') {  // as spreadsheets in languages with decimal commas write
       comma = any_comma;
       point = any_point;
     }
@@ -188,11 +190,12 @@ class SheetReader {
     const std::filesystem::file_status status = std::filesystem::status(path, unreadable);
     if (std::filesystem::exists(status) &&
         !std::filesystem::is_regular_file(status)) {  // a terminal or a pipe would wait for ever
-      reject("pattern",
-             fmt::format(
-                 "`{}` is no regular file, expected a pattern file, a key, or a coupon (rigid, soft, interface, mix:F, "
-                 "checkerboard:P, laminate:x|y:R:S)",
-                 name));
+      reject(
+          "pattern",
+          fmt::format(
+              "`{}` is not a regular file, expected a pattern file, a key, or a coupon (rigid, soft, interface, mix:F, "
+              "checkerboard:P, laminate:x|y:R:S)",
+              name));
       return {};
     }
     try {
@@ -222,7 +225,7 @@ class SheetReader {
       reject("specimen", "holds a control character, expected a name that fits on a label");
     if (row.file.empty()) reject("file", "is empty, expected the name of the testing machine's export");
     if (!names_.insert(row.record.specimen).second)
-      reject("specimen", fmt::format("`{}` stands twice, expected a unique name", row.record.specimen));
+      reject("specimen", fmt::format("`{}` occurs twice, expected a unique name", row.record.specimen));
     row.record.design = design();
     row.width_mm = length_mm("width_mm");
     row.record.conditions.thickness_mm = length_mm("thickness_mm");
@@ -255,7 +258,7 @@ class SheetReader {
     if (const auto kind = tester::test_kind_from_string(test)) {
       record.test = *kind;
     } else {
-      reject("test", fmt::format("`{}` is no test, expected modulus, toughness or tensile", test));
+      reject("test", fmt::format("`{}` is not a test, expected modulus, toughness or tensile", test));
     }
     row.part = integer_from_1("part");
     record.conditions.orientation_deg = number("orientation_deg", 0, 90, "0 or 90").value_or(0.0);

@@ -1,5 +1,5 @@
 #pragma once
-// The sheet that says which file of the testing machine belongs to which specimen, and how large it was.
+// The sheet that assigns the files of the testing machine to specimens and holds their sizes.
 
 #include <filesystem>
 #include <optional>
@@ -7,18 +7,18 @@
 #include <string_view>
 #include <vector>
 
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "measurement/tester_export.hpp"
 
 namespace nacre::measurement {
 
-/// Heading of the sheet that a print job begins. The job fills the columns up to `tray`; the others, and the sizes as
-/// measured in place of the nominal ones, whoever tests.
+/// Heading of the sheet that a print job begins. The job fills the columns up to `tray`; the operator fills
+/// the others and replaces the nominal sizes by the measured ones.
 inline constexpr std::string_view kJobHeading =
     "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm,orientation_deg,planned_strain_rate_per_s,loading,batch,"
     "print_order,order_id,tray,date,operator,machine,path,note";
 
-/// One row: everything about a specimen but what the machine recorded.
+/// One row: everything about a specimen except the machine's record.
 struct SheetRow {
   int line = 0;
   std::string file;
@@ -26,8 +26,8 @@ struct SheetRow {
   SpecimenRecord record;
   double width_mm = 0.0;
   double gauge_mm = 0.0;
-  bool rate_is_given = false;                ///< by whoever tested: it wins over the recorded time
-  std::optional<double> planned_rate_per_s;  ///< stands where the recorded time tells no rate
+  bool rate_is_given = false;                ///< by the operator: it wins over the recorded time
+  std::optional<double> planned_rate_per_s;  ///< used where the recorded time gives no rate
   ColumnChoice columns;
 };
 

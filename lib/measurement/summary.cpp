@@ -1,4 +1,4 @@
-// Replicates: what was measured of one design, whatever the order in which its specimens arrived.
+#include "measurement/summary.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,25 +6,22 @@
 #include <span>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "base/statistics.hpp"
-#include "measurement/measurement.hpp"
-#include "measurement/set_files.hpp"
+#include "measurement/observe.hpp"
 
 namespace nacre::measurement {
 namespace {
 
-using GroupKey = std::tuple<std::string, double, double, double>;
+using ReplicateKey = std::tuple<std::string, double, double, double>;
 
-GroupKey group_of(const SpecimenRecord& specimen) {
+ReplicateKey group_of(const SpecimenRecord& specimen) {
   const tester::TestConditions& conditions = specimen.conditions;
   return {specimen.design.name(), conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm};
 }
 
 double mean_of(std::span<const double> values) { return values.empty() ? 0.0 : mean(values); }
 
-/// The thesis' representative curve (2.2.2), chosen as that of the specimen nearest to the mean toughness.
+/// The representative curve of the thesis (2.2.2): that of the specimen nearest to the mean toughness.
 tester::Curve representative(std::span<const SpecimenRecord* const> specimens, double mean_toughness_pa) {
   const SpecimenRecord* nearest = nullptr;
   double smallest = 0.0;
@@ -69,8 +66,8 @@ Replicates summarise_group(std::span<const SpecimenRecord* const> specimens, con
   return group;
 }
 
-// The interval of ISO 527, and how far the first points of a coarse curve may lie apart: beyond, a chord says more of
-// yielding than of the modulus.
+// The interval of ISO 527, and the largest distance between the first points of a coarse curve: beyond it, a chord
+// depends more on yielding than on the modulus.
 constexpr double kFirstStrain = 0.0005, kLastStrain = 0.0025, kLongestChord = 0.05;
 
 /// Slope between stresses interpolated at the two ends of the interval, for curves with few points in it.
@@ -89,8 +86,8 @@ std::optional<double> slope_of_chord(const tester::Curve& curve) {
   return rise_pa / (kLastStrain - kFirstStrain);
 }
 
-/// How many points lie before the strain leaves the interval, or falls for good: what comes back into it later is
-/// unloaded or broken.
+/// Number of points before the strain leaves the interval or falls for good: later points in it are of unloading or of
+/// a broken specimen.
 std::size_t points_of_loading(const std::vector<double>& strain) {
   const auto beyond = std::find_if(strain.begin(), strain.end(), [](double e) { return e > kLastStrain; });
   if (beyond != strain.end()) return static_cast<std::size_t>(beyond - strain.begin());
@@ -131,57 +128,8 @@ std::optional<double> toughness_of(const SpecimenRecord& specimen) {
   return tester::area_under(specimen.curve);
 }
 
-std::optional<RejectedRow> missing_result(const SpecimenRecord& specimen) {
-  const auto lacks = [](const char* column, std::string reason) { return RejectedRow{0, column, std::move(reason)}; };
-  if (!specimen.curve.empty() && specimen.curve.size() < kFewestCurveRows)
-    return lacks("curve", fmt::format("has {} rows, expected at least {}", specimen.curve.size(), kFewestCurveRows));
-  switch (specimen.test) {
-    case tester::TestKind::modulus:
-      if (modulus_of(specimen)) return std::nullopt;
-      return lacks("modulus_pa",
-                   "no modulus, expected modulus_pa, or a curve from below 0.05 % strain that rises to 0.25 %");
-    case tester::TestKind::toughness:
-      if (specimen.toughness_pa) return std::nullopt;
-      if (specimen.curve.empty()) return lacks("toughness_pa", "no toughness, expected toughness_pa or a curve");
-      if (tester::area_under(specimen.curve) > 0.0) return std::nullopt;
-      return lacks("curve", "the area under the curve is not positive, expected a stress-strain curve to separation");
-    case tester::TestKind::tensile:
-      if (specimen.curve.empty()) return lacks("curve", "no curve, expected one for a tensile test");
-      if (specimen.design.mixture()) return std::nullopt;
-      return lacks("pattern", std::string(kTensileIsHomogeneous));
-  }
-  return std::nullopt;
-}
-
-std::optional<RejectedRow> implausible_value(const SpecimenRecord& specimen) {
-  const auto reason = [](double value, const Limits& usual) {
-    return fmt::format("{} Pa, expected {} to {}; is the unit Pa?", value, usual.least, usual.most);
-  };
-  // A value of the other kind is not used, whatever it is.
-  switch (specimen.test) {
-    case tester::TestKind::modulus: {
-      const std::optional<double> modulus_pa = modulus_of(specimen);
-      if (!modulus_pa || kModulusPa.hold(*modulus_pa)) return std::nullopt;
-      return RejectedRow{0, "modulus_pa", reason(*modulus_pa, kModulusPa)};
-    }
-    case tester::TestKind::toughness: {
-      const std::optional<double> toughness_pa = toughness_of(specimen);
-      if (!toughness_pa || kToughnessPa.hold(*toughness_pa)) return std::nullopt;
-      return RejectedRow{0, "toughness_pa", reason(*toughness_pa, kToughnessPa)};
-    }
-    case tester::TestKind::tensile:
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-std::optional<RejectedRow> why_unusable(const SpecimenRecord& specimen) {
-  auto missing = missing_result(specimen);
-  return missing ? missing : implausible_value(specimen);
-}
-
 std::vector<Replicates> summarise(const std::vector<SpecimenRecord>& specimens) {
-  std::map<GroupKey, std::vector<const SpecimenRecord*>> groups;
+  std::map<ReplicateKey, std::vector<const SpecimenRecord*>> groups;
   BatchSteps batch_steps;
   const std::vector<PrintContext> contexts = print_contexts(specimens);
   for (std::size_t i = 0; i < specimens.size(); ++i) batch_steps.emplace(&specimens[i], contexts[i].batch_step);

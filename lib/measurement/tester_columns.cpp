@@ -9,7 +9,7 @@
 namespace nacre::measurement {
 namespace {
 
-struct Unit {
+struct NamedUnit {
   Quantity quantity;
   std::string_view name;
   double factor;
@@ -17,116 +17,116 @@ struct Unit {
 
 constexpr double kInchMm = 25.4, kPoundForceN = 4.4482216152605, kKilogramForceN = 9.80665;
 constexpr std::array kUnits = {
-    Unit{Quantity::time, "s", 1.0},
-    Unit{Quantity::time, "sec", 1.0},
-    Unit{Quantity::time, "secs", 1.0},
-    Unit{Quantity::time, "second", 1.0},
-    Unit{Quantity::time, "seconds", 1.0},
-    Unit{Quantity::time, "sek", 1.0},
-    Unit{Quantity::time, "ms", 1e-3},
-    Unit{Quantity::time, "msec", 1e-3},
-    Unit{Quantity::time, "min", 60.0},
-    Unit{Quantity::time, "minutes", 60.0},
-    Unit{Quantity::time, "h", 3600.0},
-    Unit{Quantity::time, "hr", 3600.0},
-    Unit{Quantity::extension, "mm", 1.0},
-    Unit{Quantity::extension, "cm", 10.0},
-    Unit{Quantity::extension, "m", 1000.0},
-    Unit{Quantity::extension, "um", 1e-3},
-    Unit{Quantity::extension, "in", kInchMm},
-    Unit{Quantity::extension, "in.", kInchMm},
-    Unit{Quantity::extension, "inch", kInchMm},
-    Unit{Quantity::extension, "inches", kInchMm},
-    Unit{Quantity::extension, "\"", kInchMm},
-    Unit{Quantity::extension, "mil", 1e-3 * kInchMm},
-    Unit{Quantity::extension, "mils", 1e-3 * kInchMm},
-    Unit{Quantity::extension, "ft", 12 * kInchMm},
-    Unit{Quantity::force, "n", 1.0},
-    Unit{Quantity::force, "newton", 1.0},
-    Unit{Quantity::force, "kn", 1e3},
-    Unit{Quantity::force, "mn", 1e-3},
-    Unit{Quantity::force, "dan", 10.0},
-    Unit{Quantity::force, "lbf", kPoundForceN},
-    Unit{Quantity::force, "lb", kPoundForceN},
-    Unit{Quantity::force, "lbs", kPoundForceN},
-    Unit{Quantity::force, "klbf", 1e3 * kPoundForceN},
-    Unit{Quantity::force, "kip", 1e3 * kPoundForceN},
-    Unit{Quantity::force, "kips", 1e3 * kPoundForceN},
-    Unit{Quantity::force, "ozf", kPoundForceN / 16},
-    Unit{Quantity::force, "kgf", kKilogramForceN},
-    Unit{Quantity::force, "kp", kKilogramForceN},
-    Unit{Quantity::force, "gf", 1e-3 * kKilogramForceN},
+    NamedUnit{Quantity::time, "s", 1.0},
+    NamedUnit{Quantity::time, "sec", 1.0},
+    NamedUnit{Quantity::time, "secs", 1.0},
+    NamedUnit{Quantity::time, "second", 1.0},
+    NamedUnit{Quantity::time, "seconds", 1.0},
+    NamedUnit{Quantity::time, "sek", 1.0},
+    NamedUnit{Quantity::time, "ms", 1e-3},
+    NamedUnit{Quantity::time, "msec", 1e-3},
+    NamedUnit{Quantity::time, "min", 60.0},
+    NamedUnit{Quantity::time, "minutes", 60.0},
+    NamedUnit{Quantity::time, "h", 3600.0},
+    NamedUnit{Quantity::time, "hr", 3600.0},
+    NamedUnit{Quantity::extension, "mm", 1.0},
+    NamedUnit{Quantity::extension, "cm", 10.0},
+    NamedUnit{Quantity::extension, "m", 1000.0},
+    NamedUnit{Quantity::extension, "um", 1e-3},
+    NamedUnit{Quantity::extension, "in", kInchMm},
+    NamedUnit{Quantity::extension, "in.", kInchMm},
+    NamedUnit{Quantity::extension, "inch", kInchMm},
+    NamedUnit{Quantity::extension, "inches", kInchMm},
+    NamedUnit{Quantity::extension, "\"", kInchMm},
+    NamedUnit{Quantity::extension, "mil", 1e-3 * kInchMm},
+    NamedUnit{Quantity::extension, "mils", 1e-3 * kInchMm},
+    NamedUnit{Quantity::extension, "ft", 12 * kInchMm},
+    NamedUnit{Quantity::force, "n", 1.0},
+    NamedUnit{Quantity::force, "newton", 1.0},
+    NamedUnit{Quantity::force, "kn", 1e3},
+    NamedUnit{Quantity::force, "mn", 1e-3},
+    NamedUnit{Quantity::force, "dan", 10.0},
+    NamedUnit{Quantity::force, "lbf", kPoundForceN},
+    NamedUnit{Quantity::force, "lb", kPoundForceN},
+    NamedUnit{Quantity::force, "lbs", kPoundForceN},
+    NamedUnit{Quantity::force, "klbf", 1e3 * kPoundForceN},
+    NamedUnit{Quantity::force, "kip", 1e3 * kPoundForceN},
+    NamedUnit{Quantity::force, "kips", 1e3 * kPoundForceN},
+    NamedUnit{Quantity::force, "ozf", kPoundForceN / 16},
+    NamedUnit{Quantity::force, "kgf", kKilogramForceN},
+    NamedUnit{Quantity::force, "kp", kKilogramForceN},
+    NamedUnit{Quantity::force, "gf", 1e-3 * kKilogramForceN},
 };
 
-struct Word {
+struct NamedQuantity {
   Quantity quantity;
   std::string_view word;  ///< the name is this, or holds it as whole words
   int rank;
 };
 
-/// In English, German, French, Spanish, Italian. An extensometer sees a part of the specimen: it is taken only where it
-/// is asked for, or stands alone.
+/// In English, German, French, Spanish, Italian. An extensometer measures a part of the specimen: it is taken only
+/// where it is asked for, or is the only one.
 constexpr std::array kWords = {
-    Word{Quantity::extension, "extension", 0},
-    Word{Quantity::extension, "standard travel", 1},
-    Word{Quantity::extension, "standardweg", 1},
-    Word{Quantity::extension, "displacement", 2},
-    Word{Quantity::extension, "crosshead", 3},
-    Word{Quantity::extension, "crosshead travel", 3},
-    Word{Quantity::extension, "traverse", 3},
-    Word{Quantity::extension, "traversenweg", 3},
-    Word{Quantity::extension, "weg", 3},
-    Word{Quantity::extension, "travel", 3},
-    Word{Quantity::extension, "elongation", 3},
-    Word{Quantity::extension, "verlaengerung", 3},
-    Word{Quantity::extension, "allongement", 3},
-    Word{Quantity::extension, "deplacement", 3},
-    Word{Quantity::extension, "desplazamiento", 3},
-    Word{Quantity::extension, "spostamento", 3},
-    Word{Quantity::extension, "allungamento", 3},
-    Word{Quantity::extension, "alargamiento", 3},
-    Word{Quantity::extension, "stroke", 4},
-    Word{Quantity::extension, "position", 5},
-    Word{Quantity::extension, "verformung", 6},
-    Word{Quantity::extension, "deformation", 6},
-    Word{Quantity::extension, "extensometer", 9},
-    Word{Quantity::extension, "laengenaenderungsaufnehmer", 9},
-    Word{Quantity::extension, "feindehnung", 9},
-    Word{Quantity::extension, "dl", 3},
-    Word{Quantity::extension, "laengenaenderung", 3},
-    Word{Quantity::force, "force", 0},
-    Word{Quantity::force, "standard force", 0},
-    Word{Quantity::force, "standardkraft", 0},
-    Word{Quantity::force, "load", 1},
-    Word{Quantity::force, "kraft", 1},
-    Word{Quantity::force, "pruefkraft", 1},
-    Word{Quantity::force, "charge", 1},
-    Word{Quantity::force, "effort", 1},
-    Word{Quantity::force, "fuerza", 1},
-    Word{Quantity::force, "carga", 1},
-    Word{Quantity::force, "forza", 1},
-    Word{Quantity::force, "carico", 1},
-    Word{Quantity::force, "last", 1},
-    Word{Quantity::force, "f", 2},
-    Word{Quantity::time, "test time", 0},
-    Word{Quantity::time, "pruefzeit", 0},
-    Word{Quantity::time, "running time", 0},
-    Word{Quantity::time, "elapsed time", 0},
-    Word{Quantity::time, "time", 1},
-    Word{Quantity::time, "zeit", 1},
-    Word{Quantity::time, "temps", 1},
-    Word{Quantity::time, "tiempo", 1},
-    Word{Quantity::time, "tempo", 1},
-    Word{Quantity::time, "t", 2},
+    NamedQuantity{Quantity::extension, "extension", 0},
+    NamedQuantity{Quantity::extension, "standard travel", 1},
+    NamedQuantity{Quantity::extension, "standardweg", 1},
+    NamedQuantity{Quantity::extension, "displacement", 2},
+    NamedQuantity{Quantity::extension, "crosshead", 3},
+    NamedQuantity{Quantity::extension, "crosshead travel", 3},
+    NamedQuantity{Quantity::extension, "traverse", 3},
+    NamedQuantity{Quantity::extension, "traversenweg", 3},
+    NamedQuantity{Quantity::extension, "weg", 3},
+    NamedQuantity{Quantity::extension, "travel", 3},
+    NamedQuantity{Quantity::extension, "elongation", 3},
+    NamedQuantity{Quantity::extension, "verlaengerung", 3},
+    NamedQuantity{Quantity::extension, "allongement", 3},
+    NamedQuantity{Quantity::extension, "deplacement", 3},
+    NamedQuantity{Quantity::extension, "desplazamiento", 3},
+    NamedQuantity{Quantity::extension, "spostamento", 3},
+    NamedQuantity{Quantity::extension, "allungamento", 3},
+    NamedQuantity{Quantity::extension, "alargamiento", 3},
+    NamedQuantity{Quantity::extension, "stroke", 4},
+    NamedQuantity{Quantity::extension, "position", 5},
+    NamedQuantity{Quantity::extension, "verformung", 6},
+    NamedQuantity{Quantity::extension, "deformation", 6},
+    NamedQuantity{Quantity::extension, "extensometer", 9},
+    NamedQuantity{Quantity::extension, "laengenaenderungsaufnehmer", 9},
+    NamedQuantity{Quantity::extension, "feindehnung", 9},
+    NamedQuantity{Quantity::extension, "dl", 3},
+    NamedQuantity{Quantity::extension, "laengenaenderung", 3},
+    NamedQuantity{Quantity::force, "force", 0},
+    NamedQuantity{Quantity::force, "standard force", 0},
+    NamedQuantity{Quantity::force, "standardkraft", 0},
+    NamedQuantity{Quantity::force, "load", 1},
+    NamedQuantity{Quantity::force, "kraft", 1},
+    NamedQuantity{Quantity::force, "pruefkraft", 1},
+    NamedQuantity{Quantity::force, "charge", 1},
+    NamedQuantity{Quantity::force, "effort", 1},
+    NamedQuantity{Quantity::force, "fuerza", 1},
+    NamedQuantity{Quantity::force, "carga", 1},
+    NamedQuantity{Quantity::force, "forza", 1},
+    NamedQuantity{Quantity::force, "carico", 1},
+    NamedQuantity{Quantity::force, "last", 1},
+    NamedQuantity{Quantity::force, "f", 2},
+    NamedQuantity{Quantity::time, "test time", 0},
+    NamedQuantity{Quantity::time, "pruefzeit", 0},
+    NamedQuantity{Quantity::time, "running time", 0},
+    NamedQuantity{Quantity::time, "elapsed time", 0},
+    NamedQuantity{Quantity::time, "time", 1},
+    NamedQuantity{Quantity::time, "zeit", 1},
+    NamedQuantity{Quantity::time, "temps", 1},
+    NamedQuantity{Quantity::time, "tiempo", 1},
+    NamedQuantity{Quantity::time, "tempo", 1},
+    NamedQuantity{Quantity::time, "t", 2},
 };
 
-/// Words of names that say where an extension was recorded; any other name may mean both.
+/// Words of names that tell where an extension was recorded; any other name is ambiguous.
 constexpr std::array<std::string_view, 7> kGripWords = {"crosshead", "travel", "traverse",   "traversenweg",
                                                         "weg",       "stroke", "standardweg"};
 constexpr std::array<std::string_view, 3> kExtensometerWords = {"extensometer", "laengenaenderungsaufnehmer",
                                                                 "feindehnung"};
 
-/// Names that hold a word of the list and mean something else.
+/// Words that give a name of the list another meaning.
 constexpr std::array<std::string_view, 18> kOthers = {"strain", "stress", "dehnung", "spannung", "rate",  "date",
                                                       "speed",  "cell",   "count",   "maximum",  "max",   "zeitstempel",
                                                       "true",   "at",     "bei",     "break",    "bruch", "yield"};
@@ -167,7 +167,7 @@ std::string take_unit(std::string& name) {
     const std::size_t at = name.rfind(mark);
     if (at == std::string::npos || at == 0) continue;
     const std::string unit = bare_unit(std::string_view(name).substr(at + mark.size()));
-    const auto is_unit = [&](const Unit& each) { return each.name == unit; };
+    const auto is_unit = [&](const NamedUnit& each) { return each.name == unit; };
     if (std::none_of(kUnits.begin(), kUnits.end(), is_unit)) continue;
     name = std::string(trimmed(std::string_view(name).substr(0, at)));
     return unit;
@@ -209,14 +209,14 @@ std::optional<double> unit_factor(Quantity quantity, std::string_view unit) {
   const std::string bare = bare_unit(unit);
   // Milli and mega differ in the first letter's case alone.
   if (quantity == Quantity::force && unit.find("MN") != std::string_view::npos) return 1e6;
-  for (const Unit& each : kUnits) {
+  for (const NamedUnit& each : kUnits) {
     if (each.quantity == quantity && each.name == bare) return each.factor;
   }
   return std::nullopt;
 }
 
 ColumnName recognise_column(std::string_view heading) {
-  ColumnName column{.shown = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
+  ColumnName column{.heading = std::string(heading), .quantity = {}, .rank = 0, .unit = {}, .gauge = Gauge::unknown};
   std::string name = plain_words(heading);
   const bool is_other = std::any_of(kOthers.begin(), kOthers.end(), [&](auto word) { return holds_word(name, word); });
   const std::string unit = take_unit(name);
@@ -224,7 +224,7 @@ ColumnName recognise_column(std::string_view heading) {
   if (is_other) return column;
   int best = 100;
   std::size_t longest = 0;
-  for (const Word& word : kWords) {
+  for (const NamedQuantity& word : kWords) {
     const bool is_short = word.word.size() <= 2;
     if (is_short ? name != word.word : !holds_word(name, word.word)) continue;
     if (word.word.size() < longest || (word.word.size() == longest && word.rank >= best)) continue;
@@ -241,7 +241,7 @@ std::size_t best_column(const std::vector<ColumnName>& columns, Quantity quantit
   std::size_t best = columns.size();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (!wanted.empty()) {
-      if (holds_word(plain_words(columns[i].shown), plain_words(wanted))) return i;
+      if (holds_word(plain_words(columns[i].heading), plain_words(wanted))) return i;
       continue;
     }
     if (columns[i].quantity == quantity && (best == columns.size() || columns[i].rank < columns[best].rank)) best = i;

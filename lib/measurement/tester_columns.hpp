@@ -1,5 +1,5 @@
 #pragma once
-// What the columns of a testing machine's export mean: names in several languages, metric and imperial units.
+// The meaning of the columns of a testing machine's export: names in several languages, metric and imperial units.
 
 #include <optional>
 #include <string>
@@ -18,12 +18,12 @@ std::string_view expected_units(Quantity quantity);
 /// Factor from a unit, as written in a heading, to s, mm or N; nothing when the quantity has no such unit.
 std::optional<double> unit_factor(Quantity quantity, std::string_view unit);
 
-/// Over which length a column of extension was recorded, as far as its name tells.
+/// The length over which a column of extension was recorded, as far as its name tells.
 enum class Gauge { unknown, grips, extensometer };
 
 /// A heading taken apart.
 struct ColumnName {
-  std::string shown;  ///< as it stands in the file
+  std::string heading;  ///< as in the file
   std::optional<Quantity> quantity;
   int rank = 0;      ///< among columns of one quantity the smallest rank is taken
   std::string unit;  ///< as written with the name; empty when it is not

@@ -23,8 +23,8 @@ using Cells = std::vector<std::string>;
 
 std::size_t place_of(Quantity quantity) { return static_cast<std::size_t>(quantity); }
 
-/// Where the wanted columns of a block stand, and the factor to s, mm, N.
-struct Layout {
+/// Positions of the wanted columns of a block, and their factors to s, mm, N.
+struct ColumnLayout {
   std::vector<ColumnName> names;
   std::array<std::size_t, 3> column{};  ///< by Quantity; names.size() when absent
   std::array<double, 3> factor{1.0, 1.0, 1.0};
@@ -32,8 +32,8 @@ struct Layout {
 };
 
 /// A heading row has names for extension and force; numbers are not names.
-Layout layout_of(const Cells& cells, const ColumnChoice& choice) {
-  Layout layout;
+ColumnLayout layout_of(const Cells& cells, const ColumnChoice& choice) {
+  ColumnLayout layout;
   for (const std::string& cell : cells)
     layout.names.push_back(looks_like_number(cell) ? ColumnName{cell, {}, 0, {}, {}} : recognise_column(cell));
   layout.column[0] = best_column(layout.names, Quantity::time);
@@ -72,14 +72,14 @@ class ExportReader {
   }
   bool is_mts() const { return is_mts_793(lines_); }
 
-  /// The first line, and with it the delimiter, under which names of extension and force stand side by side.
+  /// The first line that holds names of extension and force, and the delimiter between them.
   std::optional<std::size_t> find_heading() {
     std::optional<std::size_t> found;
     std::size_t most_names = 0;
     for (const char delimiter : {'\t', ';', ',', '|'}) {
       const std::size_t end = found ? *found + 1 : std::min(lines_.size(), kMostHeaderLines);
       for (std::size_t i = 0; i < end; ++i) {
-        const Layout layout = layout_of(cells_of(lines_[i], delimiter), choice_);
+        const ColumnLayout layout = layout_of(cells_of(lines_[i], delimiter), choice_);
         if (!layout.has(Quantity::extension) || !layout.has(Quantity::force)) continue;
         if (found && i == *found && layout.names.size() <= most_names) break;
         found = i;
@@ -91,12 +91,12 @@ class ExportReader {
     return found;
   }
 
-  /// The fault of a file without heading: what comes nearest to one.
+  /// The fault of a file without heading, from the line that resembles one most.
   ImportFault no_heading() const {
     for (const char delimiter : {'\t', ';', ',', '|'}) {
       for (std::size_t i = 0; i < std::min(lines_.size(), kMostHeaderLines); ++i) {
         const Cells here = cells_of(lines_[i], delimiter);
-        const Layout layout = layout_of(here, choice_);
+        const ColumnLayout layout = layout_of(here, choice_);
         if (here.size() < 2 || layout.has(Quantity::extension) == layout.has(Quantity::force)) continue;
         const Quantity missing = layout.has(Quantity::force) ? Quantity::extension : Quantity::force;
         const std::string& asked = missing == Quantity::extension ? choice_.extension : choice_.force;
@@ -117,7 +117,7 @@ class ExportReader {
   }
 
   /// A factor for each column from the heading or the row of units below it; true when that row was there.
-  bool read_units(Layout& layout, std::size_t heading, std::size_t below, std::vector<std::string>& warnings) {
+  bool read_units(ColumnLayout& layout, std::size_t heading, std::size_t below, std::vector<std::string>& warnings) {
     const Cells units = below < lines_.size() ? cells(below) : Cells{};
     const bool is_numbers =
         std::any_of(units.begin(), units.end(), [](const auto& cell) { return looks_like_number(cell); });
@@ -132,13 +132,13 @@ class ExportReader {
       if (unit.empty()) {
         const std::string_view assumed = quantity == Quantity::force ? "N" : quantity == Quantity::time ? "s" : "mm";
         warnings.push_back(
-            fmt::format("{}:{}: column `{}` has no unit, taken for {}", file_, heading + 1, name.shown, assumed));
+            fmt::format("{}:{}: column `{}` has no unit, {} is assumed", file_, heading + 1, name.heading, assumed));
         continue;
       }
       const auto factor = unit_factor(quantity, unit);
       if (!factor) {
-        reject((from_below ? below : heading) + 1, name.shown,
-               fmt::format("`{}` is no unit of {}, expected one of {}", unit, to_string(quantity),
+        reject((from_below ? below : heading) + 1, name.heading,
+               fmt::format("`{}` is not a unit of {}, expected one of {}", unit, to_string(quantity),
                            expected_units(quantity)));
         return used;
       }
@@ -147,9 +147,9 @@ class ExportReader {
     return used;
   }
 
-  /// Reads the block whose heading stands at `heading`; returns where to go on.
+  /// Reads the block with its heading at line `heading`; returns the line after it.
   std::size_t read_block(std::size_t heading) {
-    Layout layout = layout_of(cells(heading), choice_);
+    ColumnLayout layout = layout_of(cells(heading), choice_);
     std::vector<std::string> warnings;
     std::size_t next = heading + 1;
     while (next < lines_.size() && is_blank(next)) ++next;
@@ -159,12 +159,12 @@ class ExportReader {
   }
 
   bool is_heading(std::size_t index) const {
-    const Layout layout = layout_of(cells(index), choice_);
+    const ColumnLayout layout = layout_of(cells(index), choice_);
     return layout.has(Quantity::extension) && layout.has(Quantity::force);
   }
 
   /// A row of data has a number in both needed columns, or in one of them when it is damaged.
-  int numbers_in(const Cells& row, const Layout& layout) const {
+  int numbers_in(const Cells& row, const ColumnLayout& layout) const {
     int numbers = 0;
     for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
       const std::size_t column = layout.column[place_of(quantity)];
@@ -173,21 +173,21 @@ class ExportReader {
     return numbers;
   }
 
-  std::string damage_of(const Cells& row, const Layout& layout, std::string& column_name) const {
+  std::string damage_of(const Cells& row, const ColumnLayout& layout, std::string& column_name) const {
     for (const Quantity quantity : {Quantity::extension, Quantity::force}) {
       const std::size_t column = layout.column[place_of(quantity)];
-      column_name = layout.names[column].shown;
+      column_name = layout.names[column].heading;
       if (column >= row.size())
         return fmt::format("the row has {} cells, expected {}", row.size(), layout.names.size());
       if (!looks_like_number(row[column]))
-        return fmt::format("`{}` is no number, expected {}", row[column], to_string(quantity));
+        return fmt::format("`{}` is not a number, expected {}", row[column], to_string(quantity));
     }
     return "";
   }
 
   /// The rows of numbers up to the next heading or the end. A row of words ends a block, but in the middle of the
   /// numbers it is damage; what follows an empty line (a table of results) is not.
-  std::size_t read_rows(const Layout& layout, std::size_t begin, const std::vector<std::string>& warnings) {
+  std::size_t read_rows(const ColumnLayout& layout, std::size_t begin, const std::vector<std::string>& warnings) {
     std::vector<std::pair<std::size_t, Cells>> rows;
     std::optional<std::size_t> doubtful;
     std::size_t next = begin;
@@ -236,7 +236,7 @@ class ExportReader {
     return next;
   }
 
-  std::optional<DecimalMark> decimal_mark(const Layout& layout,
+  std::optional<DecimalMark> decimal_mark(const ColumnLayout& layout,
                                           const std::vector<std::pair<std::size_t, Cells>>& rows) {
     std::array<std::optional<std::size_t>, 2> first_seen;
     for (const auto& [index, row] : rows) {
@@ -250,7 +250,7 @@ class ExportReader {
     if (first_seen[0] && first_seen[1]) {
       const auto later = std::max(*first_seen[0], *first_seen[1]), earlier = std::min(*first_seen[0], *first_seen[1]);
       reject(later + 1, "",
-             fmt::format("decimal point and decimal comma in one file (line {} has the other one), "
+             fmt::format("decimal points and decimal commas in one file (line {} has the other mark), "
                          "expected one of them throughout",
                          earlier + 1));
       return std::nullopt;
@@ -260,23 +260,23 @@ class ExportReader {
   }
 
   /// A row that was torn at its decimal commas has numbers beyond the heading's last column.
-  bool is_torn(const Cells& row, const Layout& layout) const {
+  bool is_torn(const Cells& row, const ColumnLayout& layout) const {
     return delimiter_ == ',' && row.size() > layout.names.size() &&
            std::any_of(row.begin() + static_cast<std::ptrdiff_t>(layout.names.size()), row.end(),
                        [](const auto& cell) { return looks_like_number(cell); });
   }
 
-  void name_extension(const Layout& layout, TesterRecord& record) const {
+  void name_extension(const ColumnLayout& layout, TesterRecord& record) const {
     const std::size_t taken = layout.column[place_of(Quantity::extension)];
-    record.extension_column = layout.names[taken].shown;
+    record.extension_column = layout.names[taken].heading;
     record.gauge = layout.names[taken].gauge;
     for (std::size_t i = 0; i < layout.names.size() && choice_.extension.empty(); ++i) {
       if (i != taken && layout.names[i].quantity == Quantity::extension)
-        record.other_extensions.push_back(layout.names[i].shown);
+        record.other_extensions.push_back(layout.names[i].heading);
     }
   }
 
-  void take_rows(const Layout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
+  void take_rows(const ColumnLayout& layout, const std::vector<std::pair<std::size_t, Cells>>& rows,
                  const std::vector<std::string>& warnings) {
     for (const auto& [index, row] : rows) {
       if (!is_torn(row, layout)) continue;
@@ -307,8 +307,8 @@ class ExportReader {
         const std::string text = column < row.size() ? row[column] : "";
         const auto value = instrument_number(text, *mark);
         if (!value) {
-          return reject(index + 1, layout.names[column].shown,
-                        fmt::format("`{}` is no number with a decimal {}, expected {}", text,
+          return reject(index + 1, layout.names[column].heading,
+                        fmt::format("`{}` is not a number with a decimal {}, expected {}", text,
                                     *mark == DecimalMark::comma ? "comma" : "point", to_string(quantity)));
         }
         append(record, quantity, *value * layout.factor[place_of(quantity)]);
@@ -316,7 +316,7 @@ class ExportReader {
       record.line.push_back(static_cast<int>(index) + 1);
       const std::size_t n = record.time_s.size();
       if (layout.has(Quantity::time) && n > 1 && record.time_s[n - 1] < record.time_s[n - 2]) {
-        return reject(index + 1, layout.names[layout.column[0]].shown,
+        return reject(index + 1, layout.names[layout.column[0]].heading,
                       fmt::format("time goes back from {} to {} s, expected one test in the order of time",
                                   record.time_s[n - 2], record.time_s[n - 1]));
       }
@@ -351,13 +351,13 @@ class ExportReader {
     std::size_t first = 0;
     while (is_blank(first)) ++first;
     const bool has_time = cells(first).size() == 3;
-    Layout layout;
+    ColumnLayout layout;
     for (const char* name : {"time", "extension", "force"}) {
       if (has_time || std::string_view(name) != "time") layout.names.push_back(recognise_column(name));
     }
     layout.column = {has_time ? 0 : layout.names.size(), has_time ? std::size_t{1} : 0, layout.names.size() - 1};
     read_rows(layout, first,
-              {fmt::format("{}: has no heading, taken for {}extension in mm, force in N", file_,
+              {fmt::format("{}: has no heading, {}extension in mm, force in N are assumed", file_,
                            has_time ? "time in s, " : "")});
   }
 

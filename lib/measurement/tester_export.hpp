@@ -1,6 +1,6 @@
 #pragma once
 // Raw exports of universal testing machines: Instron Bluehill, ZwickRoell testXpert, MTS (793 and TestSuite), and plain
-// tables of time, extension and force. What they have in common is read by what the columns are called, not by maker.
+// tables of time, extension and force. They are read by the names of their columns, not by maker.
 
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace nacre::measurement {
 
-/// What makes a file, or one specimen, unusable, and where.
+/// Why a file, or one specimen, is unusable, and where.
 struct ImportFault {
   std::string file;
   int line = 0;        ///< 0: the file as a whole
@@ -31,10 +31,10 @@ struct TesterRecord {
   std::vector<double> extension_mm;
   std::vector<double> force_n;
   std::vector<int> line;                      ///< of the file
-  std::map<std::string, std::string> header;  ///< `date`, `operator`, `machine`, where the file says so
+  std::map<std::string, std::string> header;  ///< `date`, `operator`, `machine`, where the file has them
   std::string extension_column;               ///< heading of the one taken; empty where there is no heading
   Gauge gauge = Gauge::unknown;               ///< of that column
-  std::vector<std::string> other_extensions;  ///< headings of those passed over, though nobody asked for another
+  std::vector<std::string> other_extensions;  ///< headings of those that were not taken
   std::vector<std::string> warnings;
 };
 

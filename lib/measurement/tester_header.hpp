@@ -1,5 +1,5 @@
 #pragma once
-// What a testing machine's export says beside its table: maker, date, operator, machine.
+// The header of a testing machine's export: maker, date, operator, machine.
 
 #include <cstddef>
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace nacre::measurement {
 
-inline constexpr std::size_t kMostHeaderLines = 2000;  ///< a heading is looked for in so many lines
+inline constexpr std::size_t kMostHeaderLines = 2000;  ///< number of lines that are searched for a heading
 
 /// Of a file's lines: blocks of MTS 793 are parts of one test.
 bool is_mts_793(std::span<const std::string_view> lines);
 
-/// "Instron Bluehill", "ZwickRoell testXpert", "MTS", or "table" where nothing tells.
+/// "Instron Bluehill", "ZwickRoell testXpert", "MTS", or "table" where none is recognised.
 std::string maker_of(std::span<const std::string_view> lines, char delimiter);
 
 /// `date`, `operator` and `machine` from the lines before the heading: `Key,Value`, `Key: Value` or `Key : Value`, in

@@ -47,7 +47,7 @@ Result<std::string> from_utf16(std::string_view bytes, bool low_byte_first) {
       append_utf8(text, 0x10000 + ((unit - 0xD800) << 10) + (low - 0xDC00));
       i += 2;
     } else {
-      append_utf8(text, is_surrogate ? kReplacementCharacter : unit);  // half a pair says nothing
+      append_utf8(text, is_surrogate ? kReplacementCharacter : unit);  // half a pair has no meaning
     }
   }
   return text;
@@ -62,7 +62,7 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// Windows-1252; its few signs between 0x80 and 0x9F, none of which stands in a name or unit, become a question mark.
+/// Windows-1252; its few signs between 0x80 and 0x9F, which no name or unit holds, become a question mark.
 std::string from_windows_1252(std::string_view bytes) {
   std::string text;
   for (const char byte : bytes) {

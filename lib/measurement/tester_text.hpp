@@ -1,5 +1,5 @@
 #pragma once
-// What instruments write, brought to one encoding and cut into lines and cells.
+// Text of instruments in one encoding, cut into lines and cells.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 namespace nacre::measurement {
 
 /// Bytes of a text file as UTF-8 without byte-order mark: UTF-8, UTF-16 of either byte order (marked, or recognised by
-/// its zero bytes), otherwise Windows-1252, which makers' programs write in western Europe. Error: the file is no text
+/// its zero bytes), otherwise Windows-1252, which makers' programs write in western Europe. Error: the file is not text
 /// (a workbook, a picture, a cut UTF-16 character), with what was expected.
 Result<std::string> utf8_from_instrument(std::string_view bytes);
 
@@ -44,7 +44,7 @@ enum class DecimalMark { point, comma };
 /// may group thousands.
 std::optional<double> instrument_number(std::string_view text, DecimalMark mark);
 
-/// What a cell says about the decimal mark by itself: `1,5` comma, `1.5` point, `1,234` or `12` nothing.
+/// The decimal mark that a single cell implies: `1,5` comma, `1.5` point, `1,234` or `12` none.
 std::optional<DecimalMark> decimal_evidence(std::string_view text);
 
 /// Whether the cell looks like a number under either mark.

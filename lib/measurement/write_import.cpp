@@ -1,18 +1,19 @@
-// An import into a measurement set that may exist: what is there stays.
+#include "measurement/write_import.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "measurement/import.hpp"
+#include "measurement/read_set.hpp"
 #include "measurement/set_columns.hpp"
 #include "measurement/set_table.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::measurement {
 namespace {
 
-/// Whether the set's specimen is the one that was imported. Judgements and columns that the import knows nothing of do
-/// not count.
+/// Whether the set's specimen is the one that was imported. Validity, notes and columns that the import does not know
+/// are ignored.
 bool same_test(SpecimenRecord known, const SpecimenRecord& imported) {
   for (const auto& [name, text] : imported.other_columns) {
     const auto cell = known.other_columns.find(name);
@@ -24,7 +25,7 @@ bool same_test(SpecimenRecord known, const SpecimenRecord& imported) {
   return known == imported;
 }
 
-/// Parts `import` by what the set holds already; the specimens that are new to it.
+/// Sorts `import` by what the set already holds; returns the specimens that are new to it.
 std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const std::string& sheet, Import& import,
                                    bool replace) {
   const MeasurementSet set = read_measurement_set(folder);
@@ -39,7 +40,7 @@ std::vector<SpecimenRecord> settle(const std::filesystem::path& folder, const st
     if (replaces && !replace) {
       import.rejected.push_back(
           {sheet, one.line, "specimen",
-           fmt::format("`{}` stands in {} with other content, which stays; expected another name, "
+           fmt::format("`{}` is already in {} with other content, which is kept; expected another name, "
                        "or --replace",
                        one.record.specimen, (folder / kTableName).string())});
       continue;

@@ -1,3 +1,5 @@
+#include "measurement/write_set.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -5,15 +7,13 @@
 #include <set>
 
 #include "base/files.hpp"
-#include "measurement/measurement.hpp"
 #include "measurement/set_files.hpp"
 #include "measurement/set_table.hpp"
 
 namespace nacre::measurement {
 namespace {
 
-/// A file name that says which specimen it is, whatever characters the specimen's name holds, and that no other one
-/// took.
+/// A unique file name made of the specimen's name, whatever characters that holds.
 std::string curve_name(const std::string& specimen, std::set<std::string>& taken) {
   constexpr std::size_t kMostLetters = 100;
   std::string name;
@@ -28,7 +28,7 @@ std::string curve_name(const std::string& specimen, std::set<std::string>& taken
 
 std::string optional_number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-/// A specimen as cells by column. A column of the author's that has the name of one of nacre's is left out.
+/// A specimen as cells by column. A column of the author that has the name of one of nacre's is left out.
 std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const std::string& curve) {
   std::map<std::string, std::string> cells = {
       {"specimen", record.specimen},
@@ -48,7 +48,7 @@ std::map<std::string, std::string> cells_of(const SpecimenRecord& record, const 
   return cells;
 }
 
-/// Names of what lies among the curves: raw exports may be kept there too, and nothing is written over.
+/// Names of the files in curves/: raw exports may be kept there too, and nothing is overwritten.
 std::set<std::string> names_taken(const std::filesystem::path& folder) {
   std::set<std::string> taken;
   std::error_code none;  // a set need not have curves

@@ -1,6 +1,6 @@
 #pragma once
 // Structural constraints of the design space (thesis 2.1, Figure 2-1C). They bind proposals; a pattern from elsewhere
-// that violates them is measured and simulated all the same, with a warning.
+// that violates them is still measured and simulated, with a warning.
 
 #include <cstdint>
 #include <optional>
@@ -26,7 +26,7 @@ std::uint64_t required_rigid_bits(int rigid_count);
 /// Whether a proposal may have this pattern.
 bool is_feasible(const Pattern& pattern);
 
-/// What forbids the pattern, as a sentence for a person; nothing when it lies in the design space.
+/// The violated constraint, as a sentence; nothing when it lies in the design space.
 std::optional<std::string> violation(const Pattern& pattern);
 
 }  // namespace nacre::pattern

@@ -1,5 +1,5 @@
 #pragma once
-// Layouts without the symmetry of patterns, for verification and for experiments that tell causes apart.
+// Layouts without the symmetry of patterns, for verification and for tests that discriminate between causes.
 
 #include <optional>
 #include <string>

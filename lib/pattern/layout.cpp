@@ -164,7 +164,7 @@ std::string to_text(const Layout& layout) {
 
 namespace {
 
-/// How an offending byte is shown to a person.
+/// An offending byte in an error.
 std::string shown(char c) {
   const bool printable = c >= 0x20 && c < 0x7f;
   return printable ? fmt::format("'{}'", c) : fmt::format("byte 0x{:02x}", static_cast<unsigned char>(c));

@@ -28,9 +28,9 @@ struct Gap {
   int first = 0, last = 0;
 };
 
-/// What random bars leave between them: runs of rows without one.
+/// The gaps between random bars: runs of rows without a bar.
 std::vector<Gap> gaps_between_bars(RandomStream& random) {
-  constexpr int kFewest = 2, kMost = 6;  // beside the outer row; what six leave soft is never enough
+  constexpr int kFewest = 2, kMost = 6;  // not counting the outer row; more than six leave too little soft
   std::array<bool, kQuarter> is_bar{true};
   for (int left = kFewest + random.index(kMost - kFewest + 1); left > 0;) {
     bool& row = is_bar[1 + random.index(kQuarter - 1)];

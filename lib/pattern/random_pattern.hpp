@@ -25,8 +25,8 @@ Pattern random_pattern(RandomStream& random);
 
 /// A pattern with rigid bars: two to five random rows of the quarter's nine inner ones are rigid throughout, as are the
 /// outer row and, by symmetry, the same columns; each of the rectangles that they leave between them is soft with one
-/// probability, drawn from 0.2 to 0.9 for the whole pattern. Bars make a pattern stiff and send a crack round corners:
-/// of what searches find good most has three to five of them (docs/studies/search.md).
+/// probability, drawn from 0.2 to 0.9 for the whole pattern. Bars make a pattern stiff and deflect a crack:
+/// most good patterns that searches find have three to five of them (docs/studies/search.md).
 Pattern random_barred_pattern(RandomStream& random);
 
 /// `count` different patterns spread over the strata of Table 3.2 in turn, so that earlier strata get one more when

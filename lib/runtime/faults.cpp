@@ -90,7 +90,7 @@ FaultInjector::FaultInjector(const FaultSettings& settings, std::string_view nod
     : settings_(settings), random_(settings.seed, "faults/" + std::string(node)) {}
 
 std::vector<Datagram> FaultInjector::pass(Datagram datagram) {
-  // Five draws per datagram whatever happens, so that a stream of datagrams always meets the same fates.
+  // Five draws per datagram whatever happens, so that the same datagrams always meet the same faults.
   const double drop = random_.uniform(), duplicate = random_.uniform(), reorder = random_.uniform(),
                corrupt = random_.uniform();
   const std::uint64_t where = random_.bits();

@@ -52,7 +52,7 @@ Result<void> Fold::feed(const LogRecord& record) {
 
 Result<void> Fold::input(const LogRecord& record, const Input& input) {
   if (!expected_messages_.empty()) {
-    return fail("before {}: the core now also says {}, which the journal does not hold", place(record),
+    return fail("before {}: the core now also sends {}, which the journal does not hold", place(record),
                 expected_messages_.front().channel);
   }
   if (!expected_computes_.empty()) {
@@ -69,10 +69,10 @@ Result<void> Fold::input(const LogRecord& record, const Input& input) {
 
 Result<void> Fold::output(const LogRecord& record) {
   const std::string channel = record.channel.substr(kOutPrefix.size());
-  if (expected_messages_.empty()) return fail("{}: the core no longer says this", place(record));
+  if (expected_messages_.empty()) return fail("{}: the core no longer sends this", place(record));
   const Message now = std::move(expected_messages_.front());
   expected_messages_.pop_front();
-  if (now.channel != channel) return fail("{}: the core now says {} instead", place(record), now.channel);
+  if (now.channel != channel) return fail("{}: the core now sends {} instead", place(record), now.channel);
   if (now.payload != record.data) {
     return fail("{}: recorded against now: {}", place(record), content_difference(record.data, now.payload));
   }

@@ -14,7 +14,7 @@
 
 namespace nacre::runtime {
 
-/// Steps a core through the records of its journal and compares what it says with what it said. Whoever needs more of
+/// Steps a core through the records of its journal and compares what it sends with what it sent. Whoever needs more of
 /// the records sets the functions.
 class Fold {
  public:
@@ -23,7 +23,7 @@ class Fold {
   std::function<void(const Message&)> on_message_input;  ///< inputs from the bus
   std::function<void(const Message&)> on_output;         ///< journaled outputs, in order
   std::function<void(const std::string& hash, const std::string& node, std::int64_t journal)> on_acknowledged;
-  /// Called with the work that a journaled result answers; an error stops the fold.
+  /// Called with the work that a journaled result belongs to; an error stops the fold.
   std::function<Result<void>(const Compute&, const std::string& result)> on_work_done;
 
   /// One record. The error names the record and the field in which core and journal differ, or says what is damaged.

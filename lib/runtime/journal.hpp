@@ -33,10 +33,10 @@ Result<std::vector<std::string>> unpack(std::string_view record);
 /// Name that the machine's kernel gives itself at each start; empty where it has none.
 std::string boot_of_machine();
 
-/// What a person can do about a journal that is damaged, to be said behind its name.
+/// What a person can do about a damaged journal, to follow its name.
 inline constexpr std::string_view kRemedyForDamage =
     "Move it away, or put the one of a backup (nacre backup) in its place, and go on: the node begins anew, or where "
-    "the backup ends, and the other nodes say again what it lacks. What people brought is to be brought again "
+    "the backup ends, and the other nodes send again what it lacks. What people brought is to be brought again "
     "(nacre inject, approve, review)";
 
 /// A node's journal, opened for going on: locked against a second process, torn tail cut off.

@@ -118,7 +118,7 @@ class Launch {
       : options_(options),
         run_(std::move(run)),
         port_(std::move(port)),
-        display_(stdout, terminal_columns(STDOUT_FILENO)) {
+        display_(stdout, terminal_columns(STDOUT_FILENO), run_.scenario().rounds) {
     if (!is_guest()) run_.set_port(port_->port());
     std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that has gone must not end the run
   }
@@ -126,7 +126,7 @@ class Launch {
   int play();
 
  private:
-  /// Takes part in a run that another launcher, on another machine, has begun and will sum up.
+  /// Joins a run that another launcher, on another machine, has begun and will sum up.
   bool is_guest() const { return !options_.only.empty(); }
   void start_recorder();
   void open_endpoint();
@@ -155,10 +155,10 @@ class Launch {
   bool recorder_is_ready_ = false;
   bool is_announced_ = false;
   bool is_stopping_ = false;
-  bool heard_last_round_ = false;
+  bool has_last_round_ = false;
   std::set<std::pair<int, bool>> shown_rounds_;  // number, whether it was the last
   Clock::time_point said_waiting_ = Clock::now();
-  Clock::time_point looked_for_end_ = Clock::now();
+  Clock::time_point checked_for_end_ = Clock::now();
 };
 
 void Launch::start_recorder() {
@@ -213,7 +213,7 @@ void Launch::take_message(const Received& received) {
     if (!round) return;
     // A ROUND is repeated until everybody has it; the last one is said once more when families followed it.
     if (shown_rounds_.emplace(round->round, round->last).second) display_.say(in_words(*round));
-    heard_last_round_ = heard_last_round_ || round->last;
+    has_last_round_ = has_last_round_ || round->last;
     return;
   }
   if (received.message.channel != "STATUS") return;
@@ -223,7 +223,7 @@ void Launch::take_message(const Received& received) {
     if (node->name() != received.header.node) continue;
     node->saw(*status, received.header.epoch, Clock::now());
     // What it said once in a game that is resumed it does not say again.
-    heard_last_round_ = heard_last_round_ || (node->name() == "validation_agent" && node->state() == State::finished);
+    has_last_round_ = has_last_round_ || (node->name() == "validation_agent" && node->state() == State::finished);
   }
 }
 
@@ -282,18 +282,18 @@ void Launch::announce_when_ready() {
 bool Launch::guests_part_is_over() const {
   const auto now = Clock::now();
   return std::all_of(nodes_.begin(), nodes_.end(), [&](const auto& node) {
-    return node->state() == State::finished || (heard_last_round_ && node->is_silent(now));
+    return node->state() == State::finished || (has_last_round_ && node->is_silent(now));
   });
 }
 
-/// Every node says that it has finished, and the validation agent, where it runs here, has written the last round down:
-/// it says so itself only then.
+/// Every node reports that it has finished, and the validation agent, where it runs here, has written the last round
+/// down, before which it does not report so.
 bool Launch::game_is_over() {
   if (is_guest()) return guests_part_is_over();
   const bool all_finished =
       std::all_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->state() == State::finished; });
-  if (!all_finished || Clock::now() - looked_for_end_ < std::chrono::milliseconds(500)) return false;
-  looked_for_end_ = Clock::now();
+  if (!all_finished || Clock::now() - checked_for_end_ < std::chrono::milliseconds(500)) return false;
+  checked_for_end_ = Clock::now();
   if (!is_started_here(options_, "validation_agent")) return true;
   const std::vector<round_summary_t> rounds = read_rounds(run_.path());
   return !rounds.empty() && rounds.back().last;

@@ -22,13 +22,13 @@ struct LaunchOptions {
   std::filesystem::path nacre;                ///< program whose `record` is the recorder; empty: this program
   RestartBudget::Settings restarts;
   std::vector<std::string> elsewhere;  ///< nodes of the run that another machine starts (hosts = "lan")
-  std::vector<std::string> only;       ///< take part with these nodes in a run that another machine has launched
+  std::vector<std::string> only;       ///< join with these nodes a run that another machine has launched
 };
 
 /// Plays the game until its last round, Ctrl-C (SIGINT, SIGTERM, SIGHUP) or the failure of a node for good. Exit
 /// status: 0 the game was played to its end, 1 it was stopped before or a node failed. Throws InputError for what a
 /// person has to mend first. With `only`, `resume` is the run's folder, shared or copied: neither recorder nor RUN come
-/// from here, and the end is that these nodes have finished and nobody who still plays is heard.
+/// from here, and the end is that these nodes have finished and nobody who still plays reports.
 int launch(const LaunchOptions& options);
 
 }  // namespace nacre::runtime

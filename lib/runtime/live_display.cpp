@@ -1,5 +1,6 @@
 #include "runtime/live_display.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -23,6 +24,21 @@ std::string activity(const NodeView& view) {
   return words;
 }
 
+/// Whether there is a share to show: what is complete waits for something else, which the phase says.
+bool has_progress(const NodeView& view) {
+  return view.progress >= 0.0 && view.progress < 1.0 && view.state == "running";
+}
+
+/// The node whose work the game waits for; `otherwise` when all wait.
+const NodeView& busy_node(const std::vector<NodeView>& views, const NodeView& otherwise) {
+  for (const char* name : {"validation_agent", "proposal_agent", "analyser", "virtual_lab", "simulator_farm"}) {
+    const auto view = std::ranges::find(views, name, &NodeView::node);
+    if (view == views.end() || view->state != "running") continue;
+    if (!view->phase.starts_with("waiting") && view->phase != "idle") return *view;
+  }
+  return otherwise;
+}
+
 std::string remarks(const NodeView& view) {
   std::string words;
   if (const std::string left = in_words(view.eta_s); !left.empty()) words += fmt::format("  {} left", left);
@@ -33,7 +49,7 @@ std::string remarks(const NodeView& view) {
 }  // namespace
 
 std::string node_line(const NodeView& view, int columns) {
-  const bool is_known = view.progress >= 0.0 && view.state == "running";
+  const bool is_known = has_progress(view);
   const std::string percent = is_known ? fmt::format("{:3.0f} %", std::floor(100.0 * view.progress)) : "";
   return fitted(fmt::format("{:<{}}  {:<9} {} {:>5}  {}{}", view.node, kNameColumns, round_in_words(view),
                             is_known ? bar(view.progress, kBarCells) : std::string(kBarCells + 2, ' '), percent,
@@ -45,9 +61,20 @@ std::string plain_node_line(const NodeView& view) {
   std::string line = view.node + ":";
   if (view.round >= 0) line += " " + round_in_words(view) + ",";
   line += " " + activity(view);
-  if (view.progress >= 0.0 && view.state == "running")
-    line += fmt::format(" {:.0f} %", std::floor(100.0 * view.progress));
+  if (has_progress(view)) line += fmt::format(", {:.0f} %", std::floor(100.0 * view.progress));
   return line + remarks(view);
+}
+
+std::string game_line(const std::vector<NodeView>& views, int rounds) {
+  const auto judge = std::ranges::find(views, "validation_agent", &NodeView::node);
+  if (judge == views.end() || judge->round < 0) return "";
+  const NodeView& busy = busy_node(views, *judge);
+  const std::string round = judge->round == 0 && rounds > 0 ? fmt::format("preparing round 1 of {}", rounds)
+                            : judge->round > rounds         ? "after the last round"
+                                                            : fmt::format("round {} of {}", judge->round, rounds);
+  const std::string left = time_left_in_words(busy.eta_s);
+  return fmt::format("{}, {}{}", round, busy.state == "running" && !busy.phase.empty() ? busy.phase : busy.state,
+                     left.empty() ? "" : ", " + left);
 }
 
 void LiveDisplay::erase_lines() {
@@ -56,24 +83,28 @@ void LiveDisplay::erase_lines() {
 }
 
 void LiveDisplay::show(const std::vector<NodeView>& views, Clock::time_point now) {
+  const std::string game = game_line(views, rounds_);
   if (on_terminal()) {
     std::vector<std::string> lines;
+    if (!game.empty()) lines.push_back(fitted(game, columns_ - 1));
     for (const NodeView& view : views) lines.push_back(node_line(view, columns_ - 1));
     if (lines == drawn_) return;
     erase_lines();
     for (const std::string& line : lines) print_line(out_, line);
     drawn_ = std::move(lines);
   } else {
-    constexpr auto kEvery = std::chrono::seconds(10);
-    for (const NodeView& view : views) {
-      const std::string line = plain_node_line(view);
-      const auto last = said_.find(view.node);
-      if (last != said_.end() && (last->second.line == line || now - last->second.when < kEvery)) continue;
-      said_[view.node] = {line, now};
-      print_line(out_, line);
-    }
+    if (!game.empty()) show_plainly("", game, now);
+    for (const NodeView& view : views) show_plainly(view.node, plain_node_line(view), now);
   }
   std::fflush(out_);
+}
+
+void LiveDisplay::show_plainly(const std::string& name, const std::string& line, Clock::time_point now) {
+  constexpr auto kEvery = std::chrono::seconds(10);
+  const auto last = printed_.find(name);
+  if (last != printed_.end() && (last->second.line == line || now - last->second.when < kEvery)) return;
+  printed_[name] = {line, now};
+  print_line(out_, line);
 }
 
 void LiveDisplay::say(const std::string& line) {

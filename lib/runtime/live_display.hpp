@@ -1,5 +1,5 @@
 #pragma once
-// The nodes of a run as a person watches them: one line per node, redrawn on a terminal, said again elsewhere.
+// The nodes of a run as a person watches them: one line per node, refreshed on a terminal, printed again elsewhere.
 
 #include <chrono>
 #include <cstdio>
@@ -27,13 +27,18 @@ std::string node_line(const NodeView& view, int columns);
 /// The same for files and pipes, without the bar: what changes little is worth no new line.
 std::string plain_node_line(const NodeView& view);
 
-/// Shows views on a stream. On a terminal the lines are redrawn in place; elsewhere a node's line is printed when it
-/// changed and the last one is ten seconds old. Messages go above the lines.
+/// One line about the game of `rounds` rounds: "round 1 of 3, searching, about 4 min left". The step and its time left
+/// are those of the first node, in the order of a round, that neither waits for another one nor is idle. Empty before
+/// the validation agent has reported.
+std::string game_line(const std::vector<NodeView>& views, int rounds);
+
+/// Shows the game and its nodes on a stream. On a terminal the lines are refreshed in place; elsewhere a line is
+/// printed when it changed and the last one is ten seconds old. Messages go above the lines.
 class LiveDisplay {
  public:
   using Clock = std::chrono::steady_clock;
-  /// `columns`: of the terminal, 0 for a file or pipe.
-  LiveDisplay(std::FILE* out, int columns) : out_(out), columns_(columns) {}
+  /// `columns`: of the terminal, 0 for a file or pipe; `rounds`: of the game.
+  LiveDisplay(std::FILE* out, int columns, int rounds) : out_(out), columns_(columns), rounds_(rounds) {}
 
   bool on_terminal() const { return columns_ > 0; }
   void show(const std::vector<NodeView>& views, Clock::time_point now);
@@ -41,16 +46,18 @@ class LiveDisplay {
   void say(const std::string& line);
 
  private:
-  struct Said {
+  struct Printed {
     std::string line;
     Clock::time_point when;
   };
   void erase_lines();
+  void show_plainly(const std::string& name, const std::string& line, Clock::time_point now);
 
   std::FILE* out_;
   int columns_;
+  int rounds_;
   std::vector<std::string> drawn_;
-  std::map<std::string, Said> said_;
+  std::map<std::string, Printed> printed_;  ///< by node; "" the game
 };
 
 }  // namespace nacre::runtime

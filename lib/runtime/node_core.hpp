@@ -57,7 +57,8 @@ struct Outputs {
   void append(Outputs&& other);
 };
 
-/// What a node is doing, for people (STATUS). Never used in decisions.
+/// What a node is doing, for people (STATUS). Never used in decisions. A phase begins with "waiting" where the node
+/// waits for another one, and is "idle" where it has nothing to do.
 struct Status {
   std::string phase = "waiting";
   int round = 0;

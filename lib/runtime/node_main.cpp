@@ -1,3 +1,5 @@
+#include "runtime/node_main.hpp"
+
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -8,7 +10,6 @@
 #include "base/no_space.hpp"
 #include "base/result.hpp"
 #include "game/scenario.hpp"
-#include "runtime/node_shell.hpp"
 #include "runtime/run_folder.hpp"
 #include "runtime/version.hpp"
 

@@ -140,7 +140,7 @@ class NodeShell {
       throw InputError(listening.error().message);
   }
 
-  /// Restart is replay: the journal is folded through the core, what it said without an acknowledgement is offered
+  /// Restart is replay: the journal is folded through the core, what it sent without an acknowledgement is offered
   /// again, and work without a result is started again.
   void resume() {
     Fold fold(core_);
@@ -188,13 +188,13 @@ class NodeShell {
     const wire::Channel& known = *wire::find_channel(channel);
     if (!wire::is_meant_for(known, received.message.payload, options_.node)) return;
     const std::string hash = wire::message_hash(channel, received.message.payload);
-    if (wire::is_answer(channel)) {
+    if (wire::is_response(channel)) {
       const std::string request_id = wire::request_id_of(channel, received.message.payload);
-      if (!questions_.asked(request_id)) return handle_unasked(request_id, hash);
+      if (!requests_.asked(request_id)) return handle_unrequested(request_id, hash);
     }
     if (!inbox_.is_new(hash)) {
       ++inbox_.duplicates;
-      repeat_answers(received);
+      repeat_responses(received);
     } else {
       write_down(channel, received.bytes, known.synced);
       inbox_.remember(hash);
@@ -203,15 +203,15 @@ class NodeShell {
     inbox_.owe(hash, steady_us());
   }
 
-  void handle_unasked(const std::string& request_id, const std::string& hash) {
-    const ResponseFate fate = questions_.fate_of(request_id, core_.status().finished);
+  void handle_unrequested(const std::string& request_id, const std::string& hash) {
+    const ResponseFate fate = requests_.fate_of(request_id, core_.status().finished);
     if (fate == ResponseFate::dismiss) inbox_.owe(hash, steady_us());
   }
 
   void handle_status(const Received& received) {
     if (received.header.node == options_.node) {
       if (received.header.epoch == bus_->epoch()) {
-        heard_itself_ = true;
+        received_own_status_ = true;
       } else if (received.header.epoch > bus_->epoch()) {
         problem(LogLevel::error, fmt::format("another process calls itself {} in this run", options_.node));
       }
@@ -231,11 +231,11 @@ class NodeShell {
     }
   }
 
-  /// A requester that lost its journal asks again what was answered already.
-  void repeat_answers(const Received& received) {
+  /// A requester that lost its journal sends again a request that has its responses already.
+  void repeat_responses(const Received& received) {
     if (received.message.channel != "SIMULATE") return;
     const std::string request_id = wire::request_id_of("SIMULATE", received.message.payload);
-    outbox_.answer_again(request_id, received.header.node, received.header.epoch);
+    outbox_.respond_again(request_id, received.header.node, received.header.epoch);
   }
 
   void take_result(FinishedWork finished) {
@@ -275,7 +275,7 @@ class NodeShell {
     }
   }
 
-  /// A core that says something invalid has a bug: every receiver would drop it and the game would stand still without
+  /// A core that sends something invalid has a bug: every receiver would drop it and the game would stand still without
   /// a word.
   void expect_sound(const Message& message) const {
     const Result<void> sound = wire::check_outgoing(message.channel, message.payload);
@@ -286,7 +286,7 @@ class NodeShell {
   void offer(const Message& message) {
     const wire::Channel* channel = wire::find_channel(message.channel);
     if (!channel) return;
-    if (message.channel == "SIMULATE") questions_.ask(wire::request_id_of(message.channel, message.payload));
+    if (message.channel == "SIMULATE") requests_.ask(wire::request_id_of(message.channel, message.payload));
     outbox_.offer(wire::message_hash(message.channel, message.payload), message,
                   wire::receivers_of(*channel, message.payload, options_.participants, options_.node));
   }
@@ -309,7 +309,7 @@ class NodeShell {
     const BusCounters& bus = bus_->counters();
     node_status_t message{};
     message.journal = journal_->identity();
-    message.ready = heard_itself_;
+    message.ready = received_own_status_;
     message.unacknowledged = outbox_.unacknowledged();
     message.computing = executor_->pending();
     message.finished = status.finished && message.unacknowledged == 0 && message.computing == 0;
@@ -350,10 +350,10 @@ class NodeShell {
   Outbox outbox_;
   Inbox inbox_;
   std::unique_ptr<Executor> executor_;
-  PendingRequests questions_;
+  PendingRequests requests_;
   Eta eta_;
   RecentProblem problem_;
-  bool heard_itself_ = false;
+  bool received_own_status_ = false;
   std::int64_t next_status_ = 0;
   std::int64_t next_tick_ = 0;
   std::int64_t tick_period_us_ = 0;

@@ -137,15 +137,15 @@ void ChildProcess::signal_group(int signal) const {
 
 ProgramOutput ask_program(const std::vector<std::string>& command) try {
   ChildProcess program(command);
-  ProgramOutput answer;
+  ProgramOutput printed;
   while (program.output() >= 0) {
     pollfd wanted{program.output(), POLLIN, 0};
     ::poll(&wanted, 1, 1000);
-    for (const std::string& line : program.read_lines()) answer.output += line + "\n";
+    for (const std::string& line : program.read_lines()) printed.output += line + "\n";
   }
   while (!program.poll_end()) ::usleep(1000);
-  answer.end = *program.poll_end();
-  return answer;
+  printed.end = *program.poll_end();
+  return printed;
 } catch (const InputError&) {
   return {.output = "", .end = {.exit_status = kProgramNotFound, .signal = 0}};
 }

@@ -48,10 +48,10 @@ class ChildProcess {
   std::optional<ProcessEnd> end_;
 };
 
-/// Exit status in the answer of a program that could not be started, as shells have it.
+/// Exit status of a program that could not be started, as shells have it.
 constexpr int kProgramNotFound = 127;
 
-/// What a short-lived program printed, and how it ended; for questions to other programs (git).
+/// What a short-lived program printed, and how it ended; for what other programs know (git).
 struct ProgramOutput {
   std::string output;
   ProcessEnd end;

@@ -10,7 +10,7 @@ void Outbox::offer(const std::string& hash, Message message, const std::vector<s
   const auto [position, is_new] = entries_.try_emplace(hash);
   if (!is_new) return;
   OfferedMessage& entry = position->second;
-  if (wire::is_answer(message.channel)) entry.request_id = wire::request_id_of(message.channel, message.payload);
+  if (wire::is_response(message.channel)) entry.request_id = wire::request_id_of(message.channel, message.payload);
   entry.message = std::move(message);
   entry.order = next_order_++;
   entry.receivers = receivers;
@@ -55,7 +55,7 @@ void Outbox::saw(const std::string& node, std::int64_t epoch, std::int64_t journ
   }
 }
 
-void Outbox::answer_again(const std::string& request_id, const std::string& node, std::int64_t epoch) {
+void Outbox::respond_again(const std::string& request_id, const std::string& node, std::int64_t epoch) {
   for (auto& [hash, entry] : entries_) {
     if (entry.request_id != request_id || entry.waiting.count(node)) continue;
     const auto acknowledged = entry.acknowledged.find(node);

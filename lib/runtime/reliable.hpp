@@ -37,8 +37,8 @@ class Outbox {
   /// acknowledged for another journal than this one is lost and offered again.
   void saw(const std::string& node, std::int64_t epoch, std::int64_t journal);
 
-  /// `node` asked again with a new process: the answers to its request are offered to it once more.
-  void answer_again(const std::string& request_id, const std::string& node, std::int64_t epoch);
+  /// `node` sent its request again from a new process: the responses are offered to it once more.
+  void respond_again(const std::string& request_id, const std::string& node, std::int64_t epoch);
 
   /// Messages to send now; each counts as sent.
   std::vector<const Message*> due(std::int64_t now_us);
@@ -59,7 +59,7 @@ class Outbox {
   };
   struct OfferedMessage {
     Message message;
-    std::string request_id;  ///< of an answer
+    std::string request_id;  ///< of a response
     std::vector<std::string> receivers;
     std::set<std::string> waiting;                        ///< receivers that have not acknowledged
     std::map<std::string, Acknowledgement> acknowledged;  ///< by receiver

@@ -56,8 +56,8 @@ class BusReplay {
     if (!blanked || !channel->validate(blanked->payload)) return;  // a receiver would have dropped it
     const std::string hash = wire::message_hash(record.channel, blanked->payload);
     if (blanked->header.node == node_) {
-      said_.emplace(hash, record.channel);
-    } else if (wire::is_meant_for(*channel, blanked->payload, node_) && heard_.insert(hash).second) {
+      sent_.emplace(hash, record.channel);
+    } else if (wire::is_meant_for(*channel, blanked->payload, node_) && received_.insert(hash).second) {
       step(Message{record.channel, blanked->payload});
     }
   }
@@ -66,14 +66,14 @@ class BusReplay {
     if (of_another_version_ > 0)
       differs(fmt::format("messages of another version of nacre (manifest.json names it), which cannot be read: {}",
                           of_another_version_));
-    for (const auto& [hash, channel] : said_) {
-      if (!now_.count(hash)) differs(fmt::format("a message on {} was said then and is not now", channel));
+    for (const auto& [hash, channel] : sent_) {
+      if (!now_.count(hash)) differs(fmt::format("a message on {} was sent then and is not sent now", channel));
     }
     for (const auto& [hash, channel] : now_) {
-      if (!said_.count(hash))
-        differs(fmt::format("a message on {} is said now and was not then (or was not recorded)", channel));
+      if (!sent_.count(hash))
+        differs(fmt::format("a message on {} is sent now and was not sent then (or was not recorded)", channel));
     }
-    report_.outputs = static_cast<std::int64_t>(said_.size());
+    report_.outputs = static_cast<std::int64_t>(sent_.size());
     report_.equal = report_.difference.empty();
   }
 
@@ -107,9 +107,9 @@ class BusReplay {
   NodeCore& core_;
   const std::map<std::string, WorkFunction>& work_;
   ReplayReport& report_;
-  std::set<std::string> heard_;
+  std::set<std::string> received_;
   std::int64_t of_another_version_ = 0;
-  std::map<std::string, std::string> said_, now_;  ///< hash -> channel
+  std::map<std::string, std::string> sent_, now_;  ///< hash -> channel
 };
 
 }  // namespace
@@ -152,9 +152,8 @@ ReplayReport replay_bus_log(const std::filesystem::path& log, const std::string&
                             const std::map<std::string, WorkFunction>& work) {
   ReplayReport report;
   report.note =
-      "best effort: the bus log holds the order in which the recorder heard the messages, not the node; ticks are not "
-      "recorded, and "
-      "work is done at once. The node's own journal gives the exact answer";
+      "best effort: the bus log holds the order in which the recorder received the messages, not the node; ticks are "
+      "not recorded, and work is done at once. The node's own journal gives the exact comparison";
   BusReplay replay(node, core, work, report);
   LogReader reader(log);
   std::int64_t records = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Plays a recorded game through one core and compares what it says.
+// Feeds a recorded game to one core and compares what it sends.
 
 #include <cstdint>
 #include <filesystem>
@@ -27,8 +27,8 @@ struct ReplayReport {
 ReplayReport replay_journal(const std::filesystem::path& journal, NodeCore& core,
                             const std::map<std::string, WorkFunction>& work = {}, bool recompute = false);
 
-/// Best effort from the log of the bus: what `node` would have heard is fed in the order of the log (each content
-/// once), its long work is done by `work`, and the set of messages it says is compared with the set it published then.
+/// Best effort from the log of the bus: what `node` would have received is fed in the order of the log (each content
+/// once), its long work is done by `work`, and the set of messages it sends is compared with the set it sent then.
 ReplayReport replay_bus_log(const std::filesystem::path& log, const std::string& node, NodeCore& core,
                             const std::map<std::string, WorkFunction>& work);
 

@@ -4,20 +4,37 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "runtime/journal.hpp"
 #include "wire/codec.hpp"
 
 namespace nacre::runtime {
 namespace {
 
-/// "E 6.3 %, T 25 %"; "nothing to compare" without designs.
+/// "6.3 %", "25 %": two digits of an error.
+std::string percent(double share) {
+  const double percent = 100.0 * share;
+  if (percent >= 9.95) return fmt::format("{:.0f} %", percent);
+  std::string text = fmt::format("{:.1f}", percent);
+  if (text.ends_with(".0")) text.resize(text.size() - 2);
+  return text + " %";
+}
+
+/// "E 6.3 %, T 25 %"; empty without designs.
 std::string in_words(const prediction_error_t& errors) {
   std::string words;
-  if (errors.n_modulus > 0) words += fmt::format("E {:.1f} %", 100.0 * errors.modulus_mean);
-  if (errors.n_toughness > 0) {
-    words += fmt::format("{}T {:.1f} %", words.empty() ? "" : ", ", 100.0 * errors.toughness_mean);
-  }
-  return words.empty() ? "nothing to compare" : words;
+  if (errors.n_modulus > 0) words += "E " + percent(errors.modulus_mean);
+  if (errors.n_toughness > 0) words += (words.empty() ? "T " : ", T ") + percent(errors.toughness_mean);
+  return words;
+}
+
+/// "model fitted to 3 base materials (errors E 0 %, T 2 %)".
+std::string fit_in_words(const round_summary_t& round) {
+  if (round.n_calibration == 0) return "model not fitted";
+  const std::string errors = in_words(round.after);
+  return fmt::format("model fitted to {}{}",
+                     counted(round.n_calibration, round.round == 0 ? "base material" : "design"),
+                     errors.empty() ? "" : fmt::format(" (errors {})", errors));
 }
 
 }  // namespace
@@ -39,10 +56,13 @@ std::vector<round_summary_t> read_rounds(const std::filesystem::path& run_folder
 }
 
 std::string in_words(const round_summary_t& round) {
+  if (round.round == 0) return fmt::format("round 0: nothing measured yet; {}", fit_in_words(round));
+  const std::string errors = in_words(round.held_out);
   return fmt::format(
-      "round {}: gap {:.4f} GPa MPa (measured {:.4f}, gamut {:.4f}); held out: {}; calibrated on {}: {}{}", round.round,
-      round.gap, round.measured_hypervolume_staircase, round.gamut_hypervolume_staircase, in_words(round.held_out),
-      round.n_calibration, in_words(round.after), round.equilibrium ? "; equilibrium" : "");
+      "round {}: gap {:.4f} GPa MPa between measured front ({:.4f}) and simulated front ({:.4f}); prediction errors of "
+      "new designs: {}; {}{}",
+      round.round, round.gap, round.measured_hypervolume_staircase, round.gamut_hypervolume_staircase,
+      errors.empty() ? "none measured" : errors, fit_in_words(round), round.equilibrium ? "; equilibrium" : "");
 }
 
 }  // namespace nacre::runtime

@@ -12,7 +12,8 @@ namespace nacre::runtime {
 /// bus lost. Empty before the first one.
 std::vector<round_summary_t> read_rounds(const std::filesystem::path& run_folder);
 
-/// One line for a person: gap, hypervolumes, errors held out and after calibration.
+/// One line for a person: gap, hypervolumes, prediction errors of new designs, errors after calibration. Round 0
+/// measures nothing: "round 0: nothing measured yet; model fitted to 3 base materials (errors E 0 %, T 2 %)".
 std::string in_words(const round_summary_t& round);
 
 }  // namespace nacre::runtime

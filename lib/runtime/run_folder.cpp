@@ -22,7 +22,7 @@
 #include "base/names.hpp"
 #include "base/result.hpp"
 #include "runtime/process.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/header.hpp"
 
 namespace nacre::runtime {
@@ -178,7 +178,7 @@ RunFolder RunFolder::create(const fs::path& logs, const std::string& name, const
     point_link_at(logs / kLatest, chosen);
   } catch (...) {
     std::error_code left_behind;
-    fs::remove_all(run.path_, left_behind);  // half a run would be nothing but in the way of its name
+    fs::remove_all(run.path_, left_behind);  // half a run would only block its name
     throw;
   }
   return run;

@@ -12,7 +12,7 @@
 
 namespace nacre::runtime {
 
-/// What a run is, beside its scenario; manifest.json.
+/// What a run is, apart from its scenario; manifest.json.
 struct Manifest {
   std::string run_id;                ///< name of the run's folder
   std::string scenario_hash;         ///< content hash of the resolved scenario.toml

@@ -148,27 +148,27 @@ std::string SupervisedNode::last_words() const {
 }
 
 bool SupervisedNode::is_silent(Clock::time_point now) const {
-  constexpr auto kPatience = std::chrono::seconds(10);  // a node speaks twice a second
-  return runs_elsewhere() && (!heard_ || now - *heard_ > kPatience);
+  constexpr auto kPatience = std::chrono::seconds(10);  // a node reports twice a second
+  return runs_elsewhere() && (!last_status_at_ || now - *last_status_at_ > kPatience);
 }
 
-/// A node elsewhere that falls silent, or is heard again.
+/// A node elsewhere that falls silent, or reports again.
 std::optional<std::string> SupervisedNode::listen(Clock::time_point now) {
   const bool is_silent_now = is_silent(now);
   if (is_silent_now == was_silent_ || state_ == State::finished) return std::nullopt;
   was_silent_ = is_silent_now;
-  if (is_silent_now) return fmt::format("{} is not heard any more; the game waits for it", name());
-  return fmt::format("{} is heard from elsewhere", name());
+  if (is_silent_now) return fmt::format("{} does not report any more; the game waits for it", name());
+  return fmt::format("{} reports from elsewhere", name());
 }
 
 void SupervisedNode::saw(const node_status_t& status, std::int64_t epoch, Clock::time_point now) {
-  // A late word of a process that has died. Not told by the time in it: clocks may be set.
+  // A late STATUS of a process that has died. Not told by the time in it: clocks may be set.
   if (process_ && epoch_before_ != 0 && epoch == epoch_before_) return;
   if (!process_ && state_ != State::stopped && !runs_elsewhere()) return;
-  heard_ = now;
+  last_status_at_ = now;
   epoch_ = epoch;
   status_ = status;
-  // A stopped node that speaks again runs elsewhere: started by hand, perhaps on another machine.
+  // A stopped node that reports again runs elsewhere: started by hand, perhaps on another machine.
   if (status.finished) {
     state_ = State::finished;
   } else if (status.ready) {

@@ -1,5 +1,5 @@
 #pragma once
-// One node that the launcher looks after: output, readiness, restarts; or one that runs elsewhere: whether it is heard.
+// One node that the launcher looks after: output, readiness, restarts; or one that runs elsewhere: whether it reports.
 
 #include <chrono>
 #include <cstdio>
@@ -49,9 +49,9 @@ class SupervisedNode {
   State state() const { return state_; }
   bool is_alive() const { return process_ != nullptr; }
   bool runs_elsewhere() const { return settings_.command.empty(); }
-  /// Of a node elsewhere: not heard for ten seconds, or never.
+  /// Of a node elsewhere: no STATUS for ten seconds, or never.
   bool is_silent(Clock::time_point now) const;
-  /// Subscribed and able to take part; also true for one that has finished.
+  /// Subscribed and able to play; also true for one that has finished.
   bool is_ready() const { return state_ == State::running || state_ == State::finished; }
   int output() const { return process_ ? process_->output() : -1; }
   NodeView view() const;
@@ -69,14 +69,14 @@ class SupervisedNode {
   State state_ = State::stopped;
   std::unique_ptr<ChildProcess> process_;
   std::FILE* log_ = nullptr;
-  std::int64_t epoch_ = 0;         ///< last heard
-  std::int64_t epoch_before_ = 0;  ///< last heard of the process before
+  std::int64_t epoch_ = 0;         ///< of the last STATUS
+  std::int64_t epoch_before_ = 0;  ///< of the last STATUS of the process before
   std::optional<Clock::time_point> restart_at_;
   std::string last_line_;
   node_status_t status_{};
   int restarts_ = 0;
   bool end_is_expected_ = false;
-  std::optional<Clock::time_point> heard_;
+  std::optional<Clock::time_point> last_status_at_;
   bool was_silent_ = true;
 };
 

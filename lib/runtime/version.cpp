@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "runtime/run_folder.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::runtime {
 

@@ -13,8 +13,8 @@ namespace nacre::store {
 /// the effect library are left out.
 material::Extensions extensions_of(const RoundRecord& round);
 
-/// The homogeneous line of a round as the testing machine shows it, like everything measured (the record holds what
-/// simulations are compared with: the line behind the machine that the model knows).
+/// The homogeneous line of a round as recorded by the testing machine, like everything measured (the record holds what
+/// simulations are compared with: the line without the machine effects of the model).
 std::vector<optimize::Performance> line_as_measured(const RoundRecord& round);
 
 }  // namespace nacre::store

@@ -1,12 +1,14 @@
 #include "store/kept_simulation.hpp"
 
+#include "tester/simulation_key.hpp"
+
 namespace nacre::store {
 namespace {
 
 CachedSimulation failed(const Error& error) {
-  CachedSimulation answer;
-  answer.failure = error.message;
-  return answer;
+  CachedSimulation cached;
+  cached.failure = error.message;
+  return cached;
 }
 
 /// Looks up or simulates; `test` is tester::test_modulus or tester::test_toughness.
@@ -16,28 +18,28 @@ CachedSimulation looked_up(SimulationCache* cache, const tester::Simulation& sim
   if (cache == nullptr) return kept(test(simulation, tester::Discretisation{}));
   const std::string key = tester::simulation_key(simulation, kind);
   if (auto known = cache->find(key)) return *std::move(known);
-  const CachedSimulation answer = kept(test(simulation, tester::Discretisation{}));
-  cache->insert(key, answer);
-  return answer;
+  const CachedSimulation cached = kept(test(simulation, tester::Discretisation{}));
+  cache->insert(key, cached);
+  return cached;
 }
 
 }  // namespace
 
 CachedSimulation kept(const Result<tester::ModulusResult>& result) {
   if (!result) return failed(result.error());
-  CachedSimulation answer;
-  answer.modulus_pa = result->modulus_pa;
-  return answer;
+  CachedSimulation cached;
+  cached.modulus_pa = result->modulus_pa;
+  return cached;
 }
 
 CachedSimulation kept(const Result<tester::ToughnessResult>& result) {
   if (!result) return failed(result.error());
-  CachedSimulation answer;
-  answer.toughness_pa = result->toughness_pa;
-  answer.peak_stress_pa = result->peak_stress_pa;
-  answer.failure_strain = result->failure_strain;
-  answer.curve = tester::resampled(result->curve, kKeptCurvePoints);
-  return answer;
+  CachedSimulation cached;
+  cached.toughness_pa = result->toughness_pa;
+  cached.peak_stress_pa = result->peak_stress_pa;
+  cached.failure_strain = result->failure_strain;
+  cached.curve = tester::resampled(result->curve, kKeptCurvePoints);
+  return cached;
 }
 
 std::optional<optimize::Performance> kept_performance(const tester::Simulation& simulation, SimulationCache* cache) {

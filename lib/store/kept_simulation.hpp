@@ -3,14 +3,15 @@
 
 #include "optimize/pareto.hpp"
 #include "store/simulation_cache.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::store {
 
 /// Points that a curve is resampled to before it is kept.
 inline constexpr int kKeptCurvePoints = 256;
 
-/// What is kept of a tester's answer.
+/// What is kept of a tester's result.
 CachedSimulation kept(const Result<tester::ModulusResult>& result);
 CachedSimulation kept(const Result<tester::ToughnessResult>& result);
 

@@ -27,7 +27,7 @@ bool is_over(const RunRecord& run) {
 
 std::vector<MeasuredPattern> measured_patterns(const RunRecord& run, int round) {
   const int newest = newest_round(run).value_or(0);
-  // What no round claims yet belongs to the one that is being measured, of which nothing else may be known.
+  // What belongs to no round yet counts for the one that is being measured, of which nothing else may be known.
   const int measuring = std::max(newest, newest_closed_round(run).value_or(-1) + 1);
   std::vector<measurement::SpecimenRecord> known;
   std::map<std::string, int> first_round;

@@ -17,9 +17,8 @@ std::string misfit_beside_verdict(const RoundRecord& round) {
   std::string words;
   if (round.modulus_fit.misfit()) {
     words += fmt::format(
-        "The calibration's own fit does not explain {}; the base fit of the diagnosis, which weighs by scatter and "
-        "looks "
-        "farther than the calibration's ranges, does. The game goes on with the calibrated parameters.",
+        "The calibration's own fit does not explain {}; the base fit of the diagnosis, which weights by scatter and "
+        "searches beyond the calibration's ranges, does. The game goes on with the calibrated parameters.",
         in_words("E", round.modulus_fit));
   }
   if (round.toughness_fit.misfit()) {

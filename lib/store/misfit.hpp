@@ -7,9 +7,9 @@
 
 namespace nacre::store {
 
-/// What the calibration's own fit says against a diagnosis that finds nothing wrong; empty where the two agree, or
-/// where either is not known. The two ask different questions: the game goes on with calibrated parameters, the
-/// diagnosis asks whether any constants of the base model would do.
+/// The misfit of the calibration's own fit where the diagnosis finds nothing wrong; empty where the two agree, or where
+/// either is not known. They test different hypotheses: the game goes on with calibrated parameters, the diagnosis
+/// tests whether any constants of the base model would do.
 std::string misfit_beside_verdict(const RoundRecord& round);
 
 }  // namespace nacre::store

@@ -66,7 +66,7 @@ std::vector<double> packed(const tester::Curve& curve) {
   return pairs;
 }
 
-/// A game with a family stage closes its last round twice: the second word stands, whatever comes after it.
+/// A game with a family stage closes its last round twice: the second ROUND counts, whatever comes after it.
 bool is_closed_for_good(SQLite::Database& db, int round) {
   SQLite::Statement query(db, "SELECT last FROM round WHERE round = ?");
   query.bind(1, round);
@@ -136,7 +136,7 @@ void keep(SQLite::Database& db, const wire::Proposal& p) {
 
 void keep(SQLite::Database& db, const wire::Measurement& m) {
   const measurement::SpecimenRecord& r = m.record;
-  // The first report of a specimen stands: a different one with the same name is refused by the validation agent, too.
+  // The first report of a specimen counts: a different one with the same name is refused by the validation agent, too.
   run(db, "INSERT OR IGNORE INTO measurement VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", r.specimen, m.round, m.order_id,
       r.design.name(), tester::to_string(r.test), r.conditions.orientation_deg, r.conditions.strain_rate_per_s,
       r.conditions.thickness_mm, r.batch, r.print_order, r.modulus_pa, r.toughness_pa, r.valid, r.note,
@@ -157,7 +157,7 @@ void keep(SQLite::Database& db, const diagnosis_t& d) {
       when_gained(d.held_out_error_before), when_gained(d.held_out_error_after), when_gained(d.relative_reduction));
   std::set<std::string> named;
   for (const effect_t& e : d.effects) {
-    if (!named.insert(e.name).second) continue;  // what it takes beside its size
+    if (!named.insert(e.name).second) continue;  // a further parameter of the effect
     run(db, "INSERT OR REPLACE INTO diagnosis_effect VALUES (?,?,?,?,?,?)", d.round, e.name, e.parameter,
         e.interval_low, e.interval_high, e.unit);
   }
@@ -167,7 +167,7 @@ void keep(SQLite::Database& db, const diagnosis_t& d) {
   }
 }
 
-/// Answers to the analyser's own question `analyser/rN/measured`: what the model of round N says about the measured
+/// Responses to the analyser's own request `analyser/rN/measured`: what the model of round N predicts for the measured
 /// designs.
 void keep(SQLite::Database& db, const wire::SimulateResult& s) {
   const auto round = number_between("analyser/r", "/measured", s.request_id);
@@ -194,15 +194,15 @@ void keep_crack(SQLite::Database& db, const char* table, int number, const wire:
       f.crack.path && f.crack.path->crosses, path, breaks);
 }
 
-/// Answers to the analyser's own questions: how the designs proposed in round N break, and those of family N.
+/// Responses to the analyser's own requests: how the designs proposed in round N break, and those of family N.
 void keep(SQLite::Database& db, const wire::Fracture& f) {
   if (const auto round = number_between("analyser/r", "/films", f.request_id)) keep_crack(db, "crack", *round, f);
   if (const auto family = number_between("analyser/family", "/films", f.request_id))
     keep_crack(db, "family_crack", *family, f);
 }
 
-/// A family that is validated is not put back by an older word of it.
-void keep(SQLite::Database& db, const wire::Family& f) {
+/// A family that is validated is not put back by an older FAMILY.
+void keep(SQLite::Database& db, const wire::CalibratedFamily& f) {
   SQLite::Statement known(db, "SELECT is_validated FROM family WHERE number = ?");
   known.bind(1, f.number);
   if (known.executeStep() && known.getColumn(0).getInt() != 0 && !f.is_validated) return;
@@ -245,7 +245,7 @@ void keep_payload(SQLite::Database& db, const std::string& channel, const std::s
   if (channel == "MEASUREMENT") keep_domain<wire::Measurement>(db, payload);
   if (channel == "SIMULATED") keep_domain<wire::SimulateResult>(db, payload);
   if (channel == "FRACTURE") keep_domain<wire::Fracture>(db, payload);
-  if (channel == "FAMILY") keep_domain<wire::Family>(db, payload);
+  if (channel == "FAMILY") keep_domain<wire::CalibratedFamily>(db, payload);
   if (channel == "FAMILY_GAMUT") keep_domain<wire::FamilyGamut>(db, payload);
   if (channel == "REVIEW") keep_message<review_t>(db, payload);
   if (channel == "DIAGNOSIS") keep_message<diagnosis_t>(db, payload);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/result.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "pattern/pattern_key.hpp"
 #include "store/database_care.hpp"
 
@@ -128,7 +129,7 @@ void each_crack(SQLite::Database& db, const char* table, const char* number, con
       number, table);
   each_row(db, cracks.c_str(), [&](SQLite::Statement& q) {
     RecordedCrack recorded{.crack = {}, .broken = q.getColumn(5).getInt(), .film = q.getColumn(2).getString()};
-    crack::Record& record = recorded.crack;
+    crack::CrackRecord& record = recorded.crack;
     record.columns = q.getColumn(3).getInt();
     record.rows = q.getColumn(4).getInt();
     record.branches = q.getColumn(6).getInt();
@@ -136,7 +137,7 @@ void each_crack(SQLite::Database& db, const char* table, const char* number, con
     for (const std::int32_t element : elements(q.getColumn(9))) record.order.push_back({element, 0.0});
     if (!q.getColumn(10).isNull()) {
       const std::vector<std::int32_t> path = elements(q.getColumn(8));
-      record.path = crack::Path{
+      record.path = crack::CrackPath{
           .elements = {path.begin(), path.end()},
           .length_m = q.getColumn(10).getDouble(),
           .straight_length_m = q.getColumn(11).getDouble(),
@@ -198,7 +199,7 @@ void read_families(SQLite::Database& db, RunRecord& run) {
   std::map<int, RecordedFamily> families;
   each_row(db, "SELECT number, name, round, fidelity, count, is_validated, simulations, samples FROM family",
            [&](SQLite::Statement& q) {
-             wire::Family& stated = families[q.getColumn(0).getInt()].stated;
+             wire::CalibratedFamily& stated = families[q.getColumn(0).getInt()].stated;
              stated.number = q.getColumn(0).getInt();
              stated.name = q.getColumn(1).getString();
              stated.round = q.getColumn(2).getInt();
@@ -234,9 +235,12 @@ void read_families(SQLite::Database& db, RunRecord& run) {
 
 /// Validity is the measurement's own unless a review says otherwise; the highest revision wins, "not valid" wins a tie.
 constexpr const char* kSpecimens = R"sql(
-  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch, m.print_order, m.modulus_pa, m.toughness_pa,
-         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
-         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
+  SELECT m.round, m.specimen, m.design, m.test, m.orientation_deg, m.strain_rate_per_s, m.thickness_mm, m.batch,
+         m.print_order, m.modulus_pa, m.toughness_pa,
+         coalesce((SELECT r.valid FROM review r WHERE r.specimen = m.specimen
+                   ORDER BY r.revision DESC, r.valid LIMIT 1), m.valid),
+         coalesce((SELECT r.why FROM review r WHERE r.specimen = m.specimen
+                   ORDER BY r.revision DESC, r.valid LIMIT 1), m.note), m.curve
   FROM measurement m ORDER BY m.specimen
 )sql";
 
@@ -257,7 +261,7 @@ void read_specimens(SQLite::Database& db, RunRecord& run) {
     m.record.toughness_pa = optional_double(q.getColumn(10));
     m.record.note = q.getColumn(12).getString();
     m.record.curve = unpacked(q.getColumn(13));
-    // As for the validation agent: a person's word makes no specimen valid that says nothing.
+    // As for the validation agent: a review makes no specimen valid that has no usable value.
     m.record.valid = q.getColumn(11).getInt() != 0 && !measurement::why_unusable(m.record);
     run.specimens.push_back(std::move(m));
   });

@@ -10,7 +10,7 @@
 
 #include "crack/crack_record.hpp"
 #include "explore/search.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
 #include "optimize/pareto.hpp"
 #include "wire/convert.hpp"
 
@@ -46,12 +46,12 @@ struct RecordedSimulation {
 
 /// How a model lets a design break.
 struct RecordedCrack {
-  crack::Record crack;  ///< order without strains
+  crack::CrackRecord crack;  ///< order without strains
   int broken = 0;
   std::string film;  ///< file in RUN/films; empty when there is none
 };
 
-/// One round; parts that have not been heard of yet are empty.
+/// One round; parts that have not been received yet are empty.
 struct RoundRecord {
   std::optional<wire::RoundSummary> summary;
   std::map<std::string, double> parameters;
@@ -71,7 +71,7 @@ struct MeasuredSpecimen {
 
 /// A family of the stage after the game; `stated.parameters` holds no values here, `parameters` names them.
 struct RecordedFamily {
-  wire::Family stated;
+  wire::CalibratedFamily stated;
   std::map<std::string, double> parameters;
   std::vector<explore::Evaluated> gamut;        ///< its variants by its own model
   std::map<std::string, RecordedCrack> cracks;  ///< of its seeds and chosen designs by its own model, by design

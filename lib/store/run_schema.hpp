@@ -20,7 +20,9 @@ inline constexpr const char* kRunSchema = R"sql(
     toughness_count INTEGER NOT NULL, toughness_mean REAL NOT NULL, toughness_max REAL NOT NULL,
     toughness_spearman REAL NOT NULL, PRIMARY KEY (round, moment)
   ) STRICT;
-  CREATE TABLE parameter (round INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (round, name)) STRICT;
+  CREATE TABLE parameter (
+    round INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (round, name)
+  ) STRICT;
   CREATE TABLE benchmark (
     round INTEGER NOT NULL, position INTEGER NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL,
     PRIMARY KEY (round, position)
@@ -30,13 +32,14 @@ inline constexpr const char* kRunSchema = R"sql(
     PRIMARY KEY (round, pattern)
   ) STRICT, WITHOUT ROWID;
   CREATE TABLE proposal (
-    round INTEGER NOT NULL, design TEXT NOT NULL, position INTEGER NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL,
-    bin INTEGER NOT NULL, reason TEXT NOT NULL, PRIMARY KEY (round, design)
+    round INTEGER NOT NULL, design TEXT NOT NULL, position INTEGER NOT NULL, modulus_pa REAL NOT NULL,
+    toughness_pa REAL NOT NULL, bin INTEGER NOT NULL, reason TEXT NOT NULL, PRIMARY KEY (round, design)
   ) STRICT;
   CREATE TABLE measurement (
     specimen TEXT PRIMARY KEY, round INTEGER NOT NULL, order_id TEXT NOT NULL, design TEXT NOT NULL, test TEXT NOT NULL,
     orientation_deg REAL NOT NULL, strain_rate_per_s REAL NOT NULL, thickness_mm REAL NOT NULL, batch TEXT NOT NULL,
-    print_order INTEGER NOT NULL, modulus_pa REAL, toughness_pa REAL, valid INTEGER NOT NULL, note TEXT NOT NULL, curve BLOB NOT NULL
+    print_order INTEGER NOT NULL, modulus_pa REAL, toughness_pa REAL, valid INTEGER NOT NULL, note TEXT NOT NULL,
+    curve BLOB NOT NULL
   ) STRICT;
   CREATE TABLE review (
     specimen TEXT NOT NULL, revision INTEGER NOT NULL, valid INTEGER NOT NULL, who TEXT NOT NULL, why TEXT NOT NULL,
@@ -47,16 +50,16 @@ inline constexpr const char* kRunSchema = R"sql(
     held_out_error_before REAL, held_out_error_after REAL, relative_reduction REAL
   ) STRICT;
   CREATE TABLE diagnosis_effect (
-    round INTEGER NOT NULL, name TEXT NOT NULL, parameter REAL NOT NULL, interval_low REAL NOT NULL, interval_high REAL NOT NULL,
-    unit TEXT NOT NULL, PRIMARY KEY (round, name)
+    round INTEGER NOT NULL, name TEXT NOT NULL, parameter REAL NOT NULL, interval_low REAL NOT NULL,
+    interval_high REAL NOT NULL, unit TEXT NOT NULL, PRIMARY KEY (round, name)
   ) STRICT;
   CREATE TABLE diagnosis_candidate (
-    round INTEGER NOT NULL, name TEXT NOT NULL, status TEXT NOT NULL, statistic REAL NOT NULL, p_family_wise REAL NOT NULL,
-    absorption REAL NOT NULL, PRIMARY KEY (round, name)
+    round INTEGER NOT NULL, name TEXT NOT NULL, status TEXT NOT NULL, statistic REAL NOT NULL,
+    p_family_wise REAL NOT NULL, absorption REAL NOT NULL, PRIMARY KEY (round, name)
   ) STRICT;
-  CREATE TABLE simulated (  -- what the model of a round says about measured designs
-    round INTEGER NOT NULL, design TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL, failure TEXT NOT NULL,
-    curve BLOB NOT NULL, PRIMARY KEY (round, design)
+  CREATE TABLE simulated (  -- what the model of a round predicts for measured designs
+    round INTEGER NOT NULL, design TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL,
+    failure TEXT NOT NULL, curve BLOB NOT NULL, PRIMARY KEY (round, design)
   ) STRICT;
 )sql";
 
@@ -72,17 +75,20 @@ inline constexpr const char* kFitSchema = R"sql(
 /// The family stage after the game; made where absent, for runs that an earlier version began.
 inline constexpr const char* kFamilySchema = R"sql(
   CREATE TABLE IF NOT EXISTS family (
-    number INTEGER PRIMARY KEY, name TEXT NOT NULL, round INTEGER NOT NULL, fidelity TEXT NOT NULL, count INTEGER NOT NULL,
-    is_validated INTEGER NOT NULL, simulations INTEGER NOT NULL, samples INTEGER NOT NULL
+    number INTEGER PRIMARY KEY, name TEXT NOT NULL, round INTEGER NOT NULL, fidelity TEXT NOT NULL,
+    count INTEGER NOT NULL, is_validated INTEGER NOT NULL, simulations INTEGER NOT NULL, samples INTEGER NOT NULL
   ) STRICT;
-  CREATE TABLE IF NOT EXISTS family_parameter (number INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (number, name)) STRICT;
+  CREATE TABLE IF NOT EXISTS family_parameter (
+    number INTEGER NOT NULL, name TEXT NOT NULL, value REAL NOT NULL, PRIMARY KEY (number, name)
+  ) STRICT;
   CREATE TABLE IF NOT EXISTS family_design (  -- seeds and chosen designs, in order
-    number INTEGER NOT NULL, pattern TEXT NOT NULL, position INTEGER NOT NULL, is_seed INTEGER NOT NULL, measured_modulus_pa REAL,
-    measured_toughness_pa REAL, global_modulus_pa REAL, global_toughness_pa REAL, family_modulus_pa REAL, family_toughness_pa REAL,
-    PRIMARY KEY (number, pattern)
+    number INTEGER NOT NULL, pattern TEXT NOT NULL, position INTEGER NOT NULL, is_seed INTEGER NOT NULL,
+    measured_modulus_pa REAL, measured_toughness_pa REAL, global_modulus_pa REAL, global_toughness_pa REAL,
+    family_modulus_pa REAL, family_toughness_pa REAL, PRIMARY KEY (number, pattern)
   ) STRICT;
   CREATE TABLE IF NOT EXISTS family_gamut (  -- variants by the family's own model
-    number INTEGER NOT NULL, pattern TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL, PRIMARY KEY (number, pattern)
+    number INTEGER NOT NULL, pattern TEXT NOT NULL, modulus_pa REAL NOT NULL, toughness_pa REAL NOT NULL,
+    PRIMARY KEY (number, pattern)
   ) STRICT, WITHOUT ROWID;
 )sql";
 
@@ -90,10 +96,10 @@ inline constexpr const char* kFamilySchema = R"sql(
 /// the designs of a family by its own. Path and breaks: int32 elements; film: file in films/.
 inline constexpr const char* kCrackSchema = R"sql(
   CREATE TABLE IF NOT EXISTS {0} (
-    {1} INTEGER NOT NULL, design TEXT NOT NULL, film TEXT NOT NULL, columns INTEGER NOT NULL, rows INTEGER NOT NULL, broken INTEGER NOT NULL,
-    branches INTEGER NOT NULL, separate_cracks INTEGER NOT NULL, path_length_m REAL, straight_length_m REAL, bridged_share REAL,
-    soft_share REAL, rigid_share REAL, interface_share REAL, crosses INTEGER, path BLOB NOT NULL, breaks BLOB NOT NULL,
-    PRIMARY KEY ({1}, design)
+    {1} INTEGER NOT NULL, design TEXT NOT NULL, film TEXT NOT NULL, columns INTEGER NOT NULL, rows INTEGER NOT NULL,
+    broken INTEGER NOT NULL, branches INTEGER NOT NULL, separate_cracks INTEGER NOT NULL, path_length_m REAL,
+    straight_length_m REAL, bridged_share REAL, soft_share REAL, rigid_share REAL, interface_share REAL,
+    crosses INTEGER, path BLOB NOT NULL, breaks BLOB NOT NULL, PRIMARY KEY ({1}, design)
   ) STRICT;
 )sql";
 

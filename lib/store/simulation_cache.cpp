@@ -37,9 +37,8 @@ constexpr const char* kBreakSchemaOfVersion2 = R"sql(
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError::format(
       "the simulation cache {} cannot be used: {}. `nacre rebuild --cache {}` saves what is sound. Nothing else "
-      "depends "
-      "on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations are done "
-      "anew",
+      "depends on it: or move the file (and its -wal and -shm companions) away and start again, and the simulations "
+      "are done anew",
       path.string(), reason, shell_word(path));
 }
 
@@ -151,7 +150,7 @@ SimulationCache::SimulationCache(const std::filesystem::path& path, int busy_tim
                                                    busy_timeout_ms);
     distrust(*database_);
     database_->exec("PRAGMA journal_mode = WAL");
-    // A power cut may lose the newest answers, never the file; they would be simulated again.
+    // A power cut may lose the newest results, never the file; they would be simulated again.
     database_->exec("PRAGMA synchronous = NORMAL");
     prepare_schema(*database_, path_);
     const std::string verdict = database_->execAndGet("PRAGMA quick_check(1)").getString();
@@ -173,36 +172,37 @@ std::optional<CachedSimulation> SimulationCache::find(const std::string& key) co
     if (checksum_of_simulation(query) != query.getColumn(7).getInt64()) {
       refuse(path_, fmt::format("it is damaged (the row {} does not fit its checksum)", key));
     }
-    CachedSimulation answer;
-    answer.failure = query.getColumn(1).getString();
-    answer.modulus_pa = query.getColumn(2).getDouble();
-    answer.toughness_pa = query.getColumn(3).getDouble();
-    answer.peak_stress_pa = query.getColumn(4).getDouble();
-    answer.failure_strain = query.getColumn(5).getDouble();
+    CachedSimulation simulation;
+    simulation.failure = query.getColumn(1).getString();
+    simulation.modulus_pa = query.getColumn(2).getDouble();
+    simulation.toughness_pa = query.getColumn(3).getDouble();
+    simulation.peak_stress_pa = query.getColumn(4).getDouble();
+    simulation.failure_strain = query.getColumn(5).getDouble();
     const SQLite::Column curve = query.getColumn(6);
-    answer.curve = unpack_curve(curve.getBlob(), curve.getBytes());
-    return answer;
+    simulation.curve = unpack_curve(curve.getBlob(), curve.getBytes());
+    return simulation;
   });
 }
 
-bool SimulationCache::insert(const std::string& key, const CachedSimulation& answer) {
-  const std::vector<float> curve = pack_curve(answer.curve);
+bool SimulationCache::insert(const std::string& key, const CachedSimulation& simulation) {
+  const std::vector<float> curve = pack_curve(simulation.curve);
   const std::lock_guard lock(mutex_);
   return guarded(path_, [&] {
     SQLite::Statement insertion(*database_,
                                 "INSERT INTO simulation VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (key) DO NOTHING");
     insertion.bind(1, key);
-    insertion.bind(2, answer.failure);
-    insertion.bind(3, answer.modulus_pa);
-    insertion.bind(4, answer.toughness_pa);
-    insertion.bind(5, answer.peak_stress_pa);
-    insertion.bind(6, answer.failure_strain);
+    insertion.bind(2, simulation.failure);
+    insertion.bind(3, simulation.modulus_pa);
+    insertion.bind(4, simulation.toughness_pa);
+    insertion.bind(5, simulation.peak_stress_pa);
+    insertion.bind(6, simulation.failure_strain);
     // A null pointer would be stored as NULL, not as an empty curve.
     const void* bytes = curve.empty() ? "" : static_cast<const void*>(curve.data());
     insertion.bind(7, bytes, static_cast<int>(curve.size() * sizeof(float)));
-    const double numbers[4] = {answer.modulus_pa, answer.toughness_pa, answer.peak_stress_pa, answer.failure_strain};
+    const double numbers[4] = {simulation.modulus_pa, simulation.toughness_pa, simulation.peak_stress_pa,
+                               simulation.failure_strain};
     const std::string_view points(static_cast<const char*>(bytes), curve.size() * sizeof(float));
-    insertion.bind(8, simulation_checksum(key, answer.failure, numbers, points));
+    insertion.bind(8, simulation_checksum(key, simulation.failure, numbers, points));
     return insertion.exec() == 1;
   });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the testers answered, by simulation_key(): the farm's memory over crashes, runs and studies.
+// Results of the testers, by simulation_key(): the farm's memory over crashes, runs and studies.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "store/database_care.hpp"
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::store {
 
-/// Answer to one question (one design, one test). Fields of the test that was not run are 0.
+/// Result of one test of one design. Fields of the test that was not run are 0.
 struct CachedSimulation {
-  std::string failure;  ///< empty, or why the simulation gave no number: a failure is an answer, too
+  std::string failure;  ///< empty, or why the simulation gave no number: a failure is a result, too
   double modulus_pa = 0.0;
   double toughness_pa = 0.0;
   double peak_stress_pa = 0.0;
@@ -42,12 +42,12 @@ class SimulationCache {
   ~SimulationCache();
 
   std::optional<CachedSimulation> find(const std::string& key) const;
-  /// Keeps the first answer when the key is already there, and returns false then.
-  bool insert(const std::string& key, const CachedSimulation& answer);
+  /// Keeps the first result when the key is already there, and returns false then.
+  bool insert(const std::string& key, const CachedSimulation& simulation);
   /// Elements that failed in a toughness test, strains as float; nothing when they were not kept.
   std::optional<std::vector<tester::Break>> find_breaks(const std::string& key) const;
   void insert_breaks(const std::string& key, const std::vector<tester::Break>& breaks);
-  std::int64_t size() const;  ///< answers
+  std::int64_t size() const;  ///< results
 
  private:
   std::filesystem::path path_;

@@ -1,9 +1,8 @@
-// How far the result of a calibration can be trusted.
+#include "sysid/provenance.hpp"
 
 #include <algorithm>
 #include <iterator>
 
-#include "sysid/calibration.hpp"
 #include "thesis/constants.hpp"
 
 namespace nacre::sysid {
@@ -24,7 +23,7 @@ Provenance provenance_of(const Calibrated& calibrated, std::string_view search) 
 }
 
 std::vector<ParameterEstimate> at_an_end(const Calibrated& calibrated, const material::ParameterRanges& ranges,
-                                   material::FitTarget target) {
+                                         material::FitTarget target) {
   std::vector<material::ParameterRange> all;
   std::ranges::copy(ranges.modulus(target), std::back_inserter(all));
   std::ranges::copy(ranges.toughness(target), std::back_inserter(all));

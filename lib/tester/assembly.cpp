@@ -43,8 +43,8 @@ fem::Grid empty_grid(int columns, int rows, int refinement) {
   return grid;
 }
 
-/// Stiffness and strength of a cell's interface, as a factor, under `interface_anisotropy` (grid axes): the geometric
-/// mean where the cell holds several.
+/// Factor on stiffness and strength of a cell's interface under `interface_anisotropy` (grid axes): the geometric mean
+/// where the cell holds several.
 double anisotropy_factor(double share_x, double share_y, double anisotropy) {
   if (share_x == 1.0) return 1.0 + anisotropy;
   if (share_y == 1.0) return 1.0 - anisotropy;
@@ -57,7 +57,7 @@ double anisotropy_factor(double share_x, double share_y, double anisotropy) {
 /// 7 % in E before, -0.6 +- 1.5 % now.)
 int cells_per_side(double blur_pixels, int refinement) { return blur_pixels > 0.0 && refinement == 1 ? 2 : 1; }
 
-/// Boundaries that were moved by parts of an element are laid down in cells of a quarter of it.
+/// Boundaries that were moved by parts of an element are resolved in cells of a quarter of it.
 constexpr int kOverprintCells = 4;
 
 /// Geometric mean of stiffness and strength over the cells of an element, as the law of mixtures is geometric itself;
@@ -77,8 +77,8 @@ material::Constants mean_constants(const material::Phases& phases, std::span<con
   return mean;
 }
 
-/// What the elements of one unit are made of: `parts` x `parts` places per element, whose rigid fractions stand in
-/// `fraction`, row by row of the whole unit.
+/// The composition of one unit: `parts` x `parts` cells per element, their rigid fractions in `fraction`, row by row of
+/// the whole unit.
 struct LaidDown {
   PrintedUnit unit;
   std::vector<double> fraction;
@@ -100,8 +100,8 @@ LaidDown lay_down(const pattern::Layout& layout, double blur_pixels, double over
   return result;
 }
 
-/// The unit of a layout. The last one of a thread is kept: slopes ask for the same with other constants, and what grows
-/// or blurs costs as much as a solution.
+/// The unit of a layout. The last one of a thread is kept: slopes need the same unit with other constants, and growth
+/// or blur costs as much as a solution.
 const LaidDown& laid_down(const pattern::Layout& layout, const material::Extensions& extensions, int refinement) {
   struct Last {
     pattern::Layout layout;
@@ -142,8 +142,8 @@ void collect(const LaidDown& made, int refinement, int row, int column, MadeOf& 
   }
 }
 
-/// Puts down what extends the law of element `e`, of that rigid fraction. An array is taken by the first element that
-/// needs it.
+/// Sets the extensions of the law of element `e`, of that rigid fraction. An array is allocated by the first element
+/// that needs it.
 void set_law(fem::Grid& grid, std::size_t e, const material::LawExtensions& extensions, double rigid_fraction) {
   const material::ExtendedLaw law = material::extended_law(extensions, {}, grid.threshold_j_per_m3[e], rigid_fraction);
   const auto put = [&](std::vector<double>& field, double value, double otherwise) {
@@ -216,7 +216,7 @@ fem::Grid assemble(const pattern::Design& design, const material::ParameterSet& 
   const int side = kElementsPerUnit * refinement;
   fem::Grid grid = empty_grid(side * units_x, side * units_y, refinement);
   material::LawExtensions laws = laws_for(parameters.extensions, target);
-  if (design.mixture() != nullptr) laws.shrinkage = 0.0;  // it shrinks freely, and its measures are taken afterwards
+  if (design.mixture() != nullptr) laws.shrinkage = 0.0;  // it shrinks freely, and is measured afterwards
   grid.laws.overstress = laws.overstress;
   grid.laws.relaxation_time_s = laws.relaxation_time_s;
   grid.laws.softening = laws.softening;

@@ -7,7 +7,7 @@
 #include "material/parameters.hpp"
 #include "pattern/design.hpp"
 #include "tester/printed_unit.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::tester {
 

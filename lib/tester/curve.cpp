@@ -14,9 +14,9 @@ double absolute_trapezoid(double width, double start, double end) {
 }
 
 /// A curve read from left to right: its value just after and just before any strain, zero outside, so that jumps count.
-class Reader {
+class CurveReader {
  public:
-  explicit Reader(const Curve& curve) : curve_(curve) {}
+  explicit CurveReader(const Curve& curve) : curve_(curve) {}
   /// Values at both ends of the interval (left, right), which must lie between two neighbouring samples or outside.
   std::pair<double, double> across(double left, double right) {
     const std::vector<double>& strain = curve_.strain;
@@ -48,7 +48,7 @@ double area_between(const Curve& a, const Curve& b) {
   std::vector<double> strains = a.strain;
   strains.insert(strains.end(), b.strain.begin(), b.strain.end());
   std::sort(strains.begin(), strains.end());
-  Reader reader_a(a), reader_b(b);
+  CurveReader reader_a(a), reader_b(b);
   double area = 0.0;
   for (std::size_t i = 1; i < strains.size(); ++i) {
     const double left = strains[i - 1], right = strains[i];

@@ -20,7 +20,7 @@ double area_under(const Curve& curve);
 double area_between(const Curve& a, const Curve& b);
 
 /// Largest difference in stress up to `until_strain` between two curves with the same strains, relative to the largest
-/// stress of `a` up to there; 1 where that is nothing.
+/// stress of `a` up to there; 1 where that is zero.
 double largest_difference(const Curve& a, const Curve& b, double until_strain);
 
 /// Stress at `strain` by linear interpolation on a curve with non-decreasing strain; 0 outside it.

@@ -1,7 +1,7 @@
 #pragma once
-// What distinguishes the fidelities: size and loading rate of the specimens. Testers and virtual laboratory share both.
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
+// The fidelities: size and loading rate of the specimens, for the testers and the virtual laboratory alike.
 
 namespace nacre::tester {
 

@@ -9,7 +9,7 @@ namespace {
 
 /// Intervals in which events are counted; their width smooths bursts of failures in a single step.
 constexpr int kIntervals = 400;
-/// Shares of the frames. What is left is for equal spacing, so that nothing is ever skipped.
+/// Shares of the frames. The rest is spaced equally, so that nothing is ever skipped.
 constexpr double kBreakShare = 0.45, kFallShare = 0.20, kPeakShare = 0.10;
 /// Half width of the region around the peak, as a share of the test's strain.
 constexpr double kPeakHalfWidth = 0.04;
@@ -41,7 +41,7 @@ std::vector<double> film_strains(const ToughnessResult& result, int count) {
     return static_cast<std::size_t>(std::clamp(static_cast<int>(strain / width), 0, kIntervals - 1));
   };
   std::vector<double> breaks(kIntervals, 0.0), falls(kIntervals, 0.0), peak(kIntervals, 0.0);
-  // The root: of a thousand failures in one interval a film shows no more than of ten in each of ten.
+  // The root: a thousand failures in one interval look no different from ten in each of ten.
   for (const Break& broken : result.breaks) breaks[interval(broken.strain)] += 1.0;
   for (double& events : breaks) events = std::sqrt(events);
   const std::vector<double>& strain = result.curve.strain;
@@ -58,7 +58,7 @@ std::vector<double> film_strains(const ToughnessResult& result, int count) {
   add_share(density, spread(falls), kFallShare);
   add_share(density, peak, kPeakShare);
 
-  // Frame k stands where the k-th share of the whole density lies to its left.
+  // Frame k lies where the k-th share of the whole density is to its left.
   double sum = 0.0;
   for (const double value : density) sum += value;
   std::vector<double> strains{0.0};

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::tester {
 

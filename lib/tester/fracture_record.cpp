@@ -18,10 +18,13 @@ void FractureRecord::MovingMean::add(double value) {
   next_ = (next_ + 1) % values_.size();
 }
 
-FractureRecord::FractureRecord(const Plan& plan)
-    : plan_(plan), transit_(std::max(plan.transit_steps, 4)), quarter_(std::max(plan.transit_steps / 4, 1)) {
-  const double steps = std::min(plan.strain_limit / plan.strain_per_step, static_cast<double>(thesis::kStepLimit));
-  const double samples = steps / plan.steps_per_sample;
+FractureRecord::FractureRecord(const Sampling& sampling)
+    : sampling_(sampling),
+      transit_(std::max(sampling.transit_steps, 4)),
+      quarter_(std::max(sampling.transit_steps / 4, 1)) {
+  const double steps =
+      std::min(sampling.strain_limit / sampling.strain_per_step, static_cast<double>(thesis::kStepLimit));
+  const double samples = steps / sampling.steps_per_sample;
   curve_.strain.reserve(static_cast<std::size_t>(samples) + 4);
   curve_.stress_pa.reserve(static_cast<std::size_t>(samples) + 4);
   curve_.strain.push_back(0.0);
@@ -37,11 +40,11 @@ void FractureRecord::add(double strain, double stress_pa) {
   if (quarter_.full()) peak_pa_ = std::max(peak_pa_, quarter_.mean());
   sample_strain_ += strain;
   sample_stress_pa_ += stress_pa;
-  if (++sample_steps_ == plan_.steps_per_sample) close_sample();
+  if (++sample_steps_ == sampling_.steps_per_sample) close_sample();
 }
 
 bool FractureRecord::separated() const {
-  // Before it is pulled a specimen with residual strains may show a trace of pressure.
+  // Before it is pulled, a specimen with residual strains may be under slight compression.
   return peak_pa_ > 0.0 && transit_.mean() < thesis::kStressDropLimit * peak_pa_;
 }
 

@@ -6,18 +6,18 @@
 
 namespace nacre::tester {
 
-/// What the load cell sees of a fracture test: takes the stress at every step, keeps the curve at fewer strains, the
-/// area under it, and judges peak and separation on means over time so that ringing ends no test. Memory is taken at
-/// the start.
+/// The load cell's record of a fracture test: takes the stress at every step, keeps the curve at fewer strains and the
+/// area under it, and finds peak and separation on means over time, so that ringing ends no test. Memory is allocated
+/// at the start.
 class FractureRecord {
  public:
-  struct Plan {
+  struct Sampling {
     double strain_per_step = 0.0;
     int steps_per_sample = 1;  ///< a sample of the curve is the mean over so many steps
     int transit_steps = 1;     ///< steps in which an elastic wave runs once along the specimen
     double strain_limit = 0.0;
   };
-  explicit FractureRecord(const Plan& plan);
+  explicit FractureRecord(const Sampling& sampling);
 
   void add(double strain, double stress_pa);
 
@@ -46,7 +46,7 @@ class FractureRecord {
   };
   void close_sample();
 
-  Plan plan_;
+  Sampling sampling_;
   MovingMean transit_, quarter_;
   Curve curve_;
   double last_strain_ = 0.0, last_stress_pa_ = 0.0;

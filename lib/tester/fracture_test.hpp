@@ -1,10 +1,10 @@
 #pragma once
-// The toughness test taken apart: the notched specimen with its loading and its numerics, and the run of it.
-// test_toughness() is both in one; verification changes the parts in between.
+// The toughness test in two parts: the notched specimen with its loading and discretisation, and the test itself.
+// test_toughness() does both; verification changes the specimen in between.
 
 #include "fem/explicit_solver.hpp"
 #include "tester/fidelity.hpp"
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::tester {
 
@@ -26,8 +26,8 @@ template <class Real>
 struct MountedSpecimen {
   fem::ExplicitSolver<Real> solver;
   double rest_strain = 0.0;
-  /// Strain of the grips as the machine counts it.
-  double shown(double strain) const { return (strain - rest_strain) / (1.0 + rest_strain); }
+  /// Strain of the grips, from where they carry no force.
+  double grip_strain(double strain) const { return (strain - rest_strain) / (1.0 + rest_strain); }
 };
 
 /// Mounts the specimen of a test; one whose material shrank has come to rest before. Error: what the solver refuses.

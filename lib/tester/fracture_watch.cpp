@@ -63,7 +63,7 @@ void FractureWatch::add_breaks(std::vector<int> elements) {
 
 Result<ToughnessResult> FractureWatch::take() {
   if (result_.end == EndReason::step_limit)
-    return fail("toughness tester: no end after {} steps, at strain {:.3g}: a law as stiff as this needs shorter ones",
+    return fail("toughness tester: no end after {} steps, at strain {:.3g}: so stiff a law needs shorter steps",
                 thesis::kStepLimit.value, result_.failure_strain);
   result_.toughness_pa = record_.toughness_pa();
   result_.peak_stress_pa = record_.peak_stress_pa();

@@ -1,5 +1,5 @@
 #pragma once
-// Who watches a fracture test, whatever pulls the specimen: keeps its record and says when it is over.
+// Keeps the record of a fracture test, whichever solver pulls the specimen, and decides when it is over.
 
 #include <cstdint>
 #include <vector>
@@ -13,13 +13,13 @@ class FractureWatch {
  public:
   explicit FractureWatch(const FractureTest& test);
 
-  /// One step: the strain as the machine counts it, the mean stress of both grips, and the number of steps so far. True
-  /// when the test is over with it.
+  /// One step: the strain of the grips, the mean stress of both, and the number of steps so far. True when it ends the
+  /// test.
   bool add(double strain, double stress_pa, std::int64_t steps);
   /// Elements that failed in the step added last; call before the next one.
   void add_breaks(std::vector<int> elements);
-  /// The result but for its frames. Only once the test is over. Error: it has taken too many steps, its area so far
-  /// says nothing.
+  /// The result but for its frames. Only once the test is over. Error: too many steps, so that the area so
+  /// far is meaningless.
   Result<ToughnessResult> take();
 
  private:

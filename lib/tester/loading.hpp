@@ -1,5 +1,5 @@
 #pragma once
-// How a coupon is pulled.
+// The loading programme of a coupon.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace nacre::tester {
 
-/// On and on, or from no strain to one nominal strain after another: where the next is smaller, the coupon is unloaded.
+/// Monotonic, or from zero to one nominal strain after another: where the next is smaller, the coupon is unloaded.
 struct Loading {
   std::vector<double> turns;  ///< strains; empty: monotonic
   bool operator==(const Loading&) const = default;

@@ -1,9 +1,10 @@
+#include "tester/modulus.hpp"
+
 #include "fem/static_solver.hpp"
 #include "material/extended_law.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fidelity.hpp"
 #include "tester/modulus_explicit.hpp"
-#include "tester/tester.hpp"
 #include "tester/usable.hpp"
 #include "thesis/constants.hpp"
 

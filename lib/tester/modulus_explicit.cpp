@@ -8,7 +8,7 @@
 namespace nacre::tester {
 namespace {
 
-/// Steps over which a specimen is judged to be at rest: 0.1 ms, in which motion that is not overdamped decays by e^-5
+/// Steps over which a specimen must be at rest: 0.1 ms, in which motion that is not overdamped decays by e^-5
 /// at gamma = 1e5 /s, so that an oscillation cannot pass for rest.
 constexpr int kRestSteps = 1000;
 constexpr int kMostSteps = 1'000'000;

@@ -1,11 +1,11 @@
 #pragma once
-// The slopes of a modulus for the price of one solution. In equilibrium the elastic energy does not change to first
+// The derivatives of a modulus at the cost of one solution. In equilibrium the elastic energy does not change to first
 // order with the displacements (Hellmann-Feynman); so the energy of other constants on the same displacements gives E
 // with an error of second order in their change. A derivative by differences needs no further solution.
 
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/simulation.hpp"
 
 namespace nacre::tester {
 

@@ -1,22 +1,22 @@
+#include "tester/names.hpp"
+
 #include <array>
 #include <utility>
-
-#include "tester/tester.hpp"
 
 namespace nacre::tester {
 namespace {
 
 template <class Value, std::size_t count>
-using Names = std::array<std::pair<Value, std::string_view>, count>;
+using NamesOf = std::array<std::pair<Value, std::string_view>, count>;
 
-constexpr Names<Fidelity, 3> kFidelities = {
+constexpr NamesOf<Fidelity, 3> kFidelities = {
     {{Fidelity::tiny, "tiny"}, {Fidelity::preview, "preview"}, {Fidelity::full, "full"}}};
-constexpr Names<TestKind, 3> kTestKinds = {
+constexpr NamesOf<TestKind, 3> kTestKinds = {
     {{TestKind::modulus, "modulus"}, {TestKind::toughness, "toughness"}, {TestKind::tensile, "tensile"}}};
-constexpr Names<EndReason, 4> kEndReasons = {{{EndReason::stress_drop, "stress_drop"},
-                                              {EndReason::strain_limit, "strain_limit"},
-                                              {EndReason::no_failure, "no_failure"},
-                                              {EndReason::step_limit, "step_limit"}}};
+constexpr NamesOf<EndReason, 4> kEndReasons = {{{EndReason::stress_drop, "stress_drop"},
+                                                {EndReason::strain_limit, "strain_limit"},
+                                                {EndReason::no_failure, "no_failure"},
+                                                {EndReason::step_limit, "step_limit"}}};
 
 template <class Table, class Value>
 std::string_view name_of(const Table& table, Value value) {

@@ -126,7 +126,7 @@ std::vector<Piece> pieces_of(const GrownLayout& grown, int cell, int cells) {
   return pieces;
 }
 
-/// What lies within the interface's reach of a place.
+/// The materials within the interface's reach of a cell.
 struct Surroundings {
   bool rigid = false, soft = false;
   bool mixed() const { return rigid && soft; }

@@ -1,5 +1,5 @@
 #pragma once
-// One unit of a layout as the printer lays it down: which material lies where, before constants are assigned.
+// One unit of a layout as printed: the material of each cell, before constants are assigned.
 
 #include <vector>
 
@@ -25,7 +25,7 @@ struct PrintedUnit {
 PrintedUnit printed_unit(const pattern::Layout& layout);
 
 /// The same with rigid regions grown by `pixels` > 0 on every side, the interface around them keeping its width of half
-/// a pixel; cells that a boundary crosses hold the mean over their area. Goes over into printed_unit() as pixels -> 0.
+/// a pixel; cells that a boundary crosses hold the mean over their area. Tends to printed_unit() as pixels -> 0.
 PrintedUnit overprinted_unit(const pattern::Layout& layout, double pixels, int cells);
 
 /// Rigid fraction of the unit with every cell split into parts x parts: averaged over a square of `blur_pixels` (one

@@ -1,8 +1,9 @@
+#include "tester/simulation_key.hpp"
+
 #include <algorithm>
 
 #include "base/hash.hpp"
 #include "material/extensions.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::tester {
 namespace {
@@ -42,7 +43,7 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
   for (const auto& [name, values] : simulation.parameters.extensions) {
     if (!acts(name, values, kind)) continue;
     text += fmt::format("extension {}{}\n", name, exact_values(values));
-    // The base model feels neither rate nor thickness; of the extensions these two do.
+    // The base model depends on neither rate nor thickness; of the extensions these two do.
     if (name == "rate_dependence")
       text += fmt::format("strain_rate_per_s {}\n", exact(simulation.conditions.strain_rate_per_s));
     if (name == "plane_strain") text += fmt::format("thickness_mm {}\n", exact(simulation.conditions.thickness_mm));
@@ -53,15 +54,15 @@ std::string model_text(const Simulation& simulation, TestKind kind) {
 }  // namespace
 
 std::string simulation_key(const Simulation& simulation, TestKind kind) {
-  // Kept answers to a turned coupon may be those of its layout turned against the pull, as testers once understood it.
+  // Cached results of a turned coupon may be those of its layout turned against the pull, as in earlier versions.
   const bool is_turned_coupon = simulation.conditions.orientation_deg == 90.0 && simulation.design.layout() &&
                                 !simulation.design.layout()->has_eightfold_symmetry();
-  const std::string question =
+  const std::string inputs =
       fmt::format("kernel {}\ntest {}\nfidelity {}\ndesign {}\norientation_deg {}{}\nparameters{}\n{}", kKernelVersion,
                   to_string(kind), to_string(simulation.fidelity), simulation.design.name(),
                   exact(simulation.conditions.orientation_deg), is_turned_coupon ? " with its layout" : "",
                   parameter_text(simulation.parameters, kind), model_text(simulation, kind));
-  return content_hash(question);
+  return content_hash(inputs);
 }
 
 }  // namespace nacre::tester

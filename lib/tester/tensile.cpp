@@ -1,10 +1,11 @@
+#include "tester/tensile.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "material/mixture.hpp"
 #include "material/pulled_bar.hpp"
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
 #include "tester/usable.hpp"
 
 namespace nacre::tester {
@@ -47,7 +48,7 @@ Result<Curve> test_tensile(const Simulation& simulation, const std::vector<doubl
                                                          simulation.parameters.extensions, simulation.conditions);
   const material::Lame lame = material::lame_from_engineering(constants.young_pa, constants.poisson);
   material::LawExtensions extensions = material::law_extensions(simulation.parameters.extensions);
-  extensions.shrinkage = 0.0;  // it shrinks freely, and its measures are taken afterwards
+  extensions.shrinkage = 0.0;  // it shrinks freely, and is measured afterwards
   for (std::size_t i = 0; i < strain_history.size(); ++i)
     if (!(std::isfinite(strain_history[i]) && strain_history[i] > -1.0))
       return fail("tensile tester: strain {} at sample {}, expected a number above -1", strain_history[i], i);

@@ -1,6 +1,6 @@
 #pragma once
-// What elasticity alone says of a pattern: a unit of an endless specimen, pulled. A tenth of the cost of a modulus
-// test and a two thousandth of that of a fracture test at `preview`, so that a search can ask it of every pattern that
+// The elastic response of a pattern alone: a unit of an endless specimen, pulled. A tenth of the cost of a modulus
+// test and a two thousandth of that of a fracture test at `preview`, so that a search can use it for every pattern that
 // it visits.
 
 #include <array>

@@ -17,7 +17,7 @@ std::string simulation_fault(const Simulation& simulation, TestKind kind) {
     return fmt::format("strain rate {} /s, expected a number above 0", conditions.strain_rate_per_s);
   if (!positive(conditions.thickness_mm))
     return fmt::format("thickness {} mm, expected a number above 0", conditions.thickness_mm);
-  // Only the parameters of the test that is run need to be usable: a file may hold one table alone.
+  // Only the parameters of the test that is run must be usable: a file may hold one table alone.
   material::ParameterSet needed = material::default_parameters();
   needed.extensions = simulation.parameters.extensions;
   if (kind == TestKind::toughness)

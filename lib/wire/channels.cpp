@@ -55,7 +55,7 @@ std::vector<Channel> make_channels() {
       domain_channel<DiagnoseRequest>("DIAGNOSE", {"analyser"}),
       type_channel<diagnosis_t>("DIAGNOSIS", {"validation_agent", "proposal_agent"}),
       domain_channel<RoundSummary>("ROUND", everyone),
-      domain_channel<Family>("FAMILY", {"analyser"}),
+      domain_channel<CalibratedFamily>("FAMILY", {"analyser"}),
       domain_channel<FamilyGamut>("FAMILY_GAMUT", {"analyser"}),
       type_channel<ack_t>("ACK", everyone, false),
       type_channel<node_status_t>("STATUS", everyone, false),
@@ -113,16 +113,16 @@ std::string request_id_of(std::string_view channel, std::string_view payload) {
     const Result<simulate_request_t> request = decode_safe<simulate_request_t>(payload);
     if (request) return request->request_id;
   } else if (channel == "SIMULATED") {
-    const Result<simulate_result_t> answer = decode_safe<simulate_result_t>(payload);
-    if (answer) return answer->request_id;
+    const Result<simulate_result_t> response = decode_safe<simulate_result_t>(payload);
+    if (response) return response->request_id;
   } else if (channel == "FRACTURE") {
-    const Result<fracture_t> answer = decode_safe<fracture_t>(payload);
-    if (answer) return answer->request_id;
+    const Result<fracture_t> response = decode_safe<fracture_t>(payload);
+    if (response) return response->request_id;
   }
   return {};
 }
 
-bool is_answer(std::string_view channel) {
+bool is_response(std::string_view channel) {
   const Channel* known = find_channel(channel);
   return known != nullptr && contains(known->receivers, kRequester);
 }

@@ -22,7 +22,7 @@ struct Channel {
   std::string_view type;
   std::int64_t fingerprint = 0;
   std::vector<std::string_view> receivers;  ///< node names, kEveryNode or kRequester
-  bool reliable = false;                    ///< repeated until every receiver that takes part has acknowledged
+  bool reliable = false;                    ///< repeated until every receiver in the run has acknowledged
   bool synced = false;                      ///< acknowledged only when on disk
   /// Everything that can be wrong with a payload: structure, finite numbers, enumerations, physical ranges, design
   /// names.
@@ -42,15 +42,15 @@ bool listens(const Channel& channel, std::string_view node);
 std::vector<std::string> receivers_of(const Channel& channel, std::string_view payload,
                                       std::span<const std::string> participants, std::string_view sender);
 
-/// Whether this very message is meant for `node`: as listens(), and for a requester's channel the request must be the
+/// Whether this message is meant for `node`: as listens(), and for a requester's channel the request must be the
 /// node's own.
 bool is_meant_for(const Channel& channel, std::string_view payload, std::string_view node);
 
 /// Whether a message may be sent: the channel exists, the payload is valid and leaves room for the header.
 Result<void> check_outgoing(std::string_view channel, std::string_view payload);
 
-/// Whether the messages of a channel answer a request, and go to the node that asked it.
-bool is_answer(std::string_view channel);
+/// Whether the messages of a channel are responses to requests, and go to the requester.
+bool is_response(std::string_view channel);
 
 /// The request that a SIMULATE, SIMULATED or FRACTURE message belongs to; empty for other channels.
 std::string request_id_of(std::string_view channel, std::string_view payload);
@@ -58,7 +58,7 @@ std::string request_id_of(std::string_view channel, std::string_view payload);
 /// The name before the first '/' of a request id; empty when there is none.
 std::string_view requester_of(std::string_view request_id);
 
-/// A request id without the hash that with_content_id() puts behind it: what the request was asked for.
+/// A request id without the hash that with_content_id() appends: the purpose of the request.
 std::string place_of(std::string_view request_id);
 
 }  // namespace nacre::wire

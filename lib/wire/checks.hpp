@@ -10,7 +10,6 @@
 #include "base/result.hpp"
 #include "measurement/limits.hpp"
 #include "pattern/design.hpp"
-#include "tester/tester.hpp"
 
 namespace nacre::wire {
 

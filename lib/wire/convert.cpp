@@ -196,23 +196,23 @@ SimulateRequest with_content_id(SimulateRequest request) {
   return request;
 }
 
-std::vector<SimulateResult> simulate_answer(const std::string& request_id,
-                                            const std::vector<SimulatedDesign>& results) {
+std::vector<SimulateResult> simulate_response(const std::string& request_id,
+                                              const std::vector<SimulatedDesign>& results) {
   constexpr std::size_t kRoom = kMaximumBlankPayload - 500;  // the message's own members
-  std::vector<SimulateResult> answer;
+  std::vector<SimulateResult> response;
   std::size_t filled = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const simulated_t message = to_wire(results[i]);
     const std::size_t size = static_cast<std::size_t>(message.getEncodedSize());
-    if (answer.empty() || filled + size > kRoom) {
-      answer.push_back({request_id, static_cast<int>(answer.size()), 1, static_cast<int>(i), {}});
+    if (response.empty() || filled + size > kRoom) {
+      response.push_back({request_id, static_cast<int>(response.size()), 1, static_cast<int>(i), {}});
       filled = 0;
     }
     filled += size;
-    answer.back().results.push_back(results[i]);
+    response.back().results.push_back(results[i]);
   }
-  for (SimulateResult& part : answer) part.chunks = static_cast<int>(answer.size());
-  return answer;
+  for (SimulateResult& part : response) part.chunks = static_cast<int>(response.size());
+  return response;
 }
 
 std::optional<std::vector<SimulatedDesign>> ResponseCollector::add(SimulateResult part) {

@@ -14,11 +14,10 @@
 #include "explore/search.hpp"
 #include "game/family_errors.hpp"
 #include "material/parameters.hpp"
-#include "measurement/measurement.hpp"
 #include "pattern/design.hpp"
-#include "sysid/calibration.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/provenance.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
 #include "wire/codec.hpp"
 
 namespace nacre::wire {
@@ -43,7 +42,7 @@ struct AdoptedModel {
 };
 
 /// SIMULATE: designs to simulate with one parameter set. `request_id` starts with the requester's node name and a '/',
-/// and ends in the hash of what is asked (with_content_id()).
+/// and ends in the hash of its content (with_content_id()).
 struct SimulateRequest {
   using Wire = simulate_request_t;
   std::string request_id;
@@ -59,7 +58,7 @@ struct SimulateRequest {
   bool operator==(const SimulateRequest&) const = default;
 };
 
-/// What the farm says about one design.
+/// The farm's result for one design.
 struct SimulatedDesign {
   pattern::Design design;
   std::string failure;  ///< empty, or why there is no number
@@ -71,8 +70,8 @@ struct SimulatedDesign {
   bool operator==(const SimulatedDesign&) const = default;
 };
 
-/// SIMULATED: part of the answer to a request. simulate_answer() cuts a whole answer into messages, ResponseCollector
-/// joins them.
+/// SIMULATED: part of the response to a request. simulate_response() cuts a whole response into messages,
+/// ResponseCollector joins them.
 struct SimulateResult {
   using Wire = simulate_result_t;
   std::string request_id;
@@ -89,9 +88,9 @@ struct Fracture {
   std::string request_id;
   int design_index = 0;  ///< among the request's designs
   pattern::Design design;
-  crack::Record crack;  ///< of its order, a message keeps the first kMaximumBreaks
-  int broken = 0;       ///< elements that failed
-  std::string film;     ///< file in RUN/films; empty when none was asked for, or none shows this fracture
+  crack::CrackRecord crack;  ///< of its order, a message keeps the first kMaximumBreaks
+  int broken = 0;            ///< elements that failed
+  std::string film;          ///< file in RUN/films; empty when none was asked for, or none shows this fracture
   bool operator==(const Fracture&) const = default;
 };
 
@@ -166,7 +165,7 @@ struct DiagnoseRequest {
 inline constexpr std::size_t kMostFamilyDesigns = 500;  ///< of a message below 60 kB
 
 /// FAMILY: a family of the stage after the game (thesis 2.4.1).
-struct Family {
+struct CalibratedFamily {
   using Wire = family_t;
   int round = 0;  ///< that its designs are ordered in
   tester::Fidelity fidelity = tester::Fidelity::full;
@@ -178,7 +177,7 @@ struct Family {
   int simulations = 0;                      ///< spent on its calibration
   int samples = 0;                          ///< patterns simulated around the seeds
   std::vector<game::FamilyDesign> designs;  ///< seeds, then chosen ones; at most kMostFamilyDesigns
-  bool operator==(const Family&) const = default;
+  bool operator==(const CalibratedFamily&) const = default;
 };
 
 /// FAMILY_GAMUT: one chunk of a family's variants.
@@ -223,8 +222,8 @@ simulate_result_t to_wire(const SimulateResult& result);
 fracture_t to_wire(const Fracture& fracture);
 Result<Fracture> from_wire(const fracture_t& message);
 Result<SimulateResult> from_wire(const simulate_result_t& message);
-family_t to_wire(const Family& family);
-Result<Family> from_wire(const family_t& message);
+family_t to_wire(const CalibratedFamily& family);
+Result<CalibratedFamily> from_wire(const family_t& message);
 family_gamut_t to_wire(const FamilyGamut& gamut);
 Result<FamilyGamut> from_wire(const family_gamut_t& message);
 gamut_t to_wire(const GamutChunk& chunk);
@@ -268,12 +267,13 @@ Result<Domain> read(std::string_view payload) {
 }
 
 /// The request under an id of its own: `analyser/r1/films` becomes `analyser/r1/films#0123456789abcdef`, the hash of
-/// all that is asked. A requester that begins anew may come to ask something else at the same place; what it asked
-/// there before is answered under an id that it does not know, and never taken for the answer.
+/// all that is requested. A restarted requester may come to request something else at the same place; the response to
+/// its earlier request has an id that it does not know, and is never taken for the new one's.
 SimulateRequest with_content_id(SimulateRequest request);
 
-/// The answer to a request as messages below kMaximumPayload. `results` stand in the order of the request's designs.
-std::vector<SimulateResult> simulate_answer(const std::string& request_id, const std::vector<SimulatedDesign>& results);
+/// The response to a request as messages below kMaximumPayload. `results` stand in the order of the request's designs.
+std::vector<SimulateResult> simulate_response(const std::string& request_id,
+                                              const std::vector<SimulatedDesign>& results);
 
 /// Cuts a gamut into chunks of at most kGamutChunk samples; an empty gamut is one empty chunk.
 std::vector<GamutChunk> gamut_chunks(int round, tester::Fidelity fidelity, std::span<const explore::Evaluated> samples);
@@ -282,10 +282,10 @@ std::vector<GamutChunk> gamut_chunks(int round, tester::Fidelity fidelity, std::
 std::vector<FamilyGamut> family_gamut_chunks(int number, tester::Fidelity fidelity,
                                              std::span<const explore::Evaluated> samples);
 
-/// Joins the chunks of answers to requests, in any order and any number of times.
+/// Joins the chunks of responses, in any order and any number of times.
 class ResponseCollector {
  public:
-  /// The whole answer when this chunk completes it (once), nothing otherwise.
+  /// The whole response when this chunk completes it (once), nothing otherwise.
   std::optional<std::vector<SimulatedDesign>> add(SimulateResult part);
 
  private:

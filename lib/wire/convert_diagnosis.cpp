@@ -1,4 +1,4 @@
-// DIAGNOSE and DIAGNOSIS: what is asked of a diagnosis, and what it may answer.
+// Part of the conversions (convert.hpp): DIAGNOSE and DIAGNOSIS.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 namespace nacre::wire {
 namespace {
 
-/// Any name will do: the validation agent says that it does not know an effect, and the game goes on.
+/// Any name will do: the validation agent reports an effect that it does not know, and the game goes on.
 Result<void> check(const effect_t& effect) {
   return all_of(expect_name("effect", effect.name), expect_finite("parameter", effect.parameter),
                 expect_finite("interval_low", effect.interval_low),

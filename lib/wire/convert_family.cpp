@@ -1,4 +1,4 @@
-// Conversions of FAMILY.
+// Part of the conversions (convert.hpp): FAMILY and FAMILY_GAMUT.
 
 #include "wire/checks.hpp"
 #include "wire/convert.hpp"
@@ -39,7 +39,7 @@ Result<FamilyDesign> design_of(const family_design_t& message) {
 
 }  // namespace
 
-family_t to_wire(const Family& family) {
+family_t to_wire(const CalibratedFamily& family) {
   family_t message{};
   message.round = family.round;
   message.fidelity = to_wire(family.fidelity);
@@ -54,7 +54,7 @@ family_t to_wire(const Family& family) {
   return message;
 }
 
-Result<Family> from_wire(const family_t& message) {
+Result<CalibratedFamily> from_wire(const family_t& message) {
   constexpr std::string_view type = "family_t";
   const Result<void> sound =
       all_of(expect_round(message.round), expect_range("count", message.count, 1, 1000),
@@ -67,16 +67,16 @@ Result<Family> from_wire(const family_t& message) {
   if (!fidelity) return in_type(type, fidelity.error());
   const Result<material::ParameterSet> parameters = from_wire(message.parameters);
   if (!parameters) return in_type(type, parameters.error());
-  Family family{.round = message.round,
-                .fidelity = *fidelity,
-                .number = message.number,
-                .count = message.count,
-                .name = message.name,
-                .is_validated = message.is_validated != 0,
-                .parameters = *parameters,
-                .simulations = message.simulations,
-                .samples = message.samples,
-                .designs = {}};
+  CalibratedFamily family{.round = message.round,
+                          .fidelity = *fidelity,
+                          .number = message.number,
+                          .count = message.count,
+                          .name = message.name,
+                          .is_validated = message.is_validated != 0,
+                          .parameters = *parameters,
+                          .simulations = message.simulations,
+                          .samples = message.samples,
+                          .designs = {}};
   for (const family_design_t& each : message.designs) {
     const Result<FamilyDesign> design = design_of(each);
     if (!design) return in_type(type, design.error());

@@ -1,3 +1,5 @@
+// Part of the conversions (convert.hpp): FRACTURE.
+
 #include <algorithm>
 
 #include "wire/channels.hpp"
@@ -19,7 +21,7 @@ Result<void> expect_elements(std::string_view member, const std::vector<std::int
   return {};
 }
 
-Result<crack::Path> path_from_wire(const fracture_t& message) {
+Result<crack::CrackPath> path_from_wire(const fracture_t& message) {
   const double shares = message.material_share[0] + message.material_share[1] + message.material_share[2];
   const Result<void> sound =
       all_of(expect_range("straight_length_m", message.straight_length_m, 1e-9, kLargestLength),
@@ -32,17 +34,17 @@ Result<crack::Path> path_from_wire(const fracture_t& message) {
              expect_range("n_path", message.n_path, 1, static_cast<double>(kMaximumPath)),
              expect_elements("path", message.path, message.columns * message.rows));
   if (!sound) return tl::unexpected(sound.error());
-  crack::Path path{.elements = {message.path.begin(), message.path.end()},
-                   .length_m = message.length_m,
-                   .straight_length_m = message.straight_length_m,
-                   .bridged_share = message.bridged_share,
-                   .material = {},
-                   .crosses = message.crosses != 0};
+  crack::CrackPath path{.elements = {message.path.begin(), message.path.end()},
+                        .length_m = message.length_m,
+                        .straight_length_m = message.straight_length_m,
+                        .bridged_share = message.bridged_share,
+                        .material = {},
+                        .crosses = message.crosses != 0};
   std::ranges::copy(message.material_share, path.material.begin());
   return path;
 }
 
-void add_path(fracture_t& message, const crack::Path& path) {
+void add_path(fracture_t& message, const crack::CrackPath& path) {
   message.has_path = 1;
   message.crosses = path.crosses;
   message.length_m = path.length_m;
@@ -119,7 +121,7 @@ Result<Fracture> from_wire(const fracture_t& message) {
   fracture.crack.branches = message.branches;
   fracture.crack.separate_cracks = message.separate_cracks;
   if (message.has_path != 0) {
-    Result<crack::Path> path = path_from_wire(message);
+    Result<crack::CrackPath> path = path_from_wire(message);
     if (!path) return fail("{}: {}", type, path.error().message);
     fracture.crack.path = *std::move(path);
   }

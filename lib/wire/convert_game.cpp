@@ -1,9 +1,10 @@
-// Conversions of the messages in which the agents speak of the game: gamuts, proposals, orders, measurements,
-// rounds.
+// Part of the conversions (convert.hpp): the messages of the game, which are gamuts, proposals, orders, measurements
+// and rounds.
 
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/specimen_checks.hpp"
 #include "wire/checks.hpp"
 #include "wire/convert.hpp"
 
@@ -11,7 +12,7 @@ namespace nacre::wire {
 namespace {
 
 // Nothing that is measured within measurement::kModulusPa and kToughnessPa exceeds these: an agent whose own message is
-// refused cannot go on. GPa MPa; and the most that a tester may answer, over the least that a specimen may have.
+// refused cannot go on. GPa MPa; and the most that a tester may return, over the least that a specimen may have.
 constexpr double kLargestArea = 1e13;
 constexpr double kLargestError = kLargestPressurePa / measurement::kToughnessPa.least;
 

@@ -1,4 +1,4 @@
-// Conversions of PARAMETERS: the model that the validation agent adopted, and where it comes from.
+// Part of the conversions (convert.hpp): PARAMETERS, the model that the validation agent adopted, and its provenance.
 
 #include "wire/checks.hpp"
 #include "wire/convert.hpp"

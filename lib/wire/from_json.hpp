@@ -1,5 +1,5 @@
 #pragma once
-// The way back from schema.hpp's to_json: messages that people or files wrote down.
+// The inverse of schema.hpp's to_json: messages from people or files.
 
 #include <string>
 #include <string_view>

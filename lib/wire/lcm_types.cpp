@@ -13,8 +13,7 @@ constexpr const char* kLcmFiles[] = {
 #include "lcm_files.inc"
 };
 
-// ---- Reading the .lcm files
-// -------------------------------------------------------------------------------------------
+// ---- Reading the .lcm files ----
 
 /// The words and signs of a .lcm file without comments.
 std::vector<std::string> tokens_of(std::string_view text) {

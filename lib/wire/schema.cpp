@@ -10,8 +10,7 @@
 namespace nacre::wire {
 namespace {
 
-// ---- Walking over bytes
-// -----------------------------------------------------------------------------------------------
+// ---- Walking over bytes ----
 
 /// Where a walk stands: names and indices from the top, made into "designs[3].modulus_pa" only when asked for.
 struct Place {
@@ -179,8 +178,7 @@ Result<void> walk(std::string_view type, std::string_view payload, Visitor& visi
   return {};
 }
 
-// ---- What is made of a walk
-// -------------------------------------------------------------------------------------------
+// ---- Visitors ----
 
 /// Builds the JSON value of what it is shown.
 class JsonBuilder : public Visitor {

@@ -6,9 +6,11 @@
 
 #include <fmt/ranges.h>
 
+#include "analyser/diagnosis_work.hpp"
 #include "analyser/works.hpp"
+#include "base/counted.hpp"
 #include "base/hash.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/modulus_floor.hpp"
 #include "game/model.hpp"
 #include "game/starting_point.hpp"
 #include "wire/channels.hpp"
@@ -48,29 +50,29 @@ void AnalyserCore::accept_message(const runtime::Message& message) {
   if (message.channel == "PARAMETERS") {
     const auto model = wire::read<wire::AdoptedModel>(message.payload);
     models_.emplace(model->round, *model);
-    ask_about_measured_designs();
-    ask_for_films();
+    request_measured_designs();
+    request_films();
   } else if (message.channel == "PROPOSAL") {
     const auto proposal = wire::read<wire::Proposal>(message.payload);
     // Tiny specimens are for processes: nobody looks at them.
     if (scenario_.fidelity != tester::Fidelity::tiny && proposed_.insert(proposal->round).second) {
       std::vector<pattern::Design>& designs = unfilmed_[proposal->round];
       for (const wire::ProposedDesign& proposed : proposal->designs) designs.push_back(proposed.design);
-      ask_for_films();
+      request_films();
     }
   } else if (message.channel == "FAMILY") {
-    const auto family = wire::read<wire::Family>(message.payload);
+    const auto family = wire::read<wire::CalibratedFamily>(message.payload);
     if (scenario_.fidelity != tester::Fidelity::tiny && filmed_families_.insert(family->number).second) {
       std::vector<pattern::Design> designs;
       for (const game::FamilyDesign& each : family->designs) designs.emplace_back(each.pattern);
-      ask_for_films_of(fmt::format("family{}", family->number), family->parameters, designs);
+      request_films_of(fmt::format("family{}", family->number), family->parameters, designs);
     }
   } else if (message.channel == "MEASUREMENT") {
     accept_measurement(message.payload);
   } else if (message.channel == "DIAGNOSE") {
-    accept_question(*wire::read<wire::DiagnoseRequest>(message.payload));
+    accept_request(*wire::read<wire::DiagnoseRequest>(message.payload));
   } else if (message.channel == "SIMULATED") {
-    accept_answer(*wire::read<wire::SimulateResult>(message.payload));
+    accept_response(*wire::read<wire::SimulateResult>(message.payload));
   } else if (message.channel == "FRACTURE") {
     accept_fracture(*wire::read<wire::Fracture>(message.payload));
   } else if (message.channel == "ROUND") {
@@ -97,7 +99,7 @@ void AnalyserCore::store(const std::string& channel, const std::string& payload)
   if (last_) report_due_ = round_;  // the game is over: no later round would show it
 }
 
-void AnalyserCore::accept_question(const wire::DiagnoseRequest& request) {
+void AnalyserCore::accept_request(const wire::DiagnoseRequest& request) {
   if (!diagnosed_.insert(request.round).second) return;
   waiting_diagnosis_ = request;
   phase_ = fmt::format("diagnosing round {}", request.round);
@@ -138,7 +140,7 @@ void AnalyserCore::close_round(const wire::RoundSummary& round) {
   last_ = last_ || round.last;
   report_due_ = round_;
   phase_ = fmt::format("reporting round {}", round.round);
-  ask_about_measured_designs();
+  request_measured_designs();
   report_when_ready();
 }
 
@@ -152,14 +154,14 @@ void AnalyserCore::accept_measurement(const std::string& payload) {
     const auto known =
         measured_designs_.try_emplace(measured->record.design.name(), MeasuredDesign{measured->record.design, round});
     known.first->second.round = std::min(known.first->second.round, round);
-    ask_about_measured_designs();
+    request_measured_designs();
   }
   diagnose_when_complete();
 }
 
-/// The model of a closed round is asked about what was measured up to that round, whichever of the three comes last:
+/// What was measured up to a closed round is simulated with the model of that round, whichever of the three comes last:
 /// what is simulated must not depend on the order of arrival.
-void AnalyserCore::ask_about_measured_designs() {
+void AnalyserCore::request_measured_designs() {
   for (const int round : closed_) {
     const auto model = models_.find(round);
     if (model == models_.end()) continue;  // still on its way
@@ -178,31 +180,31 @@ void AnalyserCore::ask_about_measured_designs() {
       request.curve_points = kCurvePoints;
       request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
                              designs.begin() + static_cast<std::ptrdiff_t>(end));
-      ask(std::move(request));
+      send_request(std::move(request));
     }
   }
 }
 
-void AnalyserCore::ask(wire::SimulateRequest request) {
+void AnalyserCore::send_request(wire::SimulateRequest request) {
   request = wire::with_content_id(std::move(request));
-  open_answers_[request.request_id].with_fractures = request.crack || request.film;
+  open_responses_[request.request_id].with_fractures = request.crack || request.film;
   finished_ = false;
   outputs_.messages.push_back({"SIMULATE", wire::write(request)});
 }
 
-void AnalyserCore::ask_for_films() {
+void AnalyserCore::request_films() {
   for (auto proposal = unfilmed_.begin(); proposal != unfilmed_.end();) {
     const auto model = models_.find(proposal->first);
     if (model == models_.end()) {  // still on its way
       ++proposal;
       continue;
     }
-    ask_for_films_of(fmt::format("r{}", proposal->first), model->second.parameters, proposal->second);
+    request_films_of(fmt::format("r{}", proposal->first), model->second.parameters, proposal->second);
     proposal = unfilmed_.erase(proposal);
   }
 }
 
-void AnalyserCore::ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
+void AnalyserCore::request_films_of(const std::string& whose, const material::ParameterSet& model,
                                     const std::vector<pattern::Design>& designs) {
   for (std::size_t first = 0; first < designs.size(); first += wire::kMaximumDesigns) {
     const std::size_t end = std::min(designs.size(), first + wire::kMaximumDesigns);
@@ -214,38 +216,39 @@ void AnalyserCore::ask_for_films_of(const std::string& whose, const material::Pa
     request.parameters = game::material_side(model);
     request.designs.assign(designs.begin() + static_cast<std::ptrdiff_t>(first),
                            designs.begin() + static_cast<std::ptrdiff_t>(end));
-    ask(std::move(request));
+    send_request(std::move(request));
   }
 }
 
-void AnalyserCore::accept_answer(const wire::SimulateResult& part) {
-  const auto open = open_answers_.find(part.request_id);
-  if (open == open_answers_.end()) return;
-  OpenResponse& answer = open->second;
-  answer.chunks = static_cast<std::size_t>(part.chunks);
-  answer.chunk.insert(part.chunk);
+void AnalyserCore::accept_response(const wire::SimulateResult& part) {
+  const auto open = open_responses_.find(part.request_id);
+  if (open == open_responses_.end()) return;
+  OpenResponse& response = open->second;
+  response.chunks = static_cast<std::size_t>(part.chunks);
+  response.chunk.insert(part.chunk);
   for (std::size_t i = 0; i < part.results.size(); ++i)
-    if (part.results[i].failure.empty()) answer.broke.insert(static_cast<std::size_t>(part.first) + i);
+    if (part.results[i].failure.empty()) response.broke.insert(static_cast<std::size_t>(part.first) + i);
   close_when_complete(part.request_id);
 }
 
 void AnalyserCore::accept_fracture(const wire::Fracture& fracture) {
-  const auto open = open_answers_.find(fracture.request_id);
-  if (open == open_answers_.end()) return;
+  const auto open = open_responses_.find(fracture.request_id);
+  if (open == open_responses_.end()) return;
   open->second.fracture.insert(static_cast<std::size_t>(fracture.design_index));
   close_when_complete(fracture.request_id);
 }
 
 void AnalyserCore::close_when_complete(const std::string& request_id) {
-  const auto open = open_answers_.find(request_id);
-  const OpenResponse& answer = open->second;
-  const bool numbers = answer.chunks > 0 && answer.chunk.size() == answer.chunks;
-  if (numbers && (!answer.with_fractures || answer.fracture.size() >= answer.broke.size())) open_answers_.erase(open);
+  const auto open = open_responses_.find(request_id);
+  const OpenResponse& response = open->second;
+  const bool numbers = response.chunks > 0 && response.chunk.size() == response.chunks;
+  if (numbers && (!response.with_fractures || response.fracture.size() >= response.broke.size()))
+    open_responses_.erase(open);
 }
 
 void AnalyserCore::report_when_ready() {
   const bool all_asked = std::ranges::all_of(closed_, [&](int round) { return models_.contains(round); });
-  const bool all_known = storing_.empty() && all_asked && open_answers_.empty();
+  const bool all_known = storing_.empty() && all_asked && open_responses_.empty();
   if (!report_due_ || reporting_ || !all_known) return;
   outputs_.computes.push_back({.id = fmt::format("report/r{}/{}", *report_due_, ++reports_),
                                .kind = "report",
@@ -266,11 +269,11 @@ void AnalyserCore::accept_work(const runtime::WorkDone& work) {
       outputs_.messages.push_back({"DIAGNOSIS", work.result});
       store("DIAGNOSIS", work.result);
     }
-    phase_ = "following the game";
+    phase_ = "idle";
   } else if (work.id.starts_with("report/")) {
     reporting_ = false;
     outputs_.log.push_back({runtime::LogLevel::info, work.result});
-    phase_ = last_ ? "the report is complete" : "following the game";
+    phase_ = last_ ? "the report is complete" : "idle";
     finished_ = last_ && !report_due_;
   }
   report_when_ready();
@@ -278,15 +281,16 @@ void AnalyserCore::accept_work(const runtime::WorkDone& work) {
 
 runtime::Status AnalyserCore::status() const {
   std::string phase = phase_;
-  if (waiting_diagnosis_) {  // and waits for ever where nobody repeats what it has not got: say what that is
+  if (waiting_diagnosis_) {  // and waits for ever where nobody sends the missing ones again: name them
     constexpr std::size_t kNamed = 3;
     std::vector<std::string> missing = missing_specimens();
-    if (missing.size() > kNamed) {
+    const std::size_t count = missing.size();
+    if (count > kNamed) {
       missing.resize(kNamed);
       missing.emplace_back("...");
     }
-    phase =
-        fmt::format("waiting for specimens {} of {}", fmt::join(missing, ", "), waiting_diagnosis_->specimens.size());
+    phase = fmt::format("waiting for measurements of {} of {}: {}", count,
+                        counted(std::ssize(waiting_diagnosis_->specimens), "specimen"), fmt::join(missing, ", "));
   }
   return {.phase = std::move(phase), .round = round_, .progress = -1.0, .finished = finished_};
 }

@@ -15,13 +15,13 @@
 
 namespace nacre::analyser {
 
-/// Points of the simulated curves shown beside measured ones.
+/// Points of the simulated curves shown with measured ones.
 inline constexpr int kCurvePoints = 64;
 
-/// Keeps every message of the game in run.db (Compute kind "store"), answers DIAGNOSE with DIAGNOSIS (kind "diagnose")
-/// once all measurements meant have arrived, asks the farm at the end of each round what the round's model says about
-/// the measured designs, and of proposed designs and those of families how they break (films in RUN/films), and then
-/// has the report written (kind "report"). See works.hpp.
+/// Keeps every message of the game in run.db (Compute kind "store"), responds to DIAGNOSE with DIAGNOSIS (kind
+/// "diagnose") once all measurements meant have arrived, has the farm simulate at the end of each round the measured
+/// designs with the round's model, and the fracture of proposed designs and those of families (films in RUN/films), and
+/// then has the report written (kind "report"). See works.hpp.
 class AnalyserCore : public runtime::NodeCore {
  public:
   AnalyserCore(const game::Scenario& scenario, const material::ParameterRanges& ranges,
@@ -32,8 +32,8 @@ class AnalyserCore : public runtime::NodeCore {
  private:
   void accept_message(const runtime::Message& message);
   void accept_work(const runtime::WorkDone& work);
-  void accept_question(const wire::DiagnoseRequest& request);
-  void accept_answer(const wire::SimulateResult& part);
+  void accept_request(const wire::DiagnoseRequest& request);
+  void accept_response(const wire::SimulateResult& part);
   void accept_fracture(const wire::Fracture& fracture);
   void store(const std::string& channel, const std::string& payload);
   std::vector<std::string> missing_specimens() const;
@@ -41,11 +41,11 @@ class AnalyserCore : public runtime::NodeCore {
   void close_round(const wire::RoundSummary& round);
   bool is_of_this_game(const std::string& measurement);
   void accept_measurement(const std::string& payload);
-  void ask_about_measured_designs();
-  void ask_for_films();
-  void ask_for_films_of(const std::string& whose, const material::ParameterSet& model,
+  void request_measured_designs();
+  void request_films();
+  void request_films_of(const std::string& whose, const material::ParameterSet& model,
                         const std::vector<pattern::Design>& designs);
-  void ask(wire::SimulateRequest request);
+  void send_request(wire::SimulateRequest request);
   void close_when_complete(const std::string& request_id);
   void report_when_ready();
 
@@ -71,7 +71,7 @@ class AnalyserCore : public runtime::NodeCore {
   std::set<int> proposed_;                                  // rounds
   std::map<int, std::vector<pattern::Design>> unfilmed_;    // proposals whose films have not been asked for, by round
   std::set<int> filmed_families_;                           // by number
-  /// What has come of the answer to a request.
+  /// What has come of the responses to a request.
   struct OpenResponse {
     bool with_fractures = false;
     std::size_t chunks = 0;  ///< in all; 0 before the first has come
@@ -79,14 +79,14 @@ class AnalyserCore : public runtime::NodeCore {
     std::set<std::size_t> broke;     ///< designs that a FRACTURE is sent for
     std::set<std::size_t> fracture;  ///< designs whose FRACTURE has come
   };
-  std::map<std::string, OpenResponse> open_answers_;  // by request id
-  std::optional<int> report_due_;                     // round
+  std::map<std::string, OpenResponse> open_responses_;  // by request id
+  std::optional<int> report_due_;                       // round
   bool reporting_ = false;
   int reports_ = 0;
   int round_ = 0;
   bool last_ = false;
   bool finished_ = false;
-  std::string phase_ = "following the game";
+  std::string phase_ = "idle";
 };
 
 /// With the ranges of scenario.ranges_file and the floor of scenario.discretisation_floor_file; the thesis' ranges, no

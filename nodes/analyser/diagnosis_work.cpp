@@ -1,8 +1,7 @@
-// Specimens and calibrated parameters in, the payload of a DIAGNOSIS out.
+#include "analyser/diagnosis_work.hpp"
 
-#include "analyser/works.hpp"
 #include "base/expected.hpp"
-#include "diagnosis/diagnosis.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "material/extensions.hpp"
 #include "runtime/journal.hpp"
 
@@ -43,7 +42,7 @@ diagnosis_t message_of(const diagnosis::Diagnosis& d, int round) {
   message.summary = d.summary;
   for (const diagnosis::NamedEffect& e : d.effects) {
     message.effects.push_back({e.name, e.family, e.parameter, e.interval_low, e.interval_high, e.unit});
-    // What an effect takes beside its size follows under the same name.
+    // Further parameters of an effect follow its size under the same name.
     const auto& numbers = material::find_effect(e.name)->parameters;
     for (std::size_t p = 0; p < e.further.size(); ++p) {
       const diagnosis::FittedNumber& number = e.further[p];
@@ -102,7 +101,7 @@ std::string diagnose_work(const std::string& spec) {
   } catch (const InputError& error) {
     return wire::encode(message_of(diagnosis::undecided(error.what()), task.request.round));
   } catch (const std::runtime_error& error) {
-    // Measurements come from people: a fit that breaks on them must not end the game, which waits for this answer.
+    // Measurements come from people: a fit that breaks on them must not end the game, which waits for the diagnosis.
     const std::string why = fmt::format("the diagnosis broke off: {}", error.what());
     return wire::encode(message_of(diagnosis::undecided(why), task.request.round));
   }

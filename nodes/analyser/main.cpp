@@ -7,7 +7,7 @@
 
 #include "analyser/analyser_core.hpp"
 #include "analyser/works.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 #include "runtime/work_pool.hpp"
 #include "store/run_database.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analyser/diagnosis_work.hpp"
 #include "analyser/run_tables.hpp"
 #include "base/files.hpp"
 #include "report/report.hpp"

@@ -25,7 +25,7 @@ FamilyData data_of_set(const FamilyOptions& options) {
 std::vector<StagedFamily> staged_families(const RunAccess& run) {
   std::map<int, StagedFamily> families;
   const auto take_family = [&](const std::string& payload) {
-    if (auto family = wire::read<wire::Family>(payload)) families[family->number].stated = std::move(*family);
+    if (auto family = wire::read<wire::CalibratedFamily>(payload)) families[family->number].stated = std::move(*family);
   };
   const auto take_variants = [&](const std::string& payload) {
     const auto chunk = wire::read<wire::FamilyGamut>(payload);
@@ -43,12 +43,12 @@ FamilyData data_of_run(const FamilyOptions& options) {
   const RunAccess run = open_run(options.run);
   const LaboratoryView view = view_laboratory(run);
   if (!view.model) throw InputError::format("{}: no model has been adopted yet", run.folder.string());
-  const bool same_question = options.params.empty() && options.fidelity.empty();
+  const bool same_model = options.params.empty() && options.fidelity.empty();
   return {.measured = game::patterns_with_both(view.facts.book.specimens()),
           .parameters = *view.model,
           .ranges = ranges_from_option(options.ranges.empty() ? run.scenario.ranges_file : options.ranges),
           .fidelity = options.fidelity.empty() ? run.scenario.fidelity : fidelity_from_option(options.fidelity),
-          .staged = same_question ? staged_families(run) : std::vector<StagedFamily>{}};
+          .staged = same_model ? staged_families(run) : std::vector<StagedFamily>{}};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ FamilyData family_data(const FamilyOptions& options) {
   return data;
 }
 
-const StagedFamily* staged(const families::Family& family, const FamilyData& data) {
+const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data) {
   for (const StagedFamily& each : data.staged) {
     std::vector<pattern::Pattern> seeds;
     for (const game::FamilyDesign& design : each.stated.designs)

@@ -1,5 +1,5 @@
 #pragma once
-// What `nacre families` begins with: everything measured and a model of it, from a run or from a measurement set.
+// The input of `nacre families`: everything measured and a model of it, from a run or from a measurement set.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,13 +9,11 @@
 #include "explore/search.hpp"
 #include "families/grouping.hpp"
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::cli {
 
-/// What `nacre families` was asked.
+/// The options of `nacre families`.
 struct FamilyOptions {
   std::string set;
   std::string run = "logs/latest";
@@ -35,7 +33,7 @@ struct FamilyOptions {
 /// A family that the validation agent worked out: its model need not be calibrated, its variants not be simulated
 /// again.
 struct StagedFamily {
-  wire::Family stated;
+  wire::CalibratedFamily stated;
   std::vector<explore::Evaluated> variants;
 };
 
@@ -50,7 +48,7 @@ struct FamilyData {
 /// From the set that the options name, else from the run. Throws InputError.
 FamilyData family_data(const FamilyOptions& options);
 
-/// The stage's word on this family, when its seeds are the same.
-const StagedFamily* staged(const families::Family& family, const FamilyData& data);
+/// The stage's result for this family, when its seeds are the same.
+const StagedFamily* staged(const families::SeedFamily& family, const FamilyData& data);
 
 }  // namespace nacre::cli

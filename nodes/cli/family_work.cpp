@@ -15,18 +15,20 @@
 #include "family_mechanisms.hpp"
 #include "game/family_errors.hpp"
 #include "game/standings.hpp"
+#include "material/parameter_file.hpp"
 #include "output_path.hpp"
 #include "progress.hpp"
 #include "shipped_files.hpp"
+#include "sysid/offline.hpp"
 
 namespace nacre::cli {
 namespace {
 
-using families::Family;
+using families::SeedFamily;
 using pattern::Pattern;
 
 /// A model of one family: its designs weigh 1, the others 0.1.
-sysid::Calibrated family_model(const Family& family, const FamilyData& data, const FamilyOptions& options,
+sysid::Calibrated family_model(const SeedFamily& family, const FamilyData& data, const FamilyOptions& options,
                                sysid::LocalSimulator& simulator) {
   sysid::CalibrationSettings settings;
   settings.ranges = data.ranges;
@@ -60,14 +62,14 @@ void simulate(const std::string& task, const std::vector<Pattern>& patterns, con
   }
 }
 
-std::vector<Pattern> sampled_densely(const Family& family, const FamilyOptions& options) {
+std::vector<Pattern> sampled_densely(const SeedFamily& family, const FamilyOptions& options) {
   families::DenseSampler sampler(family.seeds, {.seed = options.seed});
   while (static_cast<int>(sampler.members().size()) < options.samples && !sampler.exhausted()) sampler.next();
   return sampler.members();
 }
 
 /// Seeds, then the stage's variants; without a stage, sampled now.
-std::vector<Pattern> members_of(const Family& family, const StagedFamily* stage, const FamilyOptions& options) {
+std::vector<Pattern> members_of(const SeedFamily& family, const StagedFamily* stage, const FamilyOptions& options) {
   if (stage == nullptr) return sampled_densely(family, options);
   std::vector<Pattern> members = family.seeds;
   for (const explore::Evaluated& variant : stage->variants)
@@ -110,7 +112,7 @@ nlohmann::ordered_json errors_json(const sysid::PredictionErrors& errors) {
 }
 
 /// Errors on the family's own designs.
-sysid::PredictionErrors own_errors(const Family& family, const FamilyData& data,
+sysid::PredictionErrors own_errors(const SeedFamily& family, const FamilyData& data,
                                    const material::ParameterSet& parameters, sysid::LocalSimulator& simulator) {
   std::vector<measurement::Replicates> own;
   for (const measurement::Replicates& group : data.measured)
@@ -119,7 +121,7 @@ sysid::PredictionErrors own_errors(const Family& family, const FamilyData& data,
 }
 
 /// A map of every seed's surroundings, a file each; simulates what was interpolated.
-nlohmann::ordered_json mapped(const Family& family, const std::vector<Pattern>& members,
+nlohmann::ordered_json mapped(const SeedFamily& family, const std::vector<Pattern>& members,
                               const material::ParameterSet& parameters, const std::filesystem::path& folder,
                               sysid::LocalSimulator& simulator, Performances& performances) {
   nlohmann::ordered_json maps = nlohmann::ordered_json::array();
@@ -142,7 +144,7 @@ nlohmann::ordered_json mapped(const Family& family, const std::vector<Pattern>& 
 
 }  // namespace
 
-nlohmann::ordered_json work_out(const Family& family, const FamilyData& data, const FamilyOptions& options,
+nlohmann::ordered_json work_out(const SeedFamily& family, const FamilyData& data, const FamilyOptions& options,
                                 const std::filesystem::path& folder, sysid::LocalSimulator& simulator) {
   const StagedFamily* stage = staged(family, data);
   const std::vector<Pattern> members = members_of(family, stage, options);

@@ -6,13 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "family_data.hpp"
-#include "sysid/offline.hpp"
+#include "sysid/local_simulator.hpp"
 
 namespace nacre::cli {
 
 /// Writes parameters.toml, gamut.csv, a map of every seed and mechanisms.csv into the folder, and returns what of them
 /// the command prints. Throws InputError.
-nlohmann::ordered_json work_out(const families::Family& family, const FamilyData& data, const FamilyOptions& options,
-                                const std::filesystem::path& folder, sysid::LocalSimulator& simulator);
+nlohmann::ordered_json work_out(const families::SeedFamily& family, const FamilyData& data,
+                                const FamilyOptions& options, const std::filesystem::path& folder,
+                                sysid::LocalSimulator& simulator);
 
 }  // namespace nacre::cli

@@ -1,4 +1,4 @@
-// nacre import: raw exports of a testing machine -> a measurement set.
+// Part of the command line (command.hpp): nacre import, raw exports of a testing machine as a measurement set.
 
 #include "measurement/import.hpp"
 
@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "command.hpp"
+#include "measurement/write_import.hpp"
 #include "output.hpp"
 
 namespace nacre::cli {
@@ -56,7 +58,7 @@ void print_import(const measurement::Import& import, const Options& options) {
                  1e-6 * one.test.peak_stress_pa, 100.0 * one.test.failure_strain, 100.0 * one.test.toe_strain,
                  one.record.valid ? "" : "  NOT VALID");
     }
-    fmt::print("{} specimens{}{}, {} rejected: {}\n", import.specimens.size(),
+    fmt::print("{}{}{}, {} rejected: {}\n", counted(static_cast<std::int64_t>(import.specimens.size()), "specimen"),
                import.known > 0 ? fmt::format(" ({} there before)", import.known) : "",
                import.replaced > 0 ? fmt::format(" ({} replaced)", import.replaced) : "", import.rejected.size(),
                options.out);
@@ -97,15 +99,17 @@ void add_import(CLI::App& app, Action& action) {
                                   options, import_exports);
   command.add_option(
       "TESTER.csv", options->files,
-      "Exports (Bluehill, testXpert, MTS, plain tables); default: those that the sheet names, beside it");
-  command.add_option("--specimens", options->sheet, "Sheet: which file is which specimen, and its size")
+      "Exports (Bluehill, testXpert, MTS, plain tables); default: those that the sheet names, in its folder");
+  command
+      .add_option("--specimens", options->sheet,
+                  "Specimen sheet: which file is which specimen, and its width and thickness")
       ->required()
       ->check(CLI::ExistingFile);
-  command.add_option("--out", options->out, "Folder of the measurement set; one that exists gains specimens")
+  command.add_option("--out", options->out, "Folder of the measurement set; specimens are added to one that exists")
       ->required();
   command.add_flag("--replace", options->replace,
-                   "Specimens that the set has with other content are written anew; its judgement of them stays");
-  command.add_option("--toe", options->toe, "First part of the curves: compensate (ASTM D638 A1) or keep")
+                   "Replace specimens that the set holds with other values; whether they are valid stays");
+  command.add_option("--toe", options->toe, "Flat beginning of the curves: compensate (ASTM D638 A1) or keep")
       ->check(CLI::IsMember({"compensate", "keep"}))
       ->capture_default_str();
   command.add_flag("--json", options->json, "One JSON document on standard output");

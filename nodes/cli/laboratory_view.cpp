@@ -92,7 +92,7 @@ void take_approval(const std::string& payload, game::LaboratoryFacts& facts) {
   const auto approval = wire::decode_safe<approval_t>(payload);
   if (!approval) return;
   if (const auto design = pattern::design_from_name(approval->design))
-    facts.decisions.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
+    facts.approvals.push_back({approval->round, *design, approval->approved != 0, approval->by, approval->why});
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
     for (const auto& design : proposal.designs) facts.proposed.push_back({proposal.round, design.design});
     proposals[proposal.round] = proposal;
   };
-  const auto take_family = [&](const wire::Family& family) {
+  const auto take_family = [&](const wire::CalibratedFamily& family) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) facts.proposed.push_back({family.round, design.pattern});
   };
@@ -117,7 +117,10 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
     if (one.fidelity == run.scenario.fidelity) facts.book.enter(with_history_of_note(one.record), one.order_id);
   };
   const auto take_model = [&](const wire::AdoptedModel& model) { view.model = model.parameters; };
-  const auto take_round = [&](const wire::RoundSummary& round) { last_round = std::max(last_round, round.round); };
+  const auto take_round = [&](const wire::RoundSummary& round) {
+    last_round = std::max(last_round, round.round);
+    view.is_over = view.is_over || round.last;
+  };
   read_validation_agent(run,
                         {{"PROPOSAL", each<wire::Proposal>(take_proposal)},
                          {"MEASUREMENT",
@@ -128,7 +131,7 @@ LaboratoryView view_laboratory(const RunAccess& run, const std::function<void(co
                          {"REVIEW", [&](const std::string& payload) { take_review(payload, facts.book); }},
                          {"APPROVAL", [&](const std::string& payload) { take_approval(payload, facts); }}},
                         {{"TEST_ORDER", each<wire::TestOrder>(take_order)},
-                         {"FAMILY", each<wire::Family>(take_family)},
+                         {"FAMILY", each<wire::CalibratedFamily>(take_family)},
                          {"PARAMETERS", each<wire::AdoptedModel>(take_model)},
                          {"ROUND", each<wire::RoundSummary>(take_round)}});
   // Later ones may be there: an agent that begins anew without its journal is offered all of them again.

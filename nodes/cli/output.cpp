@@ -9,6 +9,7 @@
 
 #include "base/no_space.hpp"
 #include "base/result.hpp"
+#include "material/parameter_file.hpp"
 #include "measurement/set_columns.hpp"
 
 namespace nacre::cli {

@@ -1,5 +1,5 @@
 #pragma once
-// What the program says: answers on standard output, remarks on standard error.
+// What the program prints: results on standard output, remarks on standard error.
 
 #include <optional>
 #include <string>
@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "material/ranges.hpp"
-#include "measurement/measurement.hpp"
-#include "tester/tester.hpp"
+#include "measurement/read_set.hpp"
 
 namespace nacre::cli {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "game/scenario.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 
 namespace nacre::cli {
 

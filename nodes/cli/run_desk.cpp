@@ -4,7 +4,9 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "families/families_file.hpp"
 #include "laboratory_view.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "nacre/approval_t.hpp"
 #include "nacre/review_t.hpp"
 #include "output.hpp"
@@ -48,13 +50,13 @@ std::optional<material::ParameterSet> RunDesk::model(int round) {
 std::optional<material::ParameterSet> RunDesk::family_model(const std::string& family) {
   std::optional<material::ParameterSet> parameters;
   for (const std::string& payload : sent_by_validation_agent(run_, "FAMILY")) {
-    const auto stated = wire::read<wire::Family>(payload);
+    const auto stated = wire::read<wire::CalibratedFamily>(payload);
     if (stated && stated->name == family) parameters = stated->parameters;
   }
   return parameters;
 }
 
-void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) {
+void RunDesk::keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) {
   make_folder(folder.string());
   write_file_atomically(folder / "families.toml", families::to_toml(families));
 }

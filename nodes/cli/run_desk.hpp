@@ -21,7 +21,7 @@ class RunDesk : public dashboard::Desk {
   dashboard::Delivery decide(const dashboard::Approval& approval) override;
   std::optional<std::string> against(const dashboard::SpecimenReview& review) override;
   std::optional<std::string> against(const dashboard::Approval& approval) override;
-  void keep_grouping(const std::filesystem::path& folder, const std::vector<families::Family>& families) override;
+  void keep_grouping(const std::filesystem::path& folder, const std::vector<families::SeedFamily>& families) override;
 
  private:
   /// Sends it, if anybody is there to hear it.

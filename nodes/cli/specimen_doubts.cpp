@@ -34,7 +34,7 @@ std::vector<std::string> doubts_about(const RunAccess& run, const LaboratoryView
   game::UnitDoubts units(view.model ? *view.model : game::starting_model(run.scenario), run.scenario.fidelity);
   std::vector<std::string> doubts;
   for (const measurement::SpecimenRecord& specimen : specimens) {
-    for (const auto& doubt : {game::beside_orders(specimen, facts.orders), units.about(specimen)})
+    for (const auto& doubt : {game::order_mismatch(specimen, facts.orders), units.about(specimen)})
       if (doubt) doubts.push_back(*doubt);
   }
   for (const std::string& doubt : beside_replicates(facts.book.specimens(), specimens)) doubts.push_back(doubt);

@@ -1,12 +1,11 @@
 #pragma once
-// What a person should look at again before a specimen counts in a game.
+// Doubts about specimens, for a person to look at before they count in a game.
 
 #include <span>
 #include <string>
 #include <vector>
 
 #include "laboratory_view.hpp"
-#include "measurement/measurement.hpp"
 #include "run_access.hpp"
 
 namespace nacre::cli {

@@ -7,8 +7,8 @@
 
 namespace nacre::proposal_agent {
 
-std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Pattern> patterns,
-                                                  const wire::SimulateRequest& model, const std::string& id) {
+std::vector<wire::SimulateRequest> requests_for_patterns(std::span<const pattern::Pattern> patterns,
+                                                         const wire::SimulateRequest& model, const std::string& id) {
   std::vector<wire::SimulateRequest> requests;
   for (std::size_t first = 0; first < patterns.size(); first += wire::kMaximumDesigns) {
     wire::SimulateRequest request = model;
@@ -23,15 +23,15 @@ std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Patte
 Branch::Branch(int number, const explore::SearchSettings& settings, std::string request_prefix)
     : search_(explore::make_search(settings)), prefix_(fmt::format("{}/s{}", request_prefix, number)) {}
 
-std::string Branch::question_id() const { return fmt::format("search/{}/g{}", prefix_, generation_ + 1); }
+std::string Branch::batch_id() const { return fmt::format("search/{}/g{}", prefix_, generation_ + 1); }
 
 std::vector<wire::SimulateRequest> Branch::next(const wire::SimulateRequest& model) {
   return requests_for(model, search_->ask());
 }
 
 std::vector<wire::SimulateRequest> Branch::next(const wire::SimulateRequest& model,
-                                                std::span<const pattern::Pattern> answer) {
-  return requests_for(model, search_->ask_with(answer));
+                                                std::span<const pattern::Pattern> batch) {
+  return requests_for(model, search_->ask_with(batch));
 }
 
 std::vector<wire::SimulateRequest> Branch::requests_for(const wire::SimulateRequest& model,
@@ -44,18 +44,19 @@ std::vector<wire::SimulateRequest> Branch::requests_for(const wire::SimulateRequ
   ++generation_;
   performances_.assign(patterns.size(), std::nullopt);
   simulated_ += static_cast<int>(patterns.size());
-  requests = requests_about(patterns, model, fmt::format("{}/g{}", prefix_, generation_));
+  requests = requests_for_patterns(patterns, model, fmt::format("{}/g{}", prefix_, generation_));
   for (std::size_t part = 0; part < requests.size(); ++part) {
     first_.emplace(requests[part].request_id, part * wire::kMaximumDesigns);
   }
   return requests;
 }
 
-bool Branch::take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer) {
+bool Branch::take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& response) {
   const auto open = first_.find(request_id);
-  for (std::size_t index = 0; index < answer.size() && open->second + index < performances_.size(); ++index) {
-    if (answer[index].failure.empty()) {
-      performances_[open->second + index] = optimize::Performance{answer[index].modulus_pa, answer[index].toughness_pa};
+  for (std::size_t index = 0; index < response.size() && open->second + index < performances_.size(); ++index) {
+    if (response[index].failure.empty()) {
+      performances_[open->second + index] =
+          optimize::Performance{response[index].modulus_pa, response[index].toughness_pa};
     }
   }
   first_.erase(open);

@@ -13,29 +13,29 @@
 
 namespace nacre::proposal_agent {
 
-/// The model's question about every pattern, ID#HASH; where they are more than a message holds, ID/from64#HASH and so
-/// on beside it (wire::with_content_id).
-std::vector<wire::SimulateRequest> requests_about(std::span<const pattern::Pattern> patterns,
-                                                  const wire::SimulateRequest& model, const std::string& id);
+/// `model`'s SIMULATE request for every pattern, under the id ID#HASH; where there are more patterns than a message
+/// holds, further ones under ID/from64#HASH and so on (wire::with_content_id).
+std::vector<wire::SimulateRequest> requests_for_patterns(std::span<const pattern::Pattern> patterns,
+                                                         const wire::SimulateRequest& model, const std::string& id);
 
-/// One of the searches that are merged into a gamut. Searches do not wait for each other: what one asks for depends on
-/// the answers to its own questions alone, so the farm stays busy while the merged result is the same.
+/// One of the searches that are merged into a gamut. Searches do not wait for each other: what one requests depends on
+/// the responses to its own requests alone, so the farm stays busy while the merged result is the same.
 class Branch {
  public:
   Branch(int number, const explore::SearchSettings& settings, std::string request_prefix);
 
-  /// What must be worked out before next() (a learned search trains); nothing for a search that answers at once.
+  /// What must be worked out before next() (a learned search trains); nothing for a search that needs no time.
   std::optional<explore::BatchRequest> batch_request() const { return search_->batch_request(); }
   /// SIMULATE requests for the next generation; empty when the search has ended.
   std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model);
-  /// The same, with the answer to question().
-  std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model, std::span<const pattern::Pattern> answer);
-  /// Takes the answer to one of the requests. Returns whether the generation is complete (then ask for next()).
-  bool take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer);
+  /// The same, with the batch that batch_request() asked for.
+  std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model, std::span<const pattern::Pattern> batch);
+  /// Takes the response to one of the requests. Returns whether the generation is complete (then ask for next()).
+  bool take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& response);
   bool waits_for(const std::string& request_id) const { return first_.contains(request_id); }
   bool finished() const { return finished_; }
-  /// Identity of the answer that the branch waits for or would ask for.
-  std::string question_id() const;
+  /// Identity of the batch that the branch waits for or would ask for.
+  std::string batch_id() const;
   int simulated() const { return simulated_; }
   const std::vector<explore::Evaluated>& evaluated() const { return search_->evaluated(); }
 

@@ -2,7 +2,7 @@
 
 #include "proposal_agent/proposal_core.hpp"
 #include "proposal_agent/selection_work.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 
 int main(int argc, char** argv) {
   using namespace nacre;

@@ -31,7 +31,7 @@ runtime::Outputs ProposalCore::step(const runtime::Input& input) {
   runtime::Outputs outputs;
   if (const auto* message = std::get_if<runtime::Message>(&input)) {
     if (message->channel == "PARAMETERS") accept_model(message->payload, outputs);
-    if (message->channel == "SIMULATED") accept_answer(message->payload, outputs);
+    if (message->channel == "SIMULATED") accept_response(message->payload, outputs);
     if (message->channel == "ROUND") {
       const auto summary = wire::read<wire::RoundSummary>(message->payload);
       if (summary && summary->last) finished_ = true;
@@ -67,7 +67,7 @@ explore::SearchSettings ProposalCore::search_settings(int branch) const {
   search.budget = settings.samples / settings.seeds + (branch < settings.samples % settings.seeds ? 1 : 0);
   search.population = settings.population;
   search.batch = std::min(kGenerationOffspring, settings.population);
-  // The same streams in every round: gamuts of successive models differ by the models, not by the luck of the start.
+  // The same streams in every round: gamuts of successive models differ by the models, not by their random starts.
   search.seed = RandomStream(scenario_.seed, fmt::format("gamut search {}", branch)).bits();
   return search;
 }
@@ -104,7 +104,7 @@ wire::SimulateRequest ProposalCore::request_to_farm() const {
 void ProposalCore::ask_next(Branch& branch, runtime::Outputs& outputs) {
   if (const auto batch_request = branch.batch_request()) {
     outputs.computes.push_back(
-        {.id = branch.question_id(), .kind = "search", .spec = search_spec(*batch_request, round_->model)});
+        {.id = branch.batch_id(), .kind = "search", .spec = search_spec(*batch_request, round_->model)});
   } else {
     send(branch.next(request_to_farm()), outputs);
   }
@@ -114,37 +114,37 @@ void ProposalCore::send(const std::vector<wire::SimulateRequest>& requests, runt
   for (const wire::SimulateRequest& request : requests) outputs.messages.push_back({"SIMULATE", wire::write(request)});
   const bool all_finished =
       std::all_of(round_->branches.begin(), round_->branches.end(), [](const Branch& each) { return each.finished(); });
-  if (all_finished && !round_->realisations) draw_again(outputs);
+  if (all_finished && !round_->realisations) request_realisations(outputs);
 }
 
 void ProposalCore::accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs) {
-  const auto answer = batch_from_result(work.result);
+  const auto batch = batch_from_result(work.result);
   Branch* branch = nullptr;
   if (round_) {
     for (Branch& each : round_->branches) {
-      if (each.question_id() == work.id && each.batch_request()) branch = &each;
+      if (each.batch_id() == work.id && each.batch_request()) branch = &each;
     }
   }
-  if (!branch || !answer)
+  if (!branch || !batch)
     return log(outputs, runtime::LogLevel::warning, "the result of " + work.id + " is ignored: no batch is awaited");
-  send(branch->next(request_to_farm(), *answer), outputs);
+  send(branch->next(request_to_farm(), *batch), outputs);
 }
 
-void ProposalCore::accept_answer(const std::string& payload, runtime::Outputs& outputs) {
+void ProposalCore::accept_response(const std::string& payload, runtime::Outputs& outputs) {
   auto part = wire::read<wire::SimulateResult>(payload);
   if (!part) return log(outputs, runtime::LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
   if (!round_) return;
   const std::string request_id = part->request_id;
   if (round_->realisations && round_->realisations->waits_for(request_id)) {
-    const auto answer = collector_.add(*std::move(part));
-    if (answer && round_->realisations->take(request_id, *answer)) draw_again(outputs);
+    const auto response = collector_.add(*std::move(part));
+    if (response && round_->realisations->take(request_id, *response)) request_realisations(outputs);
     return;
   }
   const auto branch = std::find_if(round_->branches.begin(), round_->branches.end(),
                                    [&](const Branch& each) { return each.waits_for(request_id); });
   if (branch == round_->branches.end()) return;  // answered before, or not ours
-  const auto answer = collector_.add(*std::move(part));
-  if (answer && branch->take(request_id, *answer)) ask_next(*branch, outputs);
+  const auto response = collector_.add(*std::move(part));
+  if (response && branch->take(request_id, *response)) ask_next(*branch, outputs);
 }
 
 int ProposalCore::simulations() const {
@@ -152,7 +152,7 @@ int ProposalCore::simulations() const {
                          [](int sum, const Branch& branch) { return sum + branch.simulated(); });
 }
 
-void ProposalCore::draw_again(runtime::Outputs& outputs) {
+void ProposalCore::request_realisations(runtime::Outputs& outputs) {
   if (!round_->realisations) {
     std::vector<std::vector<explore::Evaluated>> gamuts;
     for (const Branch& branch : round_->branches) gamuts.push_back(branch.evaluated());
@@ -187,7 +187,7 @@ void ProposalCore::accept_proposal(const runtime::WorkDone& work, runtime::Outpu
   }
   outputs.messages.push_back({"PROPOSAL", work.result});
   log(outputs, runtime::LogLevel::info,
-      fmt::format("round {}: {} designs proposed from {} samples, their toughness from {} further draws; gamut "
+      fmt::format("round {}: {} designs proposed from {} samples, their toughness from {} further realisations; gamut "
                   "hypervolume {:.4g} GPa MPa",
                   proposal->round, proposal->designs.size(), round_->found.size(), round_->realisations->simulated(),
                   proposal->gamut_hypervolume_staircase));
@@ -206,10 +206,13 @@ runtime::Status ProposalCore::status() const {
             .finished = finished_};
   }
   if (round_->realisations && !round_->selecting)
-    return {.phase = "drawing candidates again", .round = round_->model.round, .progress = -1.0, .finished = false};
+    return {.phase = "simulating realisations of the best designs",
+            .round = round_->model.round,
+            .progress = -1.0,
+            .finished = false};
   if (round_->selecting)
     return {.phase = "selecting designs", .round = round_->model.round, .progress = -1.0, .finished = false};
-  return {.phase = "searching the gamut",
+  return {.phase = "searching",
           .round = round_->model.round,
           .progress = std::min(1.0, static_cast<double>(simulations()) / std::max(1, scenario_.proposal.samples)),
           .finished = false};

@@ -36,7 +36,7 @@ class ProposalCore : public runtime::NodeCore {
   };
 
   void accept_model(const std::string& payload, runtime::Outputs& outputs);
-  void accept_answer(const std::string& payload, runtime::Outputs& outputs);
+  void accept_response(const std::string& payload, runtime::Outputs& outputs);
   void accept_work(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void accept_batch(const runtime::WorkDone& work, runtime::Outputs& outputs);
   void accept_proposal(const runtime::WorkDone& work, runtime::Outputs& outputs);
@@ -45,7 +45,7 @@ class ProposalCore : public runtime::NodeCore {
   void ask_next(Branch& branch, runtime::Outputs& outputs);
   void send(const std::vector<wire::SimulateRequest>& requests, runtime::Outputs& outputs);
   wire::SimulateRequest request_to_farm() const;
-  void draw_again(runtime::Outputs& outputs);
+  void request_realisations(runtime::Outputs& outputs);
   void publish_gamut(runtime::Outputs& outputs);
   int simulations() const;
 
@@ -54,8 +54,8 @@ class ProposalCore : public runtime::NodeCore {
   std::set<int> known_rounds_;
   std::optional<Round> round_;
   wire::ResponseCollector collector_;
-  // What was found last and its model: when a round brings the same model again, nothing of it is asked anew; under
-  // another model a search that learns begins with what the last one said.
+  // What was found last and its model: when a round brings the same model again, nothing of it is requested anew; under
+  // another model a search that learns begins with what it found under the last one.
   std::optional<material::ParameterSet> last_parameters_;
   std::vector<explore::Evaluated> last_found_;
   int last_round_ = -1;  // that was played to its end; every game begins with round 0

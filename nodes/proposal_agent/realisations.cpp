@@ -13,17 +13,17 @@
 namespace nacre::proposal_agent {
 namespace {
 
-// About what a calibration leaves open. Smaller moves seldom lead a crack another way, larger ones gain no more
+// About what a calibration leaves open. Smaller perturbations seldom change a crack's path, larger ones gain no more
 // (docs/studies/realisations.md).
-constexpr double kMoved = 0.2;
+constexpr double kPerturbation = 0.2;
 
 }  // namespace
 
 Realisations::Realisations(std::vector<explore::Evaluated> gamut, const std::vector<pattern::Pattern>& chosen,
-                           int draws, std::uint64_t seed, std::string request_prefix)
+                           int count, std::uint64_t seed, std::string request_prefix)
     : gamut_(std::move(gamut)),
       chosen_(chosen.begin(), chosen.end()),
-      draws_(draws),
+      count_(count),
       seed_(seed),
       prefix_(std::move(request_prefix)) {}
 
@@ -49,30 +49,30 @@ std::vector<pattern::Pattern> Realisations::candidates() const {
 }
 
 std::vector<wire::SimulateRequest> Realisations::next(const wire::SimulateRequest& model) {
-  std::vector<pattern::Pattern> wanted = draws_ > 0 ? candidates() : std::vector<pattern::Pattern>();
-  std::erase_if(wanted, [&](const pattern::Pattern& pattern) { return drawn_.contains(pattern); });
+  std::vector<pattern::Pattern> wanted = count_ > 0 ? candidates() : std::vector<pattern::Pattern>();
+  std::erase_if(wanted, [&](const pattern::Pattern& pattern) { return realised_.contains(pattern); });
   ++step_;
   std::vector<wire::SimulateRequest> requests;
-  for (int draw = 0; draw < draws_ && !wanted.empty(); ++draw) {
-    wire::SimulateRequest moved = model;
-    moved.modulus = false;
-    // The same draws for every design and round: designs are compared under the same luck.
-    RandomStream random(seed_, fmt::format("redraw {}", draw));
-    moved.parameters.toughness = material::perturbed(model.parameters.toughness, kMoved, random);
+  for (int number = 0; number < count_ && !wanted.empty(); ++number) {
+    wire::SimulateRequest perturbed = model;
+    perturbed.modulus = false;
+    // The same perturbed parameters for every design and round: designs are compared like with like.
+    RandomStream random(seed_, fmt::format("redraw {}", number));
+    perturbed.parameters.toughness = material::perturbed(model.parameters.toughness, kPerturbation, random);
     for (wire::SimulateRequest& request :
-         requests_about(wanted, moved, fmt::format("{}/redraw{}/d{}", prefix_, step_, draw))) {
-      open_.emplace(request.request_id, draw);
+         requests_for_patterns(wanted, perturbed, fmt::format("{}/redraw{}/d{}", prefix_, step_, number))) {
+      open_.emplace(request.request_id, number);
       requests.push_back(std::move(request));
     }
   }
-  simulated_ += draws_ * static_cast<int>(wanted.size());
-  drawn_.insert(wanted.begin(), wanted.end());
+  simulated_ += count_ * static_cast<int>(wanted.size());
+  realised_.insert(wanted.begin(), wanted.end());
   return requests;
 }
 
-bool Realisations::take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer) {
+bool Realisations::take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& response) {
   const auto request = open_.find(request_id);
-  for (const wire::SimulatedDesign& each : answer) {
+  for (const wire::SimulatedDesign& each : response) {
     if (each.failure.empty()) log_toughness_[each.design.name()][request->second] = std::log(each.toughness_pa);
   }
   open_.erase(request);
@@ -84,8 +84,8 @@ void Realisations::settle() {
   for (explore::Evaluated& sample : gamut_) {
     const auto further = log_toughness_.find(sample.pattern.key());
     if (further == log_toughness_.end()) continue;
-    double sum = std::log(sample.performance.toughness_pa);  // in the order of draws, whatever came first
-    for (const auto& [draw, log_toughness] : further->second) sum += log_toughness;
+    double sum = std::log(sample.performance.toughness_pa);  // in order of number, whatever came first
+    for (const auto& [number, log_toughness] : further->second) sum += log_toughness;
     sample.performance.toughness_pa = std::exp(sum / (1.0 + static_cast<double>(further->second.size())));
   }
   log_toughness_.clear();

@@ -1,7 +1,7 @@
 #pragma once
-// Toughness that is more than luck. The best of many samples are those whose one simulation came out high: their cracks
-// take ways that other parameters, as probable as these, do not leave open. Whatever may be selected is therefore
-// simulated again under parameters moved by what nobody knows of them, and its T is the geometric mean
+// Toughness without the winner's curse. The best of N samples are those whose one simulation came out high: their
+// cracks take paths that other parameters, as probable as these, do not allow. Whatever may be selected is therefore
+// simulated again with parameters perturbed within their uncertainty (realisations), and its T is the geometric mean
 // (docs/studies/realisations.md; re-evaluation of elites in noisy optimisation).
 
 #include <cstdint>
@@ -18,17 +18,17 @@ namespace nacre::proposal_agent {
 class Realisations {
  public:
   /// @param gamut   what the searches found
-  /// @param chosen  patterns that cannot be selected any more; they are drawn again only on the front itself
-  /// @param draws   further simulations of a candidate; 0: none, and next() asks for nothing
-  Realisations(std::vector<explore::Evaluated> gamut, const std::vector<pattern::Pattern>& chosen, int draws,
+  /// @param chosen  patterns that cannot be selected any more; they are simulated again only on the front itself
+  /// @param count   realisations of a candidate; 0: none, and next() asks for nothing
+  Realisations(std::vector<explore::Evaluated> gamut, const std::vector<pattern::Pattern>& chosen, int count,
                std::uint64_t seed, std::string request_prefix);
 
-  /// Questions about the candidates (first ranks, thesis 2.3.4) whose T is that of one simulation; empty when there are
-  /// none left. As means fall behind what they were the best of, others take their places.
+  /// Requests for the candidates (first ranks, thesis 2.3.4) whose T is that of one simulation; empty when there are
+  /// none left. As means fall below the best of N, other candidates take their places.
   std::vector<wire::SimulateRequest> next(const wire::SimulateRequest& model);
   bool waits_for(const std::string& request_id) const { return open_.contains(request_id); }
-  /// Takes the answer to one of the requests. Returns whether all have been answered (then ask for next()).
-  bool take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& answer);
+  /// Takes the response to one of the requests. Returns whether all have come (then ask for next()).
+  bool take(const std::string& request_id, const std::vector<wire::SimulatedDesign>& response);
 
   /// The gamut with the means known so far.
   const std::vector<explore::Evaluated>& gamut() const { return gamut_; }
@@ -39,13 +39,13 @@ class Realisations {
   void settle();
 
   std::vector<explore::Evaluated> gamut_;
-  std::set<pattern::Pattern> chosen_, drawn_;
-  int draws_ = 0;
+  std::set<pattern::Pattern> chosen_, realised_;
+  int count_ = 0;
   std::uint64_t seed_ = 0;
   std::string prefix_;
   int step_ = 0;
-  std::map<std::string, int> open_;                             // request -> its draw
-  std::map<std::string, std::map<int, double>> log_toughness_;  // of this step, by design and draw
+  std::map<std::string, int> open_;                             // request -> number of the realisation
+  std::map<std::string, std::map<int, double>> log_toughness_;  // of this step, by design and realisation
   int simulated_ = 0;
 };
 

@@ -62,7 +62,7 @@ std::vector<pattern::Pattern> patterns_in(const std::string& bytes) {
   return patterns;
 }
 
-explore::BatchRequest question_from(const std::string& spec) {
+explore::BatchRequest batch_request_from(const std::string& spec) {
   const auto fields = runtime::unpack(spec);
   // A spec that this program wrote itself must read back.
   if (!fields || fields->size() != 8) throw std::logic_error("the spec of a search is damaged");
@@ -93,7 +93,7 @@ std::string search_spec(const explore::BatchRequest& batch_request, const wire::
 }
 
 std::string search_work(const std::string& spec) {
-  return runtime::pack({packed(explore::batch_for(question_from(spec)))});
+  return runtime::pack({packed(explore::batch_for(batch_request_from(spec)))});
 }
 
 Result<std::vector<pattern::Pattern>> batch_from_result(const std::string& result) {

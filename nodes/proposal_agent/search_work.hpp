@@ -10,11 +10,11 @@
 
 namespace nacre::proposal_agent {
 
-/// Spec of a Compute of kind "search": the question and the model that it is asked of, so that the answer is a function
-/// of the spec. `learned` learns as by default in a game; other settings do not travel.
+/// Spec of a Compute of kind "search": the batch request and the model of the round, so that the batch is a function of
+/// the spec. `learned` learns as by default in a game; other settings do not travel.
 std::string search_spec(const explore::BatchRequest& batch_request, const wire::AdoptedModel& model);
 
-/// Kind "search": explore::batch_for() of the question.
+/// Kind "search": explore::batch_for() of the batch request.
 std::string search_work(const std::string& spec);
 
 /// The patterns in the result of a "search"; the error says what is damaged.

@@ -5,7 +5,7 @@
 
 #include "base/hash.hpp"
 #include "runtime/journal.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::simulator_farm {
 namespace {
@@ -120,7 +120,7 @@ std::string write_batch_result(std::string_view batch, const std::vector<BatchRe
 Result<std::vector<BatchRecord>> read_batch_result(std::string_view bytes, std::string_view batch) {
   const auto fields = opened(bytes, kResultMark);
   if (!fields) return tl::unexpected(fields.error());
-  if ((*fields)[2] != batch) return fail("it answers batch {}", (*fields)[2]);
+  if ((*fields)[2] != batch) return fail("it is the result of batch {}", (*fields)[2]);
   std::vector<BatchRecord> records;
   for (std::size_t i = 3; i < fields->size(); ++i) {
     auto record = read_record((*fields)[i]);

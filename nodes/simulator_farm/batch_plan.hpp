@@ -1,17 +1,17 @@
 #pragma once
-// Decisions about batches, apart from files and Slurm: how questions are cut into batches, when one is given out again.
-// Time is passed in as seconds of a steady clock.
+// Decisions about batches, apart from files and Slurm: how test requests are cut into batches, when one is given out
+// again. Time is passed in as seconds of a steady clock.
 
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::simulator_farm {
 
-/// How long simulations take on one core of the cluster, by test and fidelity: a guess until tasks have said better.
+/// How long simulations take on one core of the cluster, by test and fidelity: a guess until tasks have reported.
 class CostEstimate {
  public:
   double seconds(tester::TestKind test, tester::Fidelity fidelity) const;
@@ -21,11 +21,11 @@ class CostEstimate {
   std::map<std::pair<tester::TestKind, tester::Fidelity>, double> seconds_;
 };
 
-/// Cuts questions with these costs into batches of about `batch_s` seconds and at most `most` questions, in their
-/// order. Returns the number of questions in each batch: at least 1, in sum all.
+/// Cuts tests with these costs into batches of about `batch_s` seconds and at most `most` tests, in their order.
+/// Returns the number of tests in each batch: at least 1, in sum all.
 std::vector<std::size_t> cut_into_batches(const std::vector<double>& costs_s, double batch_s, std::size_t most);
 
-/// What Slurm says of a task. `held`: it waits until somebody releases it.
+/// The state of a task as Slurm lists it. `held`: it waits until somebody releases it.
 enum class TaskState { absent, waiting, running, held };
 
 /// When a batch that was given out is taken for lost.
@@ -38,7 +38,7 @@ struct Patience {
 class BatchWatch {
  public:
   explicit BatchWatch(double now_s) : since_s_(now_s), sign_s_(now_s) {}
-  /// What Slurm lists; not called when Slurm did not answer.
+  /// What Slurm lists; not called when Slurm did not respond.
   void listed(TaskState state, double now_s);
   /// The task's sign of life, some text that changes while it works.
   void sign(const std::string& text, double now_s);

@@ -30,7 +30,7 @@ std::string own_name() {
   return fmt::format("{}-{}", host, ::getpid());
 }
 
-/// Writes into the batch's sign file every few seconds until it dies: how many questions are answered, and a count.
+/// Writes into the batch's sign file every few seconds until it dies: how many tests are done, and a count.
 class SignOfLife {
  public:
   explicit SignOfLife(fs::path file) : file_(std::move(file)), thread_([this] { run(); }) {}
@@ -42,27 +42,27 @@ class SignOfLife {
     changed_.notify_all();
     thread_.join();
   }
-  void is_answered(int count) { answered_ = count; }
+  void report_done(int count) { done_ = count; }
 
  private:
   void run() {
     constexpr auto kPeriod = std::chrono::seconds(5);
     std::unique_lock lock(mutex_);
     for (int beat = 0; !ending_; ++beat) {
-      std::ofstream(file_) << own_name() << ' ' << answered_ << ' ' << beat << '\n';
+      std::ofstream(file_) << own_name() << ' ' << done_ << ' ' << beat << '\n';
       changed_.wait_for(lock, kPeriod);
     }
   }
 
   fs::path file_;
-  std::atomic<int> answered_ = 0;
+  std::atomic<int> done_ = 0;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool ending_ = false;
   std::thread thread_;
 };
 
-BatchRecord response(store::SimulationCache& cache, const fs::path& films, const std::string& spec) {
+BatchRecord simulated(store::SimulationCache& cache, const fs::path& films, const std::string& spec) {
   const auto began = Clock::now();
   simulate_work(cache, films, spec);
   const std::string key = asked_in(spec).key;
@@ -72,10 +72,10 @@ BatchRecord response(store::SimulationCache& cache, const fs::path& films, const
           .seconds = std::chrono::duration<double>(Clock::now() - began).count()};
 }
 
-/// The batch's bytes; nothing when it is over or answered, by another task that was given it too.
+/// The batch's bytes; nothing when it is over or done, by another task that was given it too.
 std::optional<std::string> still_wanted(const Spool& spool, const std::string& batch) {
-  if (fs::exists(spool.result(batch)) || !fs::exists(spool.open_test(batch))) return std::nullopt;
-  return read_file(spool.open_test(batch));
+  if (fs::exists(spool.result(batch)) || !fs::exists(spool.batch_file(batch))) return std::nullopt;
+  return read_file(spool.batch_file(batch));
 }
 
 }  // namespace
@@ -90,19 +90,19 @@ int run_batch_task(const fs::path& folder, const std::string& wave, int task) {
   }
   const auto tests = read_batch(*bytes);
   if (!tests) {
-    fmt::print(stderr, "{}: {}\n", spool.open_test(*batch).string(), tests.error().message);
+    fmt::print(stderr, "{}: {}\n", spool.batch_file(*batch).string(), tests.error().message);
     return 1;
   }
   SignOfLife sign(spool.sign(*batch));
   store::SimulationCache cache(":memory:");
   std::vector<BatchRecord> records;
   for (const std::string& spec : tests->specs) {
-    records.push_back(response(cache, tests->films, spec));
-    sign.is_answered(static_cast<int>(records.size()));
+    records.push_back(simulated(cache, tests->films, spec));
+    sign.report_done(static_cast<int>(records.size()));
   }
   if (!still_wanted(spool, *batch)) return 0;
   write_file_atomically(spool.result(*batch), write_batch_result(*batch, records));
-  fmt::print("task {} of {}: {} questions answered\n", task, wave, records.size());
+  fmt::print("task {} of {}: {} tests done\n", task, wave, records.size());
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "simulator_farm/test_request.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::simulator_farm {
 namespace {
@@ -38,18 +39,18 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
   auto read = wire::read<wire::SimulateRequest>(payload);
   if (!read) return warn(outputs, fmt::format("a SIMULATE is ignored: {}", read.error().message));
   const auto [position, is_new] = requests_.try_emplace(read->request_id);
-  Request& entry = position->second;
+  OpenRequest& entry = position->second;
   if (!is_new) {
     if (!(entry.request == *read)) {
       warn(outputs, fmt::format("request {} came again with other content and is ignored", read->request_id));
     } else if (entry.missing == 0) {
-      response(entry.request, outputs);
+      respond(entry.request, outputs);
     }
     return;
   }
   entry.request = *std::move(read);
   const wire::SimulateRequest& request = entry.request;
-  if (open_requests_ == 0) asked_ = answered_ = 0;
+  if (open_requests_ == 0) asked_ = done_ = 0;
   for (const pattern::Design& design : request.designs) {
     for (tester::TestKind test : tests_of(request)) {
       const Extras wanted = wanted_extras(request, test);
@@ -65,7 +66,7 @@ void FarmCore::accept(const std::string& payload, runtime::Outputs& outputs) {
     }
   }
   if (entry.missing == 0) {
-    response(request, outputs);
+    respond(request, outputs);
   } else {
     ++open_requests_;
   }
@@ -76,9 +77,9 @@ void FarmCore::launch(const std::string& key, const wire::SimulateRequest& reque
   OpenTest& open_test = tests_[key];
   open_test.running = true;
   open_test.computing = open_test.has | wanted;
-  // Asking an answered question again for more of it: the cache has the numbers, nothing is simulated twice for them.
+  // More is wanted of a test that is done: the cache has the numbers, nothing is simulated twice for them.
   outputs.computes.push_back(
-      {.id = open_test.is_answered ? fmt::format("{}/{}", key, to_string(open_test.computing)) : key,
+      {.id = open_test.is_done ? fmt::format("{}/{}", key, to_string(open_test.computing)) : key,
        .kind = "simulate",
        .spec = wire::write(test_request_of(request, design, open_test.test, open_test.computing))});
 }
@@ -89,24 +90,24 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
     return warn(outputs, fmt::format("the result of {} is ignored: nobody asked for it", work.id));
   auto result = read_response(work.result);
   if (!result) {
-    // Whoever asked must not wait for ever: an answer that says why there is none.
+    // Whoever asked must not wait for ever: a response that says why there is no number.
     warn(outputs, fmt::format("the result of {} cannot be used: {}", work.id, result.error().message));
     result = TestResponse{};
     result->design.failure = "its result cannot be used";
   }
   OpenTest& open_test = position->second;
   open_test.running = false;
-  if (open_test.is_answered && open_test.response.design.failure.empty() && !result->design.failure.empty()) {
-    // Numbers that were answered once stay: another's crack or film does not take them away.
+  if (open_test.is_done && open_test.response.design.failure.empty() && !result->design.failure.empty()) {
+    // Numbers that were sent once stay: another's crack or film does not take them away.
     open_test.extras_failure = result->design.failure;
   } else {
-    open_test.is_answered = true;
+    open_test.is_done = true;
     open_test.has = open_test.computing;
     open_test.response = *std::move(result);
   }
   const std::vector<std::string> waiting = std::exchange(open_test.waiting, {});
   for (const std::string& id : waiting) {
-    Request& request = requests_.at(id);
+    OpenRequest& request = requests_.at(id);
     const Extras wanted = wanted_extras(request.request, open_test.test);
     if (!open_test.suffices(wanted)) {
       open_test.waiting.push_back(id);
@@ -114,16 +115,16 @@ void FarmCore::settle(const runtime::WorkDone& work, runtime::Outputs& outputs) 
         launch(position->first, request.request, open_test.response.design.design, wanted, outputs);
       continue;
     }
-    ++answered_;
+    ++done_;
     if (--request.missing == 0) {
       --open_requests_;
-      response(request.request, outputs);
+      respond(request.request, outputs);
     }
   }
 }
 
 bool FarmCore::OpenTest::suffices(const Extras& wanted) const {
-  return is_answered && (!failure(wanted).empty() || has.covers(wanted));
+  return is_done && (!failure(wanted).empty() || has.covers(wanted));
 }
 
 const std::string& FarmCore::OpenTest::failure(const Extras& wanted) const {
@@ -163,11 +164,11 @@ wire::SimulatedDesign FarmCore::assembled(const wire::SimulateRequest& request, 
   return whole;
 }
 
-void FarmCore::response(const wire::SimulateRequest& request, runtime::Outputs& outputs) const {
+void FarmCore::respond(const wire::SimulateRequest& request, runtime::Outputs& outputs) const {
   std::vector<wire::SimulatedDesign> results;
   results.reserve(request.designs.size());
   for (const pattern::Design& design : request.designs) results.push_back(assembled(request, design));
-  for (const wire::SimulateResult& part : wire::simulate_answer(request.request_id, results)) {
+  for (const wire::SimulateResult& part : wire::simulate_response(request.request_id, results)) {
     outputs.messages.push_back({"SIMULATED", wire::write(part)});
   }
   if (!wanted_extras(request, tester::TestKind::toughness).fracture() || !request.toughness) return;
@@ -178,7 +179,7 @@ void FarmCore::response(const wire::SimulateRequest& request, runtime::Outputs& 
     if (!fracture) continue;
     fracture->request_id = request.request_id;
     fracture->design_index = static_cast<int>(i);
-    if (!request.film) fracture->film.clear();  // the answer does not depend on what others asked
+    if (!request.film) fracture->film.clear();  // the response does not depend on what others requested
     outputs.messages.push_back({"FRACTURE", wire::write(*fracture)});
   }
 }
@@ -188,9 +189,9 @@ runtime::Status FarmCore::status() const {
     return {
         .phase = game_over_ ? "the game is over" : "idle", .round = round_, .progress = -1.0, .finished = game_over_};
   }
-  return {.phase = fmt::format("simulating {} of {}", answered_, asked_),
+  return {.phase = fmt::format("simulating, {} of {} tests done", done_, asked_),
           .round = round_,
-          .progress = static_cast<double>(answered_) / std::max(1, asked_),
+          .progress = static_cast<double>(done_) / std::max(1, asked_),
           .finished = false};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The simulator farm's decisions: which questions are open, who waits for them, when a request is answered.
+// The simulator farm's decisions: which tests are open, who waits for them, when a request gets its response.
 
 #include <map>
 #include <memory>
@@ -17,10 +17,10 @@ namespace nacre::simulator_farm {
 /// Points of the curves kept in memory and in the cache; requests get at most so many.
 inline constexpr int kCurvePoints = store::kKeptCurvePoints;
 
-/// SIMULATE in, one Compute (kind "simulate", see simulate_work.hpp) per question that nobody has asked yet, SIMULATED
-/// out when all questions of a request are answered, and a FRACTURE per design where crack or film was asked for. A
-/// question is one design, one test, one set of parameters and conditions; its simulation_key is the id of its Compute.
-/// Equal questions of different requests are computed once. Computes are handed out in the order of the requests.
+/// SIMULATE in, one Compute (kind "simulate", see simulate_work.hpp) per test that nobody has requested yet, SIMULATED
+/// out when all tests of a request are done, and a FRACTURE per design where crack or film was asked for. A test
+/// request is one design, one test, one set of parameters and conditions; its simulation_key is the id of its Compute.
+/// Equal test requests of different requests are computed once. Computes are handed out in the order of the requests.
 class FarmCore : public runtime::NodeCore {
  public:
   runtime::Outputs step(const runtime::Input& input) override;
@@ -29,20 +29,20 @@ class FarmCore : public runtime::NodeCore {
  private:
   struct OpenTest {
     tester::TestKind test = tester::TestKind::modulus;
-    bool is_answered = false;
+    bool is_done = false;
     bool running = false;
-    Extras has, computing;  ///< of the answer, and of the one that is being computed
+    Extras has, computing;  ///< of the response, and of the one that is being computed
     TestResponse response;
     std::string extras_failure;        ///< why crack or film cannot be had, although the numbers are there
     std::vector<std::string> waiting;  ///< request ids, in the order of asking
-    /// Whether the answer is there and holds what is wanted (a failure has nothing to add).
+    /// Whether the response is there and holds what is wanted (a failure has nothing to add).
     bool suffices(const Extras& wanted) const;
-    /// Why whoever wants these gets no answer; empty: the answer is there.
+    /// Why whoever wants these gets no number; empty: the numbers are there.
     const std::string& failure(const Extras& wanted) const;
   };
-  struct Request {
+  struct OpenRequest {
     wire::SimulateRequest request;
-    int missing = 0;  ///< questions without an answer
+    int missing = 0;  ///< tests that are not done
   };
 
   void accept(const std::string& payload, runtime::Outputs& outputs);
@@ -51,14 +51,14 @@ class FarmCore : public runtime::NodeCore {
               const Extras& wanted, runtime::Outputs& outputs);
   const OpenTest& open_test(const wire::SimulateRequest& request, const pattern::Design& design,
                             tester::TestKind test) const;
-  void response(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
+  void respond(const wire::SimulateRequest& request, runtime::Outputs& outputs) const;
   wire::SimulatedDesign assembled(const wire::SimulateRequest& request, const pattern::Design& design) const;
 
-  std::map<std::string, OpenTest> tests_;    // by simulation_key
-  std::map<std::string, Request> requests_;  // by request_id
+  std::map<std::string, OpenTest> tests_;        // by simulation_key
+  std::map<std::string, OpenRequest> requests_;  // by request_id
   int open_requests_ = 0;
-  int asked_ = 0;  // questions of the present busy spell
-  int answered_ = 0;
+  int asked_ = 0;  // tests of the present busy spell
+  int done_ = 0;
   int round_ = 0;  // for people: the one being played
   bool game_over_ = false;
 };

@@ -54,7 +54,7 @@ void GpuExecutor::give_to_threads(runtime::Compute compute) {
   outbox_.wake();
 }
 
-/// Sorts questions, and mounts specimens for the device a little ahead of it.
+/// Sorts test requests, and mounts specimens for the device a little ahead of it.
 void GpuExecutor::prepare(const std::stop_token& stopping) {
   while (true) {
     runtime::Compute compute;
@@ -127,7 +127,7 @@ void GpuExecutor::keep_device_busy(std::unique_ptr<gpu::Device> device, const st
   }
 }
 
-/// The questions are kept with those on the device before anything can fail: give_up_device() looks there.
+/// The test requests are kept with those on the device before anything can fail: give_up_device() looks there.
 std::vector<gpu::NumberedTest> GpuExecutor::take_ready() {
   std::vector<gpu::NumberedTest> tests;
   const std::lock_guard lock(mutex_);
@@ -149,11 +149,11 @@ void GpuExecutor::keep(const gpu::NumberedResult& over) {
   runtime::Compute compute = std::move(on_device_.extract(over.number).mapped());
   try {
     const AskedSimulation asked = asked_in(compute.spec);
-    // The crack too, asked for or not: threads that were asked for it later would tell of another fracture.
-    keep_answer(*cache_, asked.key, store::kept(over.result), over.result ? &over.result->breaks : nullptr);
+    // The crack too, requested or not: threads that simulate it later would get another fracture.
+    keep_response(*cache_, asked.key, store::kept(over.result), over.result ? &over.result->breaks : nullptr);
     // What is left to threads is the film; or the crack, where the numbers are theirs.
     if (!is_known(*cache_, settings_.films, asked)) return give_to_threads(std::move(compute));
-    // The answer is made of what is kept, as for threads; nothing is left to simulate.
+    // The response is made of what is kept, as for threads; nothing is left to simulate.
     std::string response = simulate_work(*cache_, settings_.films, compute.spec);
     outbox_.finish(std::move(compute), std::move(response));
   } catch (const std::exception& problem) {

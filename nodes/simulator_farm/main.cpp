@@ -9,7 +9,7 @@
 
 #include "base/result.hpp"
 #include "gpu/cuda.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 #include "runtime/process.hpp"
 #include "simulator_farm/batch_task.hpp"
 #include "simulator_farm/farm_core.hpp"
@@ -49,7 +49,7 @@ runtime::NodeProgram make_farm(const FarmOptions& options, const runtime::NodeOp
                                const game::Scenario& scenario) {
   const fs::path run = fs::absolute(node.run_dir).lexically_normal();
   const std::string executor = options.executor.empty() ? scenario.farm.executor : options.executor;
-  // Shared by all runs beside this one: the answers do not depend on the run. A device rounds otherwise, so that farms
+  // Shared by all runs beside this one: results do not depend on the run. A device rounds otherwise, so that farms
   // with one have a cache of their own, for what their threads compute, too.
   const fs::path usual = run / ".." / (executor == "cuda" ? store::kDeviceCacheName : store::kCacheName);
   const fs::path file = options.cache_file.empty() ? usual : options.cache_file;

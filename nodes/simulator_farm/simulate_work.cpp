@@ -16,7 +16,7 @@
 #include "simulator_farm/farm_core.hpp"
 #include "simulator_farm/test_request.hpp"
 #include "store/kept_simulation.hpp"
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {
@@ -35,7 +35,7 @@ constexpr const char* kNoCrack =
 
 bool are_close(double a, double b) { return std::abs(a - b) <= kLargestDifference * std::abs(b); }
 
-/// Whether two answers to a question tell of one fracture, but for rounding.
+/// Whether two results of one test tell of one fracture, but for rounding.
 bool are_of_one_fracture(const store::CachedSimulation& a, const store::CachedSimulation& b) {
   return a.failure.empty() && b.failure.empty() && are_close(a.toughness_pa, b.toughness_pa) &&
          are_close(a.peak_stress_pa, b.peak_stress_pa) && are_close(a.failure_strain, b.failure_strain);
@@ -66,7 +66,7 @@ void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
   const auto known = cache.find(asked.key);
   if (has_numbers(cache, known, asked)) return;
   const auto keep = [&](const store::CachedSimulation& response, const std::vector<tester::Break>* breaks) {
-    if (keep_answer(cache, asked.key, response, breaks) || known) return;
+    if (keep_response(cache, asked.key, response, breaks) || known) return;
     // Another farm with the same cache was faster; harmless, and worth knowing.
     fmt::print(stderr, "simulation {} was done twice at the same time\n", asked.key);
   };
@@ -78,7 +78,7 @@ void simulate(store::SimulationCache& cache, const AskedSimulation& asked) {
 
 std::string film_name(const std::string& key) { return key + ".film"; }
 
-/// Whether a film, for which the specimen is pulled once more here, shows the fracture that was answered.
+/// Whether a film, for which the specimen is pulled once more here, shows the fracture of the response.
 bool shows(const film::Film& film, const store::CachedSimulation& response, const std::vector<tester::Break>& breaks) {
   store::CachedSimulation pulled;
   pulled.toughness_pa = film.toughness_pa;
@@ -87,7 +87,7 @@ bool shows(const film::Film& film, const store::CachedSimulation& response, cons
   return are_of_one_fracture(pulled, response) && have_most_in_common(film.crack.order, breaks);
 }
 
-/// Makes the film of a specimen whose answer is known, unless it is there. Gives the file's name; empty, and a line for
+/// Makes the film of a specimen whose result is known, unless it is there. Gives the file's name; empty, and a line for
 /// the log, where there can be none.
 std::string filmed(const std::filesystem::path& folder, const std::string& key, const tester::Simulation& simulation,
                    const store::CachedSimulation& response, const std::vector<tester::Break>& breaks) {
@@ -100,7 +100,7 @@ std::string filmed(const std::filesystem::path& folder, const std::string& key, 
   const Result<film::Film> film = film::record_film(simulation, known);
   if (!film || !shows(*film, response, breaks)) {
     fmt::print(stderr, "no film of {}, {}: {}\n", simulation.design.name(), key,
-               film ? "the answer was computed elsewhere (by a device), and pulled here the specimen breaks otherwise"
+               film ? "its numbers were computed elsewhere (by a device), and pulled here the specimen breaks otherwise"
                     : film.error().message);
     return {};
   }
@@ -120,16 +120,16 @@ wire::Fracture fracture_of(const tester::Simulation& simulation, std::vector<tes
 }  // namespace
 
 AskedSimulation asked_in(const std::string& spec) {
-  const auto open_test = wire::read<wire::SimulateRequest>(spec);
-  if (!open_test || open_test->designs.size() != 1 || tests_of(*open_test).size() != 1) {
-    throw std::logic_error("the spec of a simulation is not one question: " +
-                           (open_test ? spec : open_test.error().message));
+  const auto test_request = wire::read<wire::SimulateRequest>(spec);
+  if (!test_request || test_request->designs.size() != 1 || tests_of(*test_request).size() != 1) {
+    throw std::logic_error("the spec of a simulation is not one test request: " +
+                           (test_request ? spec : test_request.error().message));
   }
   AskedSimulation asked;
-  asked.test = tests_of(*open_test).front();
-  asked.simulation = simulation_of(*open_test, open_test->designs.front());
+  asked.test = tests_of(*test_request).front();
+  asked.simulation = simulation_of(*test_request, test_request->designs.front());
   asked.key = tester::simulation_key(asked.simulation, asked.test);
-  asked.extras = wanted_extras(*open_test, asked.test);
+  asked.extras = wanted_extras(*test_request, asked.test);
   return asked;
 }
 
@@ -143,8 +143,8 @@ bool is_known(const store::SimulationCache& cache, const std::filesystem::path& 
   return !known->failure.empty() || !asked.extras.film || std::filesystem::exists(films / film_name(asked.key));
 }
 
-bool keep_answer(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& response,
-                 const std::vector<tester::Break>* breaks) {
+bool keep_response(store::SimulationCache& cache, const std::string& key, const store::CachedSimulation& response,
+                   const std::vector<tester::Break>* breaks) {
   const bool is_new = cache.insert(key, response);
   if (breaks && (is_new || are_of_one_fracture(response, cache.find(key).value()))) cache.insert_breaks(key, *breaks);
   return is_new;
@@ -153,8 +153,8 @@ bool keep_answer(store::SimulationCache& cache, const std::string& key, const st
 std::string simulate_work(store::SimulationCache& cache, const std::filesystem::path& films, const std::string& spec) {
   const AskedSimulation asked = asked_in(spec);
   simulate(cache, asked);
-  // Out of the cache even when just simulated: curves are stored as floats, and an answer must not depend on who asked
-  // first.
+  // Out of the cache even when just simulated: curves are stored as floats, and a response must not depend on who
+  // requested first.
   store::CachedSimulation known = cache.find(asked.key).value();
   TestResponse response;
   if (known.failure.empty() && asked.extras.fracture()) {

@@ -46,7 +46,7 @@ std::optional<runtime::ProgramOutput> RunningCommand::poll(double now_s) {
   }
   if (now_s < end_s_) return std::nullopt;
   process_->signal_group(SIGKILL);
-  return runtime::ProgramOutput{output_ + "no answer in time", {.exit_status = 0, .signal = SIGKILL}};
+  return runtime::ProgramOutput{output_ + "no response in time", {.exit_status = 0, .signal = SIGKILL}};
 }
 
 std::vector<std::string> submission(const Wave& wave) {

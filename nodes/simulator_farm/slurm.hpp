@@ -1,6 +1,6 @@
 #pragma once
-// The two things that are said to Slurm: take these tasks, how do they stand. Commands run beside the caller, so that a
-// controller that does not answer holds up nothing else.
+// The two commands to Slurm: submit these tasks, list their states. Commands run beside the caller, so that a
+// controller that does not respond holds up nothing else.
 
 #include <filesystem>
 #include <map>
@@ -19,7 +19,7 @@ namespace nacre::simulator_farm {
 /// A command on its way. Given up after `limit_s`.
 class RunningCommand {
  public:
-  /// A program that cannot be started is an answer with exit status kProgramNotFound.
+  /// A program that cannot be started is an output with exit status kProgramNotFound.
   RunningCommand(const std::vector<std::string>& command, double now_s, double limit_s = 60.0);
   /// What it printed and how it ended; nothing while it runs.
   std::optional<runtime::ProgramOutput> poll(double now_s);
@@ -43,7 +43,7 @@ std::vector<std::string> submission(const Wave& wave);
 /// The command that lists tasks of jobs with these names.
 std::vector<std::string> listing(const std::vector<std::string>& names);
 
-/// The answer to listing(): tasks that Slurm still has, by job name and number.
+/// The output of listing(): tasks that Slurm still has, by job name and number.
 using Listing = std::map<std::pair<std::string, int>, TaskState>;
 Listing read_listing(const std::string& output);
 

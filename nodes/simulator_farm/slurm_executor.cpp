@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using runtime::LogLevel;
 
-constexpr std::size_t kMostQuestions = 500;  // of a batch
-constexpr std::size_t kMostTasks = 500;      // of a wave; Slurm's own limit (MaxArraySize) is 1001 as shipped
-constexpr int kAttemptsTogether = 2;         // then each question of a lost batch goes by itself
+constexpr std::size_t kMostTests = 500;  // of a batch
+constexpr std::size_t kMostTasks = 500;  // of a wave; Slurm's own limit (MaxArraySize) is 1001 as shipped
+constexpr int kAttemptsTogether = 2;     // then each test of a lost batch goes by itself
 constexpr auto kTurn = std::chrono::milliseconds(100);
 
 std::string last_line(const std::string& text) {
@@ -85,7 +85,7 @@ void SlurmExecutor::run() {
       return;
     }
     outbox_.set_standing(
-        fmt::format("slurm: {} questions wait, {} batches are out; {} tasks so far, {} lost, {} duplicates",
+        fmt::format("slurm: {} tests wait, {} batches are out; {} tasks so far, {} lost, {} duplicates",
                     waiting_.size(), in_flight_.size(), counters_.tasks, counters_.lost, counters_.duplicates));
     lock.lock();
     if (new_.empty() && !stopping_) changed_.wait_for(lock, kTurn);
@@ -105,8 +105,8 @@ void SlurmExecutor::adopt_spool() {
   spool_.tidy();
   const auto tasks = spool_.tasks();
   for (const std::string& name : spool_.batches()) {
-    const auto batch = read_batch(read_file(spool_.open_test(name)));
-    if (!batch) {  // of another version: its answer would not be taken either
+    const auto batch = read_batch(read_file(spool_.batch_file(name)));
+    if (!batch) {  // of another version: its result would not be taken either
       spool_.remove(name);
       continue;
     }
@@ -133,14 +133,14 @@ void SlurmExecutor::take_new() {
   }
   for (runtime::Compute& compute : taken) {
     std::string spec = compute.spec;
-    sort_question({.spec = std::move(spec), .compute = std::move(compute)});
+    sort_test({.spec = std::move(spec), .compute = std::move(compute)});
   }
 }
 
-/// Answered at once, or out already, or to go out.
-void SlurmExecutor::sort_question(OpenTest open_test) {
+/// Done at once, or out already, or to go out.
+void SlurmExecutor::sort_test(OpenTest open_test) {
   if (is_known(*cache_, settings_.films, asked_in(open_test.spec))) {
-    if (open_test.compute) response(*open_test.compute);
+    if (open_test.compute) respond(*open_test.compute);
     return;
   }
   if (const auto out = batch_of_spec_.find(open_test.spec); out != batch_of_spec_.end()) {
@@ -155,7 +155,7 @@ void SlurmExecutor::sort_question(OpenTest open_test) {
   waiting_.push_back(std::move(open_test));
 }
 
-void SlurmExecutor::response(const runtime::Compute& compute) {
+void SlurmExecutor::respond(const runtime::Compute& compute) {
   outbox_.finish(compute, simulate_work(*cache_, settings_.films, compute.spec));
 }
 
@@ -179,7 +179,7 @@ void SlurmExecutor::take_result(const std::string& name) {
     return give_again(name);
   }
   for (const BatchRecord& record : *records) {
-    keep_answer(*cache_, record.key, record.response, record.breaks ? &*record.breaks : nullptr);
+    keep_response(*cache_, record.key, record.response, record.breaks ? &*record.breaks : nullptr);
   }
   InFlight entry = std::move(in_flight_.extract(name).mapped());
   for (std::size_t i = 0; i < entry.tests.size(); ++i) {
@@ -191,7 +191,7 @@ void SlurmExecutor::take_result(const std::string& name) {
   std::erase(to_submit_, name);
   // Whatever has not come with it (a film that cannot be kept): asked again, a task would say the same for ever.
   for (const OpenTest& open_test : entry.tests) {
-    if (open_test.compute) response(*open_test.compute);
+    if (open_test.compute) respond(*open_test.compute);
   }
   if (in_flight_.empty()) spool_.tidy();
 }
@@ -230,7 +230,7 @@ void SlurmExecutor::take_listing(const Listing& tasks) {
   const double now = now_s();
   std::vector<std::string> lost;
   for (auto& [name, entry] : in_flight_) {
-    if (!asked_batches_.contains(name)) continue;  // given out after the question
+    if (!asked_batches_.contains(name)) continue;  // given out after the listing began
     TaskState state = TaskState::absent;
     for (const Task& task : entry.tasks) {
       const auto listed = tasks.find(task);
@@ -254,8 +254,8 @@ void SlurmExecutor::take_listing(const Listing& tasks) {
   }
 }
 
-/// A lost batch goes out again as it is, with its file where that is gone; when that does not help, each of its
-/// questions by itself.
+/// A lost batch goes out again as it is, with its file where that is gone; when that does not help, each of its tests
+/// by itself.
 void SlurmExecutor::give_again(const std::string& name) {
   InFlight& entry = in_flight_.at(name);
   int attempts = 0;
@@ -288,7 +288,7 @@ void SlurmExecutor::cut_batches() {
     const AskedSimulation asked = asked_in(open_test.spec);
     costs_s.push_back(costs_.seconds(asked.test, asked.simulation.fidelity));
   }
-  for (const std::size_t count : cut_into_batches(costs_s, settings_.batch_s, kMostQuestions)) {
+  for (const std::size_t count : cut_into_batches(costs_s, settings_.batch_s, kMostTests)) {
     const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
     put_batch({std::make_move_iterator(waiting_.begin()), std::make_move_iterator(end)});
     waiting_.erase(waiting_.begin(), end);
@@ -301,7 +301,7 @@ std::string SlurmExecutor::batch_bytes(const std::vector<OpenTest>& tests) const
   return write_batch(batch);
 }
 
-/// On disk before Slurm hears of it.
+/// On disk before it is submitted to Slurm.
 void SlurmExecutor::put_batch(std::vector<OpenTest> tests) {
   const std::string bytes = batch_bytes(tests);
   const std::string name = batch_name(bytes);

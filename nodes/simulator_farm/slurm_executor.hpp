@@ -1,6 +1,6 @@
 #pragma once
-// The farm's executor on a Slurm cluster: questions that the cache does not answer go out in batches, a task of a job
-// array each. What is done is what has come back and lies in the cache, whatever Slurm says.
+// The farm's executor on a Slurm cluster: tests that the cache does not know go out in batches, a task of a job array
+// each. What is done is what has come back and lies in the cache, whatever Slurm says.
 
 #include <condition_variable>
 #include <deque>
@@ -29,10 +29,10 @@ struct SlurmSettings {
   std::filesystem::path program;          ///< of the tasks: this one
   std::vector<std::string> options = {};  ///< further options of sbatch
   double batch_s = 20.0;
-  double gather_s = 0.2;  ///< questions that come within this time may share a batch
+  double gather_s = 0.2;  ///< tests that come within this time may share a batch
   double poll_s = 5.0;    ///< between two looks at Slurm's list
   Patience patience = {};
-  /// Batches that a question is lost with, those that it shared included, until the farm stops and says why.
+  /// Batches that a test is lost with, those that it shared included, until the farm stops with the reason.
   int most_attempts = 5;
 };
 
@@ -57,7 +57,7 @@ class SlurmExecutor : public runtime::Executor {
   std::string standing() const override { return outbox_.standing(); }
 
  private:
-  /// A question with everybody who waits for it (after a restart: nobody yet).
+  /// A test request with whoever waits for its result (after a restart: nobody yet).
   struct OpenTest {
     std::string spec;
     std::optional<runtime::Compute> compute;
@@ -78,8 +78,8 @@ class SlurmExecutor : public runtime::Executor {
   void turn();
   void adopt_spool();
   void take_new();
-  void sort_question(OpenTest open_test);
-  void response(const runtime::Compute& compute);
+  void sort_test(OpenTest open_test);
+  void respond(const runtime::Compute& compute);
   void take_results();
   void take_result(const std::string& batch);
   void look_at_slurm();
@@ -89,7 +89,7 @@ class SlurmExecutor : public runtime::Executor {
   std::string batch_bytes(const std::vector<OpenTest>& tests) const;
   void put_batch(std::vector<OpenTest> tests);
   void submit();
-  void take_submission(const runtime::ProgramOutput& response);
+  void take_submission(const runtime::ProgramOutput& said);
   void give_up(const std::string& reason);
   double now_s() const;
 

@@ -33,7 +33,7 @@ std::optional<std::string> read_if_there(const fs::path& path) {
 Spool::Spool(fs::path folder) : folder_(std::move(folder)) { make_folder(folder_); }
 
 void Spool::put(const std::string& batch, const std::string& bytes) const {
-  if (!fs::exists(open_test(batch))) write_file_atomically(open_test(batch), bytes);
+  if (!fs::exists(batch_file(batch))) write_file_atomically(batch_file(batch), bytes);
 }
 
 void Spool::put_wave(const std::string& name, const std::vector<std::string>& batches) const {
@@ -87,7 +87,7 @@ std::string Spool::last_words(const std::vector<Task>& tasks) const {
 
 void Spool::remove(const std::string& batch) const {
   std::error_code ignored;  // what cannot be removed is removed by the next tidy()
-  for (const fs::path& file : {open_test(batch), result(batch), sign(batch)}) fs::remove(file, ignored);
+  for (const fs::path& file : {batch_file(batch), result(batch), sign(batch)}) fs::remove(file, ignored);
 }
 
 void Spool::tidy() const {

@@ -22,14 +22,14 @@ class Spool {
   explicit Spool(std::filesystem::path folder);
 
   const std::filesystem::path& folder() const { return folder_; }
-  std::filesystem::path open_test(const std::string& batch) const { return folder_ / (batch + ".in"); }
+  std::filesystem::path batch_file(const std::string& batch) const { return folder_ / (batch + ".in"); }
   std::filesystem::path result(const std::string& batch) const { return folder_ / (batch + ".out"); }
   std::filesystem::path sign(const std::string& batch) const { return folder_ / (batch + ".sign"); }
   std::filesystem::path wave(const std::string& name) const { return folder_ / (name + ".wave"); }
 
   /// Writes a batch to disk; a batch that is there already stays as it is.
   void put(const std::string& batch, const std::string& bytes) const;
-  /// Writes down which task answers which batch.
+  /// Writes down which task simulates which batch.
   void put_wave(const std::string& name, const std::vector<std::string>& batches) const;
   /// The batch of a task. The error: no such wave or task.
   Result<std::string> batch_of(const std::string& wave, int task) const;

@@ -9,7 +9,7 @@
 namespace nacre::simulator_farm {
 namespace {
 
-/// Not part of the question: equal questions are equal specs.
+/// Not part of what is requested: equal test requests are equal specs.
 constexpr const char* kRequestId = "simulator_farm/question";
 
 }  // namespace
@@ -43,16 +43,16 @@ std::vector<tester::TestKind> tests_of(const wire::SimulateRequest& request) {
 
 wire::SimulateRequest test_request_of(const wire::SimulateRequest& request, const pattern::Design& design,
                                       tester::TestKind test, const Extras& extras) {
-  wire::SimulateRequest open_test = request;
-  open_test.request_id = kRequestId;
-  open_test.modulus = test == tester::TestKind::modulus;
-  open_test.toughness = test == tester::TestKind::toughness;
-  open_test.curve_points = extras.curve ? kCurvePoints : 0;
-  open_test.crack = extras.crack;
-  open_test.film = extras.film;
-  open_test.parameters = simulation_of(request, design).parameters;
-  open_test.designs = {design};
-  return open_test;
+  wire::SimulateRequest test_request = request;
+  test_request.request_id = kRequestId;
+  test_request.modulus = test == tester::TestKind::modulus;
+  test_request.toughness = test == tester::TestKind::toughness;
+  test_request.curve_points = extras.curve ? kCurvePoints : 0;
+  test_request.crack = extras.crack;
+  test_request.film = extras.film;
+  test_request.parameters = simulation_of(request, design).parameters;
+  test_request.designs = {design};
+  return test_request;
 }
 
 std::string write_response(const TestResponse& response) {
@@ -75,7 +75,7 @@ Result<TestResponse> read_response(const std::string& bytes) {
   }
   auto result = wire::read<wire::SimulateResult>(numbers);
   if (!result) return tl::unexpected(result.error());
-  if (result->results.size() != 1) return fail("{} designs answer one question", result->results.size());
+  if (result->results.size() != 1) return fail("{} results of one test request", result->results.size());
   response.design = std::move(result->results.front());
   return response;
 }

@@ -1,16 +1,15 @@
 #pragma once
-// A simulate request taken apart into questions, each a request for one design and one test.
+// A SIMULATE request taken apart into test requests: one design and one test each.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::simulator_farm {
 
-/// What an answer holds beside the numbers.
+/// What a response holds in addition to the numbers.
 struct Extras {
   bool curve = false;
   bool crack = false;
@@ -29,19 +28,19 @@ std::string to_string(const Extras& extras);
 /// What a request wants of a test.
 Extras wanted_extras(const wire::SimulateRequest& request, tester::TestKind test);
 
-/// The question as the testers understand it. Effects of the testing machine are left out: the simulator does not know
-/// them.
+/// What the testers simulate for a design of the request. Effects of the testing machine are left out: the simulator
+/// does not know them.
 tester::Simulation simulation_of(const wire::SimulateRequest& request, const pattern::Design& design);
 
-/// Tests that a request asks for.
+/// Tests of a request.
 std::vector<tester::TestKind> tests_of(const wire::SimulateRequest& request);
 
-/// The request for one design and test that is a Compute's spec.
+/// The test request that is a Compute's spec.
 wire::SimulateRequest test_request_of(const wire::SimulateRequest& request, const pattern::Design& design,
                                       tester::TestKind test, const Extras& extras);
 
-/// Result of a Compute: the answer to one question, and how the design broke when that was asked for and it did not
-/// fail.
+/// Result of a Compute: the response to one test request, and how the design broke when that was asked for and the
+/// simulation did not fail.
 struct TestResponse {
   wire::SimulatedDesign design;
   std::optional<wire::Fracture> fracture;

@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/random.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
 #include "select/select.hpp"
+#include "sysid/errors.hpp"
 #include "sysid/objective.hpp"
 #include "validation_agent/family_work.hpp"
 
@@ -24,7 +26,7 @@ pattern::Pattern pattern_of(const measurement::Replicates& measured) {
   return game::eightfold_pattern(measured.design).value();
 }
 
-/// What was measured of a pattern itself, not of a twin pulled faster or thinner; null where nothing was.
+/// The measurements of a pattern itself, not of a twin pulled faster or thinner; null where there are none.
 const measurement::Replicates* measured_of(const std::vector<measurement::Replicates>& measured,
                                            const pattern::Pattern& pattern) {
   const auto found = std::ranges::find_if(measured, [&](const measurement::Replicates& each) {
@@ -33,8 +35,8 @@ const measurement::Replicates* measured_of(const std::vector<measurement::Replic
   return found == measured.end() ? nullptr : &*found;
 }
 
-std::vector<families::Member> members_of(const std::vector<measurement::Replicates>& measured) {
-  std::vector<families::Member> members;
+std::vector<families::MeasuredPattern> members_of(const std::vector<measurement::Replicates>& measured) {
+  std::vector<families::MeasuredPattern> members;
   for (const measurement::Replicates& each : measured)
     members.push_back({pattern_of(each), {each.modulus_pa, each.toughness_pa}});
   return members;
@@ -62,8 +64,8 @@ sysid::WantedEvaluation evaluation_of_all(const std::string& id, const material:
   return evaluation;
 }
 
-/// As the testing machine would show it.
-game::DesignValues shown(const sysid::Prediction& prediction, const material::Extensions& extensions) {
+/// As recorded by the testing machine.
+game::DesignValues recorded(const sysid::Prediction& prediction, const material::Extensions& extensions) {
   const sysid::Prediction observed = sysid::observed(prediction, extensions);
   return {observed.modulus_pa, observed.toughness_pa};
 }
@@ -92,9 +94,9 @@ void FamilyStage::accept_work(const runtime::WorkDone& work, runtime::Outputs& o
     const auto near = families::near_pareto(members_of(beginning_.measured), scenario_.families.rank);
     std::erase_if(beginning_.measured, [&](const measurement::Replicates& each) {
       const pattern::Pattern pattern = pattern_of(each);
-      return std::ranges::count(near, pattern, &families::Member::pattern) == 0 &&
-             std::ranges::none_of(groups_,
-                                  [&](const families::Family& f) { return std::ranges::count(f.seeds, pattern) > 0; });
+      return std::ranges::count(near, pattern, &families::MeasuredPattern::pattern) == 0 &&
+             std::ranges::none_of(
+                 groups_, [&](const families::SeedFamily& f) { return std::ranges::count(f.seeds, pattern) > 0; });
     });
     begin_family(outputs);
   } else if (step_ == Step::sampling && work.id == label("sample")) {
@@ -105,10 +107,10 @@ void FamilyStage::accept_work(const runtime::WorkDone& work, runtime::Outputs& o
   }
 }
 
-void FamilyStage::accept_answer(wire::SimulateResult part, runtime::Outputs& outputs) {
-  if (!questions_.take(std::move(part))) return;
+void FamilyStage::accept_response(wire::SimulateResult part, runtime::Outputs& outputs) {
+  if (!farm_.take(std::move(part))) return;
   if (step_ == Step::calibrating) {
-    fitting_->tell(questions_.predictions());
+    fitting_->tell(farm_.predictions());
     calibrate_on(outputs);
   } else if (step_ == Step::simulating) {
     choose(outputs);
@@ -122,7 +124,7 @@ std::string FamilyStage::label(const char* what) const {
 }
 
 void FamilyStage::ask(const FarmBatch& batch, runtime::Outputs& outputs) {
-  for (const wire::SimulateRequest& request : questions_.ask(batch))
+  for (const wire::SimulateRequest& request : farm_.ask(batch))
     outputs.messages.push_back({"SIMULATE", wire::write(request)});
 }
 
@@ -132,8 +134,8 @@ void FamilyStage::begin_family(runtime::Outputs& outputs) {
     has_chosen_ = true;
     return;
   }
-  const families::Family& group = groups_[families_.size()];
-  wire::Family& family = families_.emplace_back();
+  const families::SeedFamily& group = groups_[families_.size()];
+  wire::CalibratedFamily& family = families_.emplace_back();
   family.round = beginning_.round;
   family.fidelity = scenario_.fidelity;
   family.number = static_cast<int>(families_.size()) - 1;
@@ -177,7 +179,7 @@ void FamilyStage::calibrate_on(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::sample(runtime::Outputs& outputs) {
-  const families::Family& group = groups_[families_.size() - 1];
+  const families::SeedFamily& group = groups_[families_.size() - 1];
   step_ = Step::sampling;
   outputs.computes.push_back(
       {.id = label("sample"),
@@ -198,9 +200,9 @@ void FamilyStage::simulate_variants(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::choose(runtime::Outputs& outputs) {
-  wire::Family& family = families_.back();
+  wire::CalibratedFamily& family = families_.back();
   gamut_.clear();
-  const std::vector<sysid::Prediction>& predictions = questions_.predictions().front();
+  const std::vector<sysid::Prediction>& predictions = farm_.predictions().front();
   for (std::size_t i = 0; i < variants_.size(); ++i) {
     if (predictions[i].modulus_pa && predictions[i].toughness_pa)
       gamut_.push_back({variants_[i], {*predictions[i].modulus_pa, *predictions[i].toughness_pa}});
@@ -226,17 +228,17 @@ void FamilyStage::choose(runtime::Outputs& outputs) {
 }
 
 void FamilyStage::finish_family(runtime::Outputs& outputs) {
-  wire::Family& family = families_.back();
-  const auto& predictions = questions_.predictions();
+  wire::CalibratedFamily& family = families_.back();
+  const auto& predictions = farm_.predictions();
   for (std::size_t i = 0; i < family.designs.size(); ++i) {
-    family.designs[i].global_model = shown(predictions[0][i], beginning_.model.extensions);
-    family.designs[i].family_model = shown(predictions[1][i], family.parameters.extensions);
+    family.designs[i].global_model = recorded(predictions[0][i], beginning_.model.extensions);
+    family.designs[i].family_model = recorded(predictions[1][i], family.parameters.extensions);
   }
   const game::FamilyErrors errors = game::family_errors(family.designs);
   say(outputs, LogLevel::info,
-      fmt::format("{}: {} seeds, {} variants; on the seeds the global model misses by {}, its own by {}", family.name,
-                  groups_[families_.size() - 1].seeds.size(), family.samples, errors_in_words(errors.seeds_global),
-                  errors_in_words(errors.seeds_family)));
+      fmt::format("{}: {}, {}; errors on the seeds: global model {}, its own model {}", family.name,
+                  counted(std::ssize(groups_[families_.size() - 1].seeds), "seed"), counted(family.samples, "variant"),
+                  errors_in_words(errors.seeds_global), errors_in_words(errors.seeds_family)));
   for (const wire::FamilyGamut& chunk : wire::family_gamut_chunks(family.number, family.fidelity, gamut_))
     outputs.messages.push_back({"FAMILY_GAMUT", wire::write(chunk)});
   outputs.messages.push_back({"FAMILY", wire::write(family)});
@@ -245,7 +247,7 @@ void FamilyStage::finish_family(runtime::Outputs& outputs) {
 
 std::vector<pattern::Design> FamilyStage::chosen() const {
   std::vector<pattern::Design> designs;
-  for (const wire::Family& family : families_) {
+  for (const wire::CalibratedFamily& family : families_) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) designs.emplace_back(design.pattern);
   }
@@ -259,7 +261,7 @@ game::DesignValues FamilyStage::measured_values(const pattern::Pattern& pattern)
 }
 
 void FamilyStage::conclude(const std::vector<measurement::Replicates>& measured, runtime::Outputs& outputs) {
-  for (wire::Family& family : families_) {
+  for (wire::CalibratedFamily& family : families_) {
     for (game::FamilyDesign& design : family.designs) {
       if (design.is_seed) continue;
       const measurement::Replicates* found = measured_of(measured, design.pattern);
@@ -271,22 +273,22 @@ void FamilyStage::conclude(const std::vector<measurement::Replicates>& measured,
     outputs.messages.push_back({"FAMILY", wire::write(family)});
     const game::FamilyErrors errors = game::family_errors(family.designs);
     say(outputs, LogLevel::info,
-        fmt::format("{}: on its measured variants the global model misses by {}, its own by {}", family.name,
+        fmt::format("{}: errors on its measured variants: global model {}, its own model {}", family.name,
                     errors_in_words(errors.chosen_global), errors_in_words(errors.chosen_family)));
     for (const auto& [over_fits, what] :
          {std::pair{errors.over_fits_modulus(), "E"}, std::pair{errors.over_fits_toughness(), "T"}}) {
       if (over_fits)
         say(outputs, LogLevel::warning,
-            fmt::format(
-                "{}: its own model over-fits {}: nearer to the seeds than the global one, farther from the variants",
-                family.name, what));
+            fmt::format("{}: its own model over-fits {}: it is more accurate than the global one on the seeds, less on "
+                        "the variants",
+                        family.name, what));
     }
   }
 }
 
 std::string FamilyStage::phase() const {
   if (step_ == Step::grouping || families_.empty()) return "grouping the best designs into families";
-  const wire::Family& family = families_.back();
+  const wire::CalibratedFamily& family = families_.back();
   const std::string which = fmt::format("family {} of {}: ", family.number + 1, family.count);
   switch (step_) {
     case Step::calibrating:
@@ -294,7 +296,7 @@ std::string FamilyStage::phase() const {
     case Step::sampling:
       return which + "drawing variants";
     case Step::simulating:
-      return which + fmt::format("simulating {} variants", variants_.size());
+      return which + "simulating " + counted(std::ssize(variants_), "variant");
     default:
       return which + "predicting seeds and chosen designs";
   }

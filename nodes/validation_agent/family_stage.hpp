@@ -37,7 +37,7 @@ class FamilyStage {
 
   FamilyStage(const game::Scenario& scenario, StageBeginning beginning);
   void begin(runtime::Outputs& outputs);
-  void accept_answer(wire::SimulateResult part, runtime::Outputs& outputs);
+  void accept_response(wire::SimulateResult part, runtime::Outputs& outputs);
   void accept_work(const runtime::WorkDone& work, runtime::Outputs& outputs);
 
   /// All families have their designs; chosen() are to be measured now.
@@ -46,7 +46,7 @@ class FamilyStage {
   /// Sends every family once more with what was measured of its designs, and warns where a model over-fits.
   void conclude(const std::vector<measurement::Replicates>& measured, runtime::Outputs& outputs);
 
-  /// What the stage is at, for people, and the share of the present step (-1 unknown).
+  /// The present step, for people, and its progress (-1 unknown).
   std::string phase() const;
   double progress() const;
 
@@ -68,15 +68,15 @@ class FamilyStage {
   Step step_ = Step::grouping;
   bool has_chosen_ = false;
 
-  std::vector<families::Family> groups_;
-  std::vector<wire::Family> families_;  // one per group, the last one in work
+  std::vector<families::SeedFamily> groups_;
+  std::vector<wire::CalibratedFamily> families_;  // one per group, the last one in work
 
   // Of the family in work.
   std::optional<Fitting> fitting_;
   std::vector<pattern::Pattern> variants_;
   std::vector<explore::Evaluated> gamut_;
   std::vector<measurement::Replicates> asked_;
-  FarmRequests questions_;
+  FarmRequests farm_;
 };
 
 }  // namespace nacre::validation_agent

@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/expected.hpp"
 #include "base/files.hpp"
 #include "families/dense_sampling.hpp"
+#include "families/families_file.hpp"
 #include "pattern/pattern_key.hpp"
 #include "runtime/journal.hpp"
 #include "wire/convert.hpp"
@@ -18,8 +20,8 @@ namespace {
 constexpr const char* kFamiliesFile = "families.toml";
 
 /// Designs in chunks, for there may be more of them than a message holds.
-std::vector<families::Member> members_from(std::span<const std::string> chunks) {
-  std::vector<families::Member> members;
+std::vector<families::MeasuredPattern> members_from(std::span<const std::string> chunks) {
+  std::vector<families::MeasuredPattern> members;
   for (const std::string& payload : chunks)
     for (const explore::Evaluated& each : expected(wire::read<wire::GamutChunk>(payload)).samples)
       members.push_back({each.pattern, each.performance});
@@ -27,11 +29,11 @@ std::vector<families::Member> members_from(std::span<const std::string> chunks) 
 }
 
 /// Seeds must be measured: the calibration stands on them.
-void check_seeds(const std::vector<families::Family>& families, const std::vector<families::Member>& measured,
-                 const std::filesystem::path& file) {
-  for (const families::Family& family : families) {
+void check_seeds(const std::vector<families::SeedFamily>& families,
+                 const std::vector<families::MeasuredPattern>& measured, const std::filesystem::path& file) {
+  for (const families::SeedFamily& family : families) {
     for (const pattern::Pattern& seed : family.seeds) {
-      if (std::ranges::count(measured, seed, &families::Member::pattern) == 0)
+      if (std::ranges::count(measured, seed, &families::MeasuredPattern::pattern) == 0)
         throw InputError::format("{}: family '{}': seed {} is not measured in both tests", file.string(), family.name,
                                  seed.key());
     }
@@ -40,21 +42,22 @@ void check_seeds(const std::vector<families::Family>& families, const std::vecto
 
 std::string grouping_work(const std::filesystem::path& folder, const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));
-  const std::vector<families::Member> measured = members_from(std::span(fields).subspan(1));
+  const std::vector<families::MeasuredPattern> measured = members_from(std::span(fields).subspan(1));
   const std::filesystem::path file = folder / kFamiliesFile;
-  const auto answer = [](const std::vector<families::Family>& families, const std::string& remark, bool is_faulty) {
+  const auto result = [](const std::vector<families::SeedFamily>& families, const std::string& remark, bool is_faulty) {
     return runtime::pack({families::to_toml(families), remark, is_faulty ? "faulty" : ""});
   };
   const auto proposed = families::proposed_families(families::near_pareto(measured, std::stoi(fields.at(0))));
   if (!folder.empty() && std::filesystem::exists(file)) {
     try {
-      const std::vector<families::Family> chosen = families::read_families(file);
+      const std::vector<families::SeedFamily> chosen = families::read_families(file);
       check_seeds(chosen, measured, file);
-      // A file that says what would be proposed may be this program's own, from before a restart.
+      // A file that equals the proposal may be this program's own, from before a restart.
       if (chosen != proposed)
-        return answer(chosen, fmt::format("{} families of {}", chosen.size(), kFamiliesFile), false);
+        return result(chosen, fmt::format("{} of {}", counted(std::ssize(chosen), "family", "families"), kFamiliesFile),
+                      false);
     } catch (const InputError& error) {
-      return answer(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()),
+      return result(proposed, fmt::format("{}; the families are proposed by pattern and properties", error.what()),
                     true);
     }
   }
@@ -62,12 +65,14 @@ std::string grouping_work(const std::filesystem::path& folder, const std::string
     std::filesystem::create_directories(folder);
     write_file_atomically(file, families::to_toml(proposed));
   }
-  return answer(proposed, fmt::format("{} families proposed by pattern and properties", proposed.size()), false);
+  return result(
+      proposed,
+      fmt::format("{} proposed by pattern and properties", counted(std::ssize(proposed), "family", "families")), false);
 }
 
 std::string sampling_work(const std::string& spec) {
   const std::vector<std::string> fields = expected(runtime::unpack(spec));
-  const std::vector<families::Family> families = families::parse_families(fields.at(0), "a sampling");
+  const std::vector<families::SeedFamily> families = families::parse_families(fields.at(0), "a sampling");
   families::DenseSampler sampler(families.at(0).seeds, {.seed = std::stoull(fields.at(2))});
   const auto wanted = static_cast<std::size_t>(std::stoi(fields.at(1)));
   while (sampler.members().size() < wanted && !sampler.exhausted()) sampler.next();
@@ -80,9 +85,9 @@ std::string sampling_work(const std::string& spec) {
 
 }  // namespace
 
-std::string grouping_spec(const std::vector<families::Member>& measured, int rank) {
+std::string grouping_spec(const std::vector<families::MeasuredPattern>& measured, int rank) {
   std::vector<explore::Evaluated> samples;
-  for (const families::Member& each : measured) samples.push_back({each.pattern, each.performance});
+  for (const families::MeasuredPattern& each : measured) samples.push_back({each.pattern, each.performance});
   std::vector<std::string> fields = {std::to_string(rank)};
   for (const wire::GamutChunk& chunk : wire::gamut_chunks(0, tester::Fidelity::full, samples))
     fields.push_back(wire::write(chunk));
@@ -96,7 +101,7 @@ Grouping grouping_from(const std::string& result) {
           .file_is_faulty = !fields.at(2).empty()};
 }
 
-std::string sampling_spec(const families::Family& family, int samples, std::uint64_t seed) {
+std::string sampling_spec(const families::SeedFamily& family, int samples, std::uint64_t seed) {
   return runtime::pack({families::to_toml({family}), std::to_string(samples), std::to_string(seed)});
 }
 

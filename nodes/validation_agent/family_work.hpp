@@ -13,18 +13,18 @@
 namespace nacre::validation_agent {
 
 /// Spec of a Compute of kind "group_families": everything measured, Pa, and up to which rank designs are near-Pareto.
-std::string grouping_spec(const std::vector<families::Member>& measured, int rank);
+std::string grouping_spec(const std::vector<families::MeasuredPattern>& measured, int rank);
 
 struct Grouping {
-  std::vector<families::Family> families;
+  std::vector<families::SeedFamily> families;
   std::string remark;  ///< whose families they are, for a person
   bool file_is_faulty = false;
 };
 /// The result of a grouping.
 Grouping grouping_from(const std::string& result);
 
-/// Spec of a Compute of kind "sample_family": so many patterns around the seeds, seeds included.
-std::string sampling_spec(const families::Family& family, int samples, std::uint64_t seed);
+/// Spec of a Compute of kind "sample_family": `samples` patterns around the seeds, seeds included.
+std::string sampling_spec(const families::SeedFamily& family, int samples, std::uint64_t seed);
 /// The result of a sampling: seeds first.
 std::vector<pattern::Pattern> sample_from(const std::string& result);
 

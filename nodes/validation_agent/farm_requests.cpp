@@ -15,13 +15,13 @@ ConditionsKey key_of(const tester::TestConditions& conditions) {
   return {conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm};
 }
 
-sysid::Prediction prediction_of(const wire::SimulatedDesign& answer, bool modulus, bool toughness) {
+sysid::Prediction prediction_of(const wire::SimulatedDesign& result, bool modulus, bool toughness) {
   sysid::Prediction prediction;
-  if (!answer.failure.empty()) return prediction;
-  if (modulus) prediction.modulus_pa = answer.modulus_pa;
+  if (!result.failure.empty()) return prediction;
+  if (modulus) prediction.modulus_pa = result.modulus_pa;
   if (toughness) {
-    prediction.toughness_pa = answer.toughness_pa;
-    prediction.curve = answer.curve;
+    prediction.toughness_pa = result.toughness_pa;
+    prediction.curve = result.curve;
   }
   return prediction;
 }
@@ -68,12 +68,12 @@ std::vector<wire::SimulateRequest> FarmRequests::ask(const FarmBatch& batch) {
 bool FarmRequests::take(wire::SimulateResult part) {
   const auto open = open_.find(part.request_id);
   if (open == open_.end()) return false;  // answered before, or not of this batch
-  const auto answer = collector_.add(std::move(part));
-  if (!answer) return false;
+  const auto response = collector_.add(std::move(part));
+  if (!response) return false;
   const Place& place = open->second;
-  for (std::size_t index = 0; index < place.items.size() && index < answer->size(); ++index) {
+  for (std::size_t index = 0; index < place.items.size() && index < response->size(); ++index) {
     predictions_[place.evaluation][place.items[index]] =
-        prediction_of((*answer)[index], place.modulus, place.toughness);
+        prediction_of((*response)[index], place.modulus, place.toughness);
   }
   open_.erase(open);
   return open_.empty();

@@ -1,17 +1,18 @@
 #pragma once
-// Evaluations that the farm is asked for, and their answers put together again.
+// Evaluations requested from the farm, and their responses put together again.
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "measurement/measurement.hpp"
 #include "sysid/calibration.hpp"
+#include "sysid/prediction.hpp"
+#include "sysid/wanted_evaluation.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::validation_agent {
 
-/// What the farm is asked at once.
+/// Evaluations that are requested at once.
 struct FarmBatch {
   std::string label;  ///< of request ids, before the evaluation's own: batches that share it hold other evaluations
   std::vector<sysid::WantedEvaluation> wanted;
@@ -20,7 +21,7 @@ struct FarmBatch {
   int curve_points = 64;  ///< of toughness tests: enough for the curve term of Eq. 2.8
 };
 
-/// One batch of evaluations at the farm. Answers may come in any order and any number of times; what predictions()
+/// One batch of evaluations at the farm. Responses may come in any order and any number of times; what predictions()
 /// holds does not depend on it.
 class FarmRequests {
  public:

@@ -1,6 +1,6 @@
 // The validation agent as a process.
 
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 #include "validation_agent/family_work.hpp"
 #include "validation_agent/validation_core.hpp"
 

@@ -18,8 +18,9 @@ std::vector<pattern::Pattern> draw_random_patterns(const game::Scenario& scenari
   return pattern::stratified_patterns(scenario.validation.random_patterns, random);
 }
 
-/// What was tested, or is to be.
-std::string question(const pattern::Design& design, tester::TestKind test, const tester::TestConditions& conditions) {
+/// A test that was made, or is to be.
+std::string test_in_words(const pattern::Design& design, tester::TestKind test,
+                          const tester::TestConditions& conditions) {
   return fmt::format("{}, {} test at {} degrees, {} /s, {} mm", design.name(), tester::to_string(test),
                      conditions.orientation_deg, conditions.strain_rate_per_s, conditions.thickness_mm);
 }
@@ -35,14 +36,14 @@ std::vector<game::Order> OrderDesk::place(std::vector<game::Order> orders) {
 }
 
 bool OrderDesk::refused(const pattern::Design& design) const {
-  return std::any_of(decisions_.begin(), decisions_.end(),
+  return std::any_of(approvals_.begin(), approvals_.end(),
                      [&](const auto& entry) { return entry.first.second == design.name() && !entry.second.approved; });
 }
 
 std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::Design> designs,
-                                               std::vector<game::Experiment> experiments) {
+                                               std::vector<game::DiscriminationTest> experiments) {
   round_ = round;
-  decided_under_ = round - 1;
+  approval_round_ = round - 1;
   std::vector<game::Order> orders;
   const auto add = [&](std::vector<game::Order> more) {
     std::move(more.begin(), more.end(), std::back_inserter(orders));
@@ -53,13 +54,13 @@ std::vector<game::Order> OrderDesk::open_round(int round, std::vector<pattern::D
   }
   add(orders_for(approved_of(designs)));
   add(take_own(designs, orders));
-  std::erase_if(experiments, [&](const game::Experiment& each) { return refused(each.design); });
+  std::erase_if(experiments, [&](const game::DiscriminationTest& each) { return refused(each.design); });
   if (scenario_.diagnosis.enabled) add(game::discrimination_orders(scenario_, round, experiments));
   return place(std::move(orders));
 }
 
 std::vector<game::Order> OrderDesk::open_family_round(int round, std::vector<pattern::Design> designs) {
-  round_ = decided_under_ = round;
+  round_ = approval_round_ = round;
   is_family_round_ = true;
   std::vector<game::Order> orders = orders_for(approved_of(designs));
   std::ranges::move(take_own(designs, orders), std::back_inserter(orders));
@@ -78,15 +79,15 @@ std::vector<game::Order> OrderDesk::take_own(const std::vector<pattern::Design>&
   return orders;
 }
 
-/// Those that may be ordered at once; what a person has still to say something about waits.
+/// Designs that may be ordered at once; those that a person has still to approve wait.
 std::vector<pattern::Design> OrderDesk::approved_of(const std::vector<pattern::Design>& designs) {
   waiting_.clear();
   std::vector<pattern::Design> approved;
   for (const pattern::Design& design : designs) {
-    const auto decision = decisions_.find({decided_under_, design.name()});
-    if (!scenario_.validation.approval || (decision != decisions_.end() && decision->second.approved)) {
+    const auto approval = approvals_.find({approval_round_, design.name()});
+    if (!scenario_.validation.approval || (approval != approvals_.end() && approval->second.approved)) {
       approved.push_back(design);
-    } else if (decision == decisions_.end()) {
+    } else if (approval == approvals_.end()) {
       waiting_.push_back(design);
     }
   }
@@ -98,19 +99,19 @@ std::vector<game::Order> OrderDesk::orders_for(std::span<const pattern::Design> 
                           : game::proposal_orders(scenario_, round_, designs);
 }
 
-Result<std::vector<game::Order>> OrderDesk::decide(int proposal_round, const pattern::Design& design,
-                                                   const Approval& decision) {
+Result<std::vector<game::Order>> OrderDesk::take_approval(int proposal_round, const pattern::Design& design,
+                                                          const Approval& approval) {
   if (!scenario_.validation.approval) return fail("this game does not ask for approvals");
-  const auto [held, is_new] = decisions_.try_emplace({proposal_round, design.name()}, decision);
+  const auto [held, is_new] = approvals_.try_emplace({proposal_round, design.name()}, approval);
   if (!is_new) {
-    if (held->second.approved == decision.approved) return std::vector<game::Order>{};
+    if (held->second.approved == approval.approved) return std::vector<game::Order>{};
     return fail("{} was {} before by {}", design.name(), held->second.approved ? "approved" : "refused",
                 held->second.by);
   }
   const auto waiting = std::find(waiting_.begin(), waiting_.end(), design);
-  if (proposal_round != decided_under_ || waiting == waiting_.end()) return std::vector<game::Order>{};
+  if (proposal_round != approval_round_ || waiting == waiting_.end()) return std::vector<game::Order>{};
   waiting_.erase(waiting);
-  if (!decision.approved) return std::vector<game::Order>{};
+  if (!approval.approved) return std::vector<game::Order>{};
   return place(orders_for(std::vector{design}));
 }
 
@@ -118,7 +119,7 @@ Result<std::vector<game::Order>> OrderDesk::add_own(const pattern::Design& desig
   const bool queued = std::find(own_.begin(), own_.end(), design) != own_.end();
   if (game::are_both_ordered(orders_, design) || queued) return fail("{} is ordered already", design.name());
   if (std::find(waiting_.begin(), waiting_.end(), design) != waiting_.end())
-    return fail("{} is proposed and waits for a plain yes", design.name());
+    return fail("{} is proposed and waits for its approval", design.name());
   if (now) return place(game::person_orders(scenario_, round_, design));
   own_.push_back(design);
   return std::vector<game::Order>{};
@@ -138,13 +139,13 @@ std::pair<int, int> OrderDesk::completed(const game::MeasurementBook& book) cons
 std::optional<std::string> OrderDesk::against_label(const measurement::SpecimenRecord& specimen,
                                                     const std::string& order_id) const {
   const auto order = std::ranges::find(orders_, order_id, &game::Order::id);
-  if (order == orders_.end()) return game::beside_orders(specimen, orders_);
-  if (game::answers(specimen, *order)) return std::nullopt;
+  if (order == orders_.end()) return game::order_mismatch(specimen, orders_);
+  if (game::fulfils(specimen, *order)) return std::nullopt;
   return fmt::format(
-      "specimen {} does not answer order {}, which it names ({}): it is {}, and counts as one that nobody "
-      "ordered; are labels swapped?",
-      specimen.specimen, order_id, question(order->design, order->test, order->conditions),
-      question(specimen.design, specimen.test, specimen.conditions));
+      "specimen {} does not fit order {}, which it names ({}): it is {}, and counts as one that nobody ordered; are "
+      "labels swapped?",
+      specimen.specimen, order_id, test_in_words(order->design, order->test, order->conditions),
+      test_in_words(specimen.design, specimen.test, specimen.conditions));
 }
 
 std::set<pattern::Pattern> OrderDesk::settled_patterns() const {
@@ -154,8 +155,8 @@ std::set<pattern::Pattern> OrderDesk::settled_patterns() const {
   };
   for (const game::Order& order : orders_) add(order.design);
   for (const pattern::Design& design : own_) add(design);
-  for (const auto& [key, decision] : decisions_) {
-    if (decision.approved) continue;
+  for (const auto& [key, approval] : approvals_) {
+    if (approval.approved) continue;
     if (const auto design = pattern::design_from_name(key.second)) add(*design);
   }
   return patterns;

@@ -1,5 +1,5 @@
 #pragma once
-// What is ordered from the laboratory in the present round, and what a person has to say about it.
+// What is ordered from the laboratory in the present round, and what a person approves of it.
 
 #include <map>
 #include <optional>
@@ -15,15 +15,15 @@
 
 namespace nacre::validation_agent {
 
-/// A person's decision about a proposed design.
+/// A person's yes or no to a proposed design.
 struct Approval {
   bool approved = false;
   std::string by;
   std::string why;
 };
 
-/// The orders of the game. The orders of a round depend on the proposal, the decisions and the experiments wanted, not
-/// on when a decision came.
+/// The orders of the game. The orders of a round depend on the proposal, the approvals and the experiments wanted, not
+/// on when an approval came.
 class OrderDesk {
  public:
   explicit OrderDesk(const game::Scenario& scenario);
@@ -31,22 +31,23 @@ class OrderDesk {
   /// Opens a round: `designs` proposed for it, `experiments` that the diagnosis wants. Returns the orders that can go
   /// out at once.
   std::vector<game::Order> open_round(int round, std::vector<pattern::Design> designs,
-                                      std::vector<game::Experiment> experiments);
+                                      std::vector<game::DiscriminationTest> experiments);
 
-  /// Opens the round of the family stage: designs chosen of families, which a person decides on under the number of
-  /// this round, and what persons added meanwhile. Returns the orders that can go out at once.
+  /// Opens the round of the family stage: designs chosen of families, which a person approves under the number of this
+  /// round, and what persons added meanwhile. Returns the orders that can go out at once.
   std::vector<game::Order> open_family_round(int round, std::vector<pattern::Design> designs);
 
-  /// A decision about a design of the proposal of `proposal_round`, before or after that round is opened. The first one
-  /// counts: its order may be in print. Returns orders that go out because of it, or why the decision changes nothing.
-  Result<std::vector<game::Order>> decide(int proposal_round, const pattern::Design& design, const Approval& decision);
+  /// An approval of a design of the proposal of `proposal_round`, before or after that round is opened. The first one
+  /// counts: its order may be in print. Returns orders that go out because of it, or why the approval changes nothing.
+  Result<std::vector<game::Order>> take_approval(int proposal_round, const pattern::Design& design,
+                                                 const Approval& approval);
 
   /// A person wants a design of their own measured too: in the open round while it is being measured (`now`), else in
   /// the next one. Returns orders that go out at once, or why there are none.
   Result<std::vector<game::Order>> add_own(const pattern::Design& design, bool now);
 
-  /// Proposed designs of the open round that still wait for a person.
-  int undecided() const { return static_cast<int>(waiting_.size()); }
+  /// Number of proposed designs of the open round that still wait for a person.
+  int awaiting_approval() const { return static_cast<int>(waiting_.size()); }
 
   /// Designs of persons that wait for the next round.
   const std::vector<pattern::Design>& own() const { return own_; }
@@ -76,12 +77,12 @@ class OrderDesk {
   game::Scenario scenario_;
   std::vector<pattern::Pattern> random_patterns_;
   int round_ = 0;
-  int decided_under_ = -1;                // round that decisions about the open round's designs name
+  int approval_round_ = -1;               // round that approvals of the open round's designs name
   bool is_family_round_ = false;          // the open one
-  std::vector<pattern::Design> waiting_;  // of the open round, undecided
+  std::vector<pattern::Design> waiting_;  // of the open round, not yet approved or refused
   std::vector<pattern::Design> own_;      // of persons, for the next round
   std::vector<game::Order> orders_;
-  std::map<std::pair<int, std::string>, Approval> decisions_;  // by round of the proposal and design
+  std::map<std::pair<int, std::string>, Approval> approvals_;  // by round of the proposal and design
 };
 
 }  // namespace nacre::validation_agent

@@ -1,5 +1,3 @@
-// Inputs of the validation agent: each is judged here, and what follows from it is decided in validation_rounds.cpp.
-
 #include "validation_agent/validation_core.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "game/reference_tables.hpp"
 #include "game/starting_point.hpp"
 
@@ -28,7 +27,7 @@ void ValidationCore::accept_message(const runtime::Message& message) {
   using Accept = void (ValidationCore::*)(const std::string&);
   static const std::map<std::string, Accept> kAccept = {
       {"RUN", &ValidationCore::accept_run},
-      {"SIMULATED", &ValidationCore::accept_answer},
+      {"SIMULATED", &ValidationCore::accept_response},
       {"GAMUT", &ValidationCore::accept_gamut},
       {"PROPOSAL", &ValidationCore::accept_proposal},
       {"DIAGNOSIS", &ValidationCore::accept_diagnosis},
@@ -52,20 +51,20 @@ void ValidationCore::accept_run(const std::string& payload) {
   begin_round(0);
 }
 
-void ValidationCore::accept_answer(const std::string& payload) {
+void ValidationCore::accept_response(const std::string& payload) {
   auto part = wire::read<wire::SimulateResult>(payload);
   if (!part) return say(LogLevel::warning, "a SIMULATED is ignored: " + part.error().message);
   if (phase_ == Phase::working_out_families) {
-    families_->accept_answer(*std::move(part), outputs_);
+    families_->accept_response(*std::move(part), outputs_);
     return measure_families_when_chosen();
   }
-  if (!questions_.take(*std::move(part))) return;
+  if (!farm_.take(*std::move(part))) return;
   if (phase_ == Phase::predicting_trial) {
-    finish_predicting();
+    finish_trial_predictions();
   } else if (phase_ == Phase::predicting) {
-    finish_held_out(questions_.predictions().front());
+    finish_out_of_sample(farm_.predictions().front());
   } else if (phase_ == Phase::calibrating) {
-    fitting_->tell(questions_.predictions());
+    fitting_->tell(farm_.predictions());
     calibrate_on();
   }
 }
@@ -81,7 +80,7 @@ void ValidationCore::accept_gamut(const std::string& payload) {
   auto chunk = wire::read<wire::GamutChunk>(payload);
   if (!chunk) return say(LogLevel::warning, "a GAMUT is ignored: " + chunk.error().message);
   const int round = chunk->round;
-  // Of a later round, too: after a lost journal the others offer again what this agent has yet to come to.
+  // Of a later round, too: after a lost journal the others offer again what belongs to rounds still to come.
   if (chunk->fidelity != scenario_.fidelity || round < round_ || gamuts_.contains(round)) return;
   if (auto whole = gamut_chunks_.add(*std::move(chunk))) gamuts_.emplace(round, *std::move(whole));
   close_round_when_proposed();
@@ -172,9 +171,11 @@ void ValidationCore::accept_approval(const std::string& payload) {
   if (families_ && approval->round == round_) {
     const std::vector<pattern::Design> chosen = families_->chosen();
     if (std::find(chosen.begin(), chosen.end(), *design) == chosen.end())
-      return say(LogLevel::warning, fmt::format("an APPROVAL is ignored: {} is chosen of no family", approval->design));
+      return say(LogLevel::warning,
+                 fmt::format("an APPROVAL is ignored: {} is not chosen of any family", approval->design));
   }
-  const auto orders = desk_.decide(approval->round, *design, {approval->approved != 0, approval->by, approval->why});
+  const auto orders =
+      desk_.take_approval(approval->round, *design, {approval->approved != 0, approval->by, approval->why});
   if (!orders) return say(LogLevel::warning, "an APPROVAL changes nothing: " + orders.error().message);
   say(LogLevel::info, fmt::format("{} {} {}: {}", approval->by, approval->approved ? "approves" : "refuses",
                                   approval->design, approval->why));
@@ -193,19 +194,33 @@ void ValidationCore::add_own_design(const pattern::Design& design, const approva
   send_orders(*orders);
 }
 
+namespace {
+
+/// What people have to do comes first; where nothing else is left, it is all.
+std::string phase_of_measuring(int complete, int all, int awaiting_approval) {
+  std::string phase;
+  if (awaiting_approval > 0) {
+    phase = fmt::format("waits for you: {} to approve", counted(awaiting_approval, "design"));
+    if (complete == all) return phase;
+    phase += "; ";
+  }
+  return phase + fmt::format("measuring, {} of {} complete", complete, counted(all, "order"));
+}
+
+}  // namespace
+
 runtime::Status ValidationCore::status() const {
   runtime::Status status{.phase = "", .round = round_, .progress = -1.0, .finished = phase_ == Phase::finished};
   switch (phase_) {
     case Phase::waiting_for_run:
-      status.phase = "waiting for the run to be announced";
+      status.phase = "waiting for all nodes";
       break;
     case Phase::predicting_trial:
-      status.phase = "noting what the extension on trial expects";
+      status.phase = "predicting the proposed designs with the extension on trial";
       break;
     case Phase::measuring: {
       const auto [complete, all] = desk_.completed(book_);
-      status.phase = fmt::format("measuring, {} of {} orders complete", complete, all);
-      if (desk_.undecided() > 0) status.phase += fmt::format(", {} designs wait for approval", desk_.undecided());
+      status.phase = phase_of_measuring(complete, all, desk_.awaiting_approval());
       status.progress = all == 0 ? 1.0 : static_cast<double>(complete) / all;
       break;
     }
@@ -220,7 +235,7 @@ runtime::Status ValidationCore::status() const {
       status.phase = "waiting for the diagnosis";
       break;
     case Phase::waiting_for_proposal:
-      status.phase = "waiting for gamut and proposal";
+      status.phase = "waiting for the search and its proposal";
       break;
     case Phase::working_out_families:
       status.phase = families_->phase();

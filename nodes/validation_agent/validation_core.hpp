@@ -1,6 +1,6 @@
 #pragma once
 // The validation agent's decisions: it has proposals measured, calibrates the model on everything measured so far, and
-// says when the game is over (docs/ARCHITECTURE.md; thesis 2.3.2 and 3.2).
+// decides when the game is over (docs/ARCHITECTURE.md; thesis 2.3.2 and 3.2).
 
 #include <map>
 #include <memory>
@@ -34,11 +34,11 @@ struct StartingPoint {
 };
 
 /// Round 0: RUN -> fit of the base materials -> PARAMETERS(0) -> GAMUT(0), PROPOSAL(0) -> ROUND(0).
-/// Round n: TEST_ORDERs -> MEASUREMENTs -> held-out errors -> calibration -> DIAGNOSE, DIAGNOSIS -> PARAMETERS(n) ->
-/// GAMUT(n), PROPOSAL(n) -> ROUND(n). Where the scenario wants families, they follow the last ROUND, which is then said
-/// once more as the last (family_stage.hpp). An extension that the diagnosis names
-/// is calibrated beside the adopted model and put on trial: before TEST_ORDERs go out it says what it expects of the
-/// proposed designs. It is adopted once it is still named and has foretold designs better (game::gain_is_established).
+/// Round n: TEST_ORDERs -> MEASUREMENTs -> out-of-sample prediction errors -> calibration -> DIAGNOSE, DIAGNOSIS ->
+/// PARAMETERS(n) -> GAMUT(n), PROPOSAL(n) -> ROUND(n). Where the scenario wants families, they follow the last ROUND,
+/// which is then sent once more as the last (family_stage.hpp). An extension that the diagnosis names is calibrated in
+/// addition to the adopted model and put on trial: before TEST_ORDERs go out it predicts the proposed designs. It is
+/// adopted once it is still named and has predicted designs better (game::gain_is_established).
 class ValidationCore : public runtime::NodeCore {
  public:
   ValidationCore(const game::Scenario& scenario, StartingPoint start);
@@ -63,16 +63,16 @@ class ValidationCore : public runtime::NodeCore {
     std::vector<std::string> effects;  ///< sorted
     material::ParameterSet model;      ///< the base refitted with them
     std::map<std::string, sysid::Prediction>
-        predicted;  ///< what it expects of the designs of this round, through the testing machine
+        predicted;  ///< its predictions for the designs of this round, as recorded by the testing machine
     std::map<std::string, sysid::Prediction>
-        adopted;               ///< and the adopted model of those that separate the two, beside the proposals
-    game::TrialErrors errors;  ///< of all rounds since it was first named
+        adopted;  ///< the adopted model's predictions for designs that separate the two, proposals aside
+    game::ExtensionTrialErrors errors;  ///< of all rounds since it was first named
   };
 
   // Inputs (validation_core.cpp).
   void accept_message(const runtime::Message& message);
   void accept_run(const std::string& payload);
-  void accept_answer(const std::string& payload);
+  void accept_response(const std::string& payload);
   void accept_gamut(const std::string& payload);
   void accept_proposal(const std::string& payload);
   void accept_diagnosis(const std::string& payload);
@@ -84,17 +84,18 @@ class ValidationCore : public runtime::NodeCore {
 
   // The course of a round (validation_rounds.cpp).
   void begin_round(int round);
-  /// That the last diagnosis wants; none once the model holds what it names: they would tell it from the base.
-  std::vector<game::Experiment> experiments() const;
+  /// Experiments that the last diagnosis wants; none once the model holds what it names: they would tell it from the
+  /// base.
+  std::vector<game::DiscriminationTest> experiments() const;
   std::vector<pattern::Design> separating_designs() const;
   std::vector<measurement::Replicates> predicted_designs() const;
-  void predict();
-  void finish_predicting();
+  void predict_for_trial();
+  void finish_trial_predictions();
   void begin_unfitted();
   void order();
   void measure_on();
-  void predict_held_out();
-  void finish_held_out(const std::vector<sysid::Prediction>& predictions);
+  void predict_out_of_sample();
+  void finish_out_of_sample(const std::vector<sysid::Prediction>& predictions);
   void begin_calibration(const material::ParameterSet& start);
   void calibrate_on();
   void finish_calibration();
@@ -119,7 +120,7 @@ class ValidationCore : public runtime::NodeCore {
   void measure_families_when_chosen();
   void finish_families();
 
-  // Short cuts for outputs.
+  // Shorthands for outputs.
   template <class Domain>
   void send(const char* channel, const Domain& value) {
     outputs_.messages.push_back({channel, wire::write(value)});
@@ -142,22 +143,22 @@ class ValidationCore : public runtime::NodeCore {
   // Of the present round. The specimens are those that its calibration saw: later ones belong to the next round.
   std::vector<measurement::SpecimenRecord> specimens_;
   std::vector<measurement::Replicates> calibration_set_;
-  FarmRequests questions_;
+  FarmRequests farm_;
   std::optional<Fitting> fitting_;
-  std::vector<measurement::Replicates> held_out_set_;
-  std::vector<sysid::Prediction> proposed_;  // for each of held_out_set_
-  sysid::PredictionErrors before_, after_, held_out_;
+  std::vector<measurement::Replicates> predicted_set_;
+  std::vector<sysid::Prediction> proposed_;  // for each of predicted_set_, by the proposal
+  sysid::PredictionErrors before_, after_, out_of_sample_;
   sysid::Provenance provenance_;  ///< of model_
   int simulations_ = 0;
   bool extending_ = false;  // the calibration in progress is that of a named extension
   std::optional<OnTrial> trial_;
 
-  std::set<std::string> calibrated_designs_;  // ever calibrated on: no longer held out
+  std::set<std::string> calibrated_designs_;  // ever calibrated on: no longer out-of-sample
   wire::GamutCollector gamut_chunks_;
   std::map<int, std::vector<explore::Evaluated>> gamuts_;
   std::map<int, wire::Proposal> proposals_;
   std::map<int, std::vector<std::string>> early_measurements_;
-  std::map<int, diagnosis_t> early_diagnoses_;  // that came before they were asked for: this agent's journal was lost
+  std::map<int, diagnosis_t> early_diagnoses_;  // that came before they were requested: this agent's journal was lost
   std::optional<diagnosis_t> diagnosis_;        // of the last round that had one
   std::vector<game::RoundFigures> history_;
 

@@ -1,13 +1,18 @@
-// The course of a round, from its orders to its ROUND.
+// Part of ValidationCore (validation_core.hpp): the course of a round, from its orders to its ROUND.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "base/random.hpp"
 #include "game/model.hpp"
 #include "game/standings.hpp"
+#include "runtime/round_history.hpp"
+#include "sysid/errors.hpp"
+#include "sysid/provenance.hpp"
 #include "validation_agent/validation_core.hpp"
 #include "wire/schema.hpp"
 
@@ -17,7 +22,7 @@ using runtime::LogLevel;
 
 void ValidationCore::begin_round(int round) {
   round_ = round;
-  before_ = after_ = held_out_ = {};
+  before_ = after_ = out_of_sample_ = {};
   simulations_ = 0;
   if (round == 0) {
     calibration_set_ = start_.base_materials;
@@ -25,7 +30,7 @@ void ValidationCore::begin_round(int round) {
     return begin_calibration(model_);
   }
   take_early_measurements();
-  if (trial_ && !proposals_.at(round - 1).designs.empty()) return predict();
+  if (trial_ && !proposals_.at(round - 1).designs.empty()) return predict_for_trial();
   order();
 }
 
@@ -38,12 +43,12 @@ void ValidationCore::take_early_measurements() {
 void ValidationCore::begin_unfitted() {
   provenance_ = {};
   provenance_.search = "begun_with";
-  say(LogLevel::info, "round 0: no base materials to fit, the model is taken as it begins");
+  say(LogLevel::info, "round 0: no base materials to fit, the model is used as given");
   publish_model();
 }
 
-std::vector<game::Experiment> ValidationCore::experiments() const {
-  std::vector<game::Experiment> experiments;
+std::vector<game::DiscriminationTest> ValidationCore::experiments() const {
+  std::vector<game::DiscriminationTest> experiments;
   if (!diagnosis_ || model_holds(*diagnosis_)) return experiments;
   for (const next_experiment_t& next : diagnosis_->next_experiments) {
     const auto design = pattern::design_from_name(next.design);
@@ -82,50 +87,52 @@ void ValidationCore::send_orders(const std::vector<game::Order>& orders) {
                                        .reason = std::string(game::to_string(order.reason))});
   }
   if (!orders.empty())
-    say(LogLevel::info, fmt::format("round {}: {} orders for the laboratory", round_, orders.size()));
+    say(LogLevel::info, fmt::format("round {}: {} for the laboratory", round_, counted(std::ssize(orders), "order")));
 }
 
 void ValidationCore::measure_on() {
   const auto [complete, all] = desk_.completed(book_);
-  if (desk_.undecided() > 0 || complete < all) return;
+  if (desk_.awaiting_approval() > 0 || complete < all) return;
   if (families_) return finish_families();
   specimens_ = book_.specimens();
   calibration_set_ = game::calibration_set(specimens_);
-  say(LogLevel::info, fmt::format("round {}: measured, {} designs to calibrate on", round_, calibration_set_.size()));
-  predict_held_out();
+  say(LogLevel::info,
+      fmt::format("round {}: measured, {} to calibrate on", round_, counted(std::ssize(calibration_set_), "design")));
+  predict_out_of_sample();
 }
 
-void ValidationCore::predict_held_out() {
+void ValidationCore::predict_out_of_sample() {
   std::map<std::string, sysid::Prediction> proposed;
   for (const wire::ProposedDesign& each : proposals_.at(round_ - 1).designs) {
     if (!calibrated_designs_.contains(each.design.name()))
       proposed[each.design.name()] = {.modulus_pa = each.modulus_pa, .toughness_pa = each.toughness_pa, .curve = {}};
   }
-  game::Predicted predicted = game::predicted_among(calibration_set_, proposed);
-  held_out_set_ = std::move(predicted.measured);
+  game::PredictedDesigns predicted = game::predicted_among(calibration_set_, proposed);
+  predicted_set_ = std::move(predicted.measured);
   proposed_ = std::move(predicted.predicted);
-  if (held_out_set_.empty() || !game::has_measurement_side(model_)) return finish_held_out(proposed_);
-  // What the testing machine makes of a prediction needs its curve, which a proposal does not carry: asked for again,
-  // and answered from the farm's cache.
+  if (predicted_set_.empty() || !game::has_measurement_side(model_)) return finish_out_of_sample(proposed_);
+  // A prediction as recorded by the testing machine needs its curve, which a proposal does not carry: requested again,
+  // and taken from the farm's cache.
   sysid::WantedEvaluation evaluation{.id = "0", .parameters = model_, .modulus = true, .toughness = true, .items = {}};
-  for (std::size_t item = 0; item < held_out_set_.size(); ++item) evaluation.items.push_back(item);
+  for (std::size_t item = 0; item < predicted_set_.size(); ++item) evaluation.items.push_back(item);
   phase_ = Phase::predicting;
-  ask_farm("h", {evaluation}, held_out_set_);
+  ask_farm("h", {evaluation}, predicted_set_);
 }
 
-void ValidationCore::finish_held_out(const std::vector<sysid::Prediction>& predictions) {
-  std::vector<sysid::Prediction> shown;
+void ValidationCore::finish_out_of_sample(const std::vector<sysid::Prediction>& predictions) {
+  std::vector<sysid::Prediction> observed;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
-    shown.push_back(game::through_machine(predictions[i], model_));
+    observed.push_back(game::through_machine(predictions[i], model_));
     // The curve is one simulation's, what was proposed may be the mean of several.
-    auto& toughness_pa = shown.back().toughness_pa;
+    auto& toughness_pa = observed.back().toughness_pa;
     if (toughness_pa && predictions[i].toughness_pa.value_or(0.0) > 0.0)
       *toughness_pa *= *proposed_[i].toughness_pa / *predictions[i].toughness_pa;
   }
-  held_out_ = sysid::prediction_errors(held_out_set_, shown);
+  out_of_sample_ = sysid::prediction_errors(predicted_set_, observed);
   if (trial_) {
     std::map<std::string, sysid::Prediction> adopted;
-    for (std::size_t i = 0; i < held_out_set_.size(); ++i) adopted.emplace(held_out_set_[i].design.name(), shown[i]);
+    for (std::size_t i = 0; i < predicted_set_.size(); ++i)
+      adopted.emplace(predicted_set_[i].design.name(), observed[i]);
     adopted.merge(trial_->adopted);
     trial_->errors.add(round_, game::under_standard_conditions(calibration_set_), adopted, trial_->predicted);
   }
@@ -154,7 +161,7 @@ void ValidationCore::begin_calibration(const material::ParameterSet& start) {
 
 void ValidationCore::ask_farm(const std::string& label, const std::vector<sysid::WantedEvaluation>& wanted,
                               const std::vector<measurement::Replicates>& measured) {
-  for (const wire::SimulateRequest& request : questions_.ask({.label = fmt::format("r{}/{}", round_, label),
+  for (const wire::SimulateRequest& request : farm_.ask({.label = fmt::format("r{}/{}", round_, label),
                                               .wanted = wanted,
                                               .measured = measured,
                                               .fidelity = scenario_.fidelity})) {
@@ -198,8 +205,7 @@ void ValidationCore::take_over(const sysid::Calibrated& result) {
     const bool telling = each.determined || provenance_.modulus_fit.misfit();
     if (each.name.starts_with("modulus.e_") && telling)
       say(LogLevel::warning,
-          fmt::format("round {}: {} stands at the end of its range: other inks need another (ranges_file)", round_,
-                      each.name));
+          fmt::format("round {}: {} is at its bound: other inks need other ranges (ranges_file)", round_, each.name));
   }
 }
 
@@ -238,7 +244,7 @@ void ValidationCore::publish_model() {
   adopted.measured.assign(settled.begin(), std::next(settled.begin(), std::min(room, settled.size())));
   phase_ = Phase::waiting_for_proposal;
   send("PARAMETERS", adopted);
-  close_round_when_proposed();  // where both were said before this agent's journal was lost
+  close_round_when_proposed();  // where both were sent before this agent's journal was lost
 }
 
 std::vector<optimize::Performance> ValidationCore::benchmark() const {
@@ -267,7 +273,7 @@ void ValidationCore::close_round_when_proposed() {
   round.last = round_ >= scenario_.rounds || (check.equilibrium && scenario_.stop_at_equilibrium);
   round.decided_by = check.decided_by;
   if (round.last && !check.equilibrium)
-    round.decided_by += fmt::format("; the limit of {} rounds is reached", scenario_.rounds);
+    round.decided_by += fmt::format("; the limit of {} is reached", counted(scenario_.rounds, "round"));
   gamuts_.erase(round_);
   StageBeginning beginning = stage_beginning();
   const bool families_follow = round.last && scenario_.families.enabled && FamilyStage::is_possible(beginning);
@@ -277,8 +283,8 @@ void ValidationCore::close_round_when_proposed() {
     round.decided_by += "; families follow";
   }
   send("ROUND", round);
-  say(LogLevel::info, fmt::format("round {} is closed: gap {:.4g}, measured hypervolume {:.4g} GPa MPa; {}", round_,
-                                  round.gap, round.measured_hypervolume_staircase, round.decided_by));
+  const bool has_news = round_ > 0 || round.last || families_follow;  // of round 0 the sentence says it all
+  say(LogLevel::info, runtime::in_words(wire::to_wire(round)) + (has_news ? "; " + round.decided_by : ""));
   if (families_follow) {
     phase_ = Phase::working_out_families;
     families_.emplace(scenario_, std::move(beginning));
@@ -337,7 +343,7 @@ wire::RoundSummary ValidationCore::summary() const {
   round.hypervolume_error = game::hypervolume_error(values, scenario_.seed);
   round.before = before_;
   round.after = after_;
-  round.held_out = held_out_;
+  round.held_out = out_of_sample_;
   return round;
 }
 

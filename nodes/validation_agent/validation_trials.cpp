@@ -1,5 +1,5 @@
-// Extensions that a diagnosis names: calibrated beside the adopted model, tried on designs that nobody has measured,
-// adopted or not.
+// Part of ValidationCore (validation_core.hpp): extensions that a diagnosis names, which are calibrated in addition to
+// the adopted model, tried on designs that nobody has measured, and adopted or not.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/counted.hpp"
 #include "game/model.hpp"
 #include "material/extensions.hpp"
 #include "measurement/conditions.hpp"
@@ -18,7 +19,7 @@ using runtime::LogLevel;
 
 std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosis_t& diagnosis) {
   material::ParameterSet extended = model_;
-  material::Extensions numbers;  // an effect that takes several stands there as often
+  material::Extensions numbers;  // an effect with several parameters stands there as often
   for (const effect_t& effect : diagnosis.effects) {
     if (material::find_effect(effect.name) == nullptr) {
       say(LogLevel::warning,
@@ -28,7 +29,8 @@ std::optional<material::ParameterSet> ValidationCore::extended_by(const diagnosi
     numbers[effect.name].push_back(effect.parameter);
   }
   if (numbers.size() == 1 && numbers.contains("batch_drift")) {
-    say(LogLevel::info, "the print drifts from batch to batch: that foretells no new design, and is not put on trial");
+    say(LogLevel::info,
+        "the print drifts from batch to batch: that predicts nothing about new designs and is not put on trial");
     return std::nullopt;
   }
   for (auto& [name, values] : numbers) extended.extensions[name] = std::move(values);
@@ -69,27 +71,27 @@ void ValidationCore::weigh(const diagnosis_t& diagnosis) {
 void ValidationCore::finish_trial(const sysid::Calibrated& result) {
   const std::string name = fmt::format("{}", fmt::join(trial_->effects, " with "));
   const bool adopted_before = model_holds(*diagnosis_);
-  const game::TrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
+  const game::ExtensionTrialStanding moduli = game::standing_of(trial_->errors.modulus, game::kLeastModulusError);
   if (adopted_before || game::gain_is_established(trial_->errors)) {
     take_over(result);
     trial_.reset();
     say(LogLevel::info,
         adopted_before
-            ? fmt::format("round {}: {} gets the size that the diagnosis now gives it", round_, name)
-            : fmt::format("round {}: the model is extended by {}: it foretold E of {} designs with a mean error of "
-                          "{:.1f} % against {:.1f} % (odds 10^{:.1f})",
-                          round_, name, moduli.designs, 100.0 * moduli.extended, 100.0 * moduli.adopted,
-                          moduli.for_extended));
+            ? fmt::format("round {}: {} gets its effect size from the new diagnosis", round_, name)
+            : fmt::format("round {}: the model is extended by {}: it predicted E of {} with a mean error of {:.1f} % "
+                          "against {:.1f} % (Bayes factor 10^{:.1f})",
+                          round_, name, counted(moduli.designs, "new design"), 100.0 * moduli.extended,
+                          100.0 * moduli.adopted, moduli.for_extended));
   } else {
     trial_->model = result.parameters;
     say(LogLevel::info,
         moduli.designs == 0
-            ? fmt::format("round {}: {} is on trial: it has to foretell designs better before it is adopted", round_,
+            ? fmt::format("round {}: {} is on trial: it must predict new designs better before it is adopted", round_,
                           name)
-            : fmt::format("round {}: {} stays on trial: it foretold E of {} designs with a mean error of {:.1f} % "
-                          "against {:.1f} % (odds 10^{:.1f}, 10^1.3 adopt)",
-                          round_, name, moduli.designs, 100.0 * moduli.extended, 100.0 * moduli.adopted,
-                          moduli.for_extended));
+            : fmt::format("round {}: {} stays on trial: it predicted E of {} with a mean error of {:.1f} % against "
+                          "{:.1f} % (Bayes factor 10^{:.1f}, adopted from 10^1.3 on)",
+                          round_, name, counted(moduli.designs, "new design"), 100.0 * moduli.extended,
+                          100.0 * moduli.adopted, moduli.for_extended));
   }
   publish_model();
 }
@@ -108,7 +110,7 @@ std::vector<std::size_t> numbers(std::size_t first, std::size_t end) {
 /// upright and new to both.
 std::vector<pattern::Design> ValidationCore::separating_designs() const {
   std::vector<pattern::Design> designs;
-  for (const game::Experiment& each : experiments()) {
+  for (const game::DiscriminationTest& each : experiments()) {
     const bool is_plain = each.test == tester::TestKind::modulus && each.design.layout() != nullptr &&
                           measurement::same_conditions(each.conditions, {});
     const std::string name = each.design.name();
@@ -129,9 +131,9 @@ std::vector<measurement::Replicates> ValidationCore::predicted_designs() const {
   return designs;
 }
 
-// What the extension on trial expects of the designs of the round is asked for before any of them is ordered. What the
-// adopted model expects stands in PROPOSAL; of designs that only separate the two it is asked for, too.
-void ValidationCore::predict() {
+// The extension on trial predicts the designs of the round before any of them is ordered. The adopted model's
+// predictions stand in PROPOSAL; for designs that only separate the two they are requested, too.
+void ValidationCore::predict_for_trial() {
   const std::vector<measurement::Replicates> designs = predicted_designs();
   const std::size_t proposed = proposals_.at(round_ - 1).designs.size();
   std::vector<sysid::WantedEvaluation> wanted = {
@@ -148,21 +150,21 @@ void ValidationCore::predict() {
   ask_farm("f", wanted, designs);
 }
 
-void ValidationCore::finish_predicting() {
+void ValidationCore::finish_trial_predictions() {
   const std::vector<measurement::Replicates> designs = predicted_designs();
-  const auto& predictions = questions_.predictions();
+  const auto& predictions = farm_.predictions();
   const std::size_t proposed = predictions.front().size();
   trial_->predicted.clear();
   trial_->adopted.clear();
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const std::string name = designs[i].design.name();
-    const sysid::Prediction shown =
+    const sysid::Prediction observed =
         game::through_machine(i < proposed ? predictions[0][i] : predictions[1][i - proposed], trial_->model);
     say(LogLevel::info,
-        fmt::format("round {}: before it is measured, {} expects E {:.4g} MPa{} of {}", round_,
-                    fmt::join(trial_->effects, " with "), 1e-6 * shown.modulus_pa.value_or(0.0),
-                    shown.toughness_pa ? fmt::format(", T {:.4g} MPa", 1e-6 * *shown.toughness_pa) : "", name));
-    trial_->predicted.emplace(name, shown);
+        fmt::format("round {}: prediction with {}: {} has E {:.4g} MPa{}", round_, fmt::join(trial_->effects, " with "),
+                    name, 1e-6 * observed.modulus_pa.value_or(0.0),
+                    observed.toughness_pa ? fmt::format(", T {:.4g} MPa", 1e-6 * *observed.toughness_pa) : ""));
+    trial_->predicted.emplace(name, observed);
     if (i >= proposed) trial_->adopted.emplace(name, game::through_machine(predictions[2][i - proposed], model_));
   }
   order();

@@ -35,10 +35,10 @@ Result<Experiment> experiment_from_spec(std::string_view spec) try {
                     .fidelity = *fidelity,
                     .loading = *loading};
 } catch (const json::exception& error) {
-  return fail("question of the virtual laboratory: {}", error.what());
+  return fail("experiment of the virtual laboratory: {}", error.what());
 }
 
-std::string to_text(const Result<Response>& response) {
+std::string to_text(const Result<TrueResponse>& response) {
   if (!response) return json{{"failure", response.error().message}}.dump();
   json fields{{"modulus_pa", response->modulus_pa},
               {"strain", response->curve.strain},
@@ -49,10 +49,10 @@ std::string to_text(const Result<Response>& response) {
   return fields.dump();
 }
 
-Result<Response> response_from_text(std::string_view text) try {
+Result<TrueResponse> response_from_text(std::string_view text) try {
   const json fields = json::parse(text);
   if (fields.contains("failure")) return fail("{}", fields["failure"].get<std::string>());
-  Response response;
+  TrueResponse response;
   response.modulus_pa = fields.at("modulus_pa").get<double>();
   response.curve.strain = fields.at("strain").get<std::vector<double>>();
   response.curve.stress_pa = fields.at("stress_pa").get<std::vector<double>>();

@@ -1,5 +1,5 @@
 #pragma once
-// Questions and responses as text: what travels between the node's core and its worker threads.
+// Experiments and responses as text: what travels between the node's core and its worker threads.
 
 #include <string>
 #include <string_view>
@@ -10,16 +10,16 @@
 namespace nacre::virtual_lab {
 
 using laboratory::Experiment;
-using laboratory::Response;
+using laboratory::TrueResponse;
 
-/// One line of JSON; equal questions are equal texts.
+/// One line of JSON; equal experiments are equal texts.
 std::string to_spec(const Experiment& experiment);
 /// Reads to_spec() back.
 Result<Experiment> experiment_from_spec(std::string_view spec);
 
 /// JSON that gives every number back to the last bit; a failed simulation is its sentence.
-std::string to_text(const Result<Response>& response);
+std::string to_text(const Result<TrueResponse>& response);
 /// Reads to_text() back; an unreadable text is a failed simulation.
-Result<Response> response_from_text(std::string_view text);
+Result<TrueResponse> response_from_text(std::string_view text);
 
 }  // namespace nacre::virtual_lab

@@ -1,7 +1,8 @@
 // The virtual laboratory as a process. It seals its truth in RUN/laboratory.truth.toml for whoever scores the run
 // afterwards.
 
-#include "runtime/node_shell.hpp"
+#include "laboratory/laboratory_file.hpp"
+#include "runtime/node_main.hpp"
 #include "virtual_lab/virtual_lab_core.hpp"
 
 int main(int argc, char** argv) {

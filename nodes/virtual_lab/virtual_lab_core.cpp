@@ -4,6 +4,8 @@
 
 #include "base/hash.hpp"
 #include "base/random.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "virtual_lab/experiment_text.hpp"
 
 namespace nacre::virtual_lab {
@@ -96,7 +98,7 @@ void VirtualLabCore::settle(const runtime::WorkDone& work, Outputs& outputs) {
 }
 
 void VirtualLabCore::report(const wire::TestOrder& order, const Experiment& experiment,
-                            const Result<Response>& response, Outputs& outputs) const {
+                            const Result<TrueResponse>& response, Outputs& outputs) const {
   if (!response) {
     outputs.log.push_back(
         {LogLevel::warning, fmt::format("{}: no valid specimen: {}", order.order_id, response.error().message)});
@@ -118,7 +120,7 @@ void VirtualLabCore::report(const wire::TestOrder& order, const Experiment& expe
 runtime::Status VirtualLabCore::status() const {
   const auto total = static_cast<int>(simulations_.size());
   const bool busy = settled_ < total;
-  return {.phase = busy ? fmt::format("measuring, {} of {} tests done", settled_, total) : "waiting for orders",
+  return {.phase = busy ? fmt::format("measuring, {} of {} experiments done", settled_, total) : "waiting for orders",
           .round = latest_round_,
           .progress = busy ? settled_ / static_cast<double>(total) : -1.0,
           .finished = game_over_ && !busy};

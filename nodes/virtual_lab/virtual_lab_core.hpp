@@ -15,12 +15,12 @@
 namespace nacre::virtual_lab {
 
 using laboratory::Experiment;
-using laboratory::Response;
+using laboratory::TrueResponse;
 using laboratory::Truth;
 
 /// TEST_ORDER in; one Compute (kind "measure") per design, test, conditions and fidelity that nobody has ordered yet;
-/// MEASUREMENT out, one per specimen, when the simulation is done. What a specimen shows depends on truth and order
-/// alone, never on the order of arrival. A repeated order changes nothing; another order under the same id is refused
+/// MEASUREMENT out, one per specimen, when the simulation is done. What is measured depends on truth and order alone,
+/// never on the order of arrival. A repeated order changes nothing; another order under the same id is refused
 /// with a warning.
 class VirtualLabCore : public runtime::NodeCore {
  public:
@@ -32,13 +32,13 @@ class VirtualLabCore : public runtime::NodeCore {
   /// One simulation and who waits for it.
   struct Simulation {
     Experiment experiment;
-    std::optional<Result<Response>> response;
+    std::optional<Result<TrueResponse>> response;
     std::vector<std::string> waiting;  ///< order ids
   };
 
   void accept(const std::string& payload, runtime::Outputs& outputs);
   void settle(const runtime::WorkDone& work, runtime::Outputs& outputs);
-  void report(const wire::TestOrder& order, const Experiment& experiment, const Result<Response>& response,
+  void report(const wire::TestOrder& order, const Experiment& experiment, const Result<TrueResponse>& response,
               runtime::Outputs& outputs) const;
 
   Truth truth_;

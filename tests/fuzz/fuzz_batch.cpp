@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace nacre;
   const std::string_view bytes = fuzz::text_of(data, size);
   (void)simulator_farm::read_listing(std::string(bytes));
-  (void)simulator_farm::read_answer(std::string(bytes));
+  (void)simulator_farm::read_response(std::string(bytes));
   // With a checksum that fits, so that the fuzzer gets behind it: fields of 'length byte, bytes'.
   std::vector<std::string> fields;
   for (std::size_t at = 0; at < size;) {

@@ -6,6 +6,7 @@
 #include "dashboard/entries.hpp"
 #include "dashboard/guard.hpp"
 #include "dashboard/maps.hpp"
+#include "families/families_file.hpp"
 #include "fuzz.hpp"
 
 namespace nacre::fuzz {
@@ -69,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto approval = dashboard::approval_from_json(request.body)) fuzz::expect(approval->round >= -1);
   (void)dashboard::simulation_request_from_json(request.body);
   if (const auto grouping = dashboard::grouping_from_json(request.body))
-    for (const families::Family& family : *grouping)
+    for (const families::SeedFamily& family : *grouping)
       fuzz::expect(families::is_family_name(family.name) && !family.seeds.empty());
   if (request.path == "/api/simulate") return 0;  // would break specimens for minutes
   const dashboard::Response response = fuzz::page().handle(request);

@@ -1,6 +1,7 @@
 // Laboratory files.
 
 #include "fuzz.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "laboratory/truth.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

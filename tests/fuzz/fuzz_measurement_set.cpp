@@ -1,7 +1,8 @@
 // A measurement set: the table, then a curve and a layout that it may name (curve.csv, layout.txt).
 
 #include "fuzz.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/summary.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nacre;

@@ -1,6 +1,7 @@
 // Parameter files.
 
 #include "fuzz.hpp"
+#include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -10,6 +10,7 @@
 #include "base/files.hpp"
 #include "film/film_file.hpp"
 #include "game/scenario.hpp"
+#include "material/parameter_file.hpp"
 #include "runtime/journal.hpp"
 #include "store/run_database.hpp"
 #include "store/simulation_cache.hpp"
@@ -68,9 +69,9 @@ void add_databases(const Corpus& corpus) {
   fs::remove(file);
   {
     store::SimulationCache cache(file);
-    store::CachedSimulation answer;
-    answer.curve = wire::samples::curve();
-    cache.insert("577fffe9fffdef", answer);
+    store::CachedSimulation response;
+    response.curve = wire::samples::curve();
+    cache.insert("577fffe9fffdef", response);
     cache.insert_breaks("577fffe9fffdef", {{7, 0.5}});
   }
   corpus.add("database", "cache", read_file(file));
@@ -123,7 +124,8 @@ void add_requests(const Corpus& corpus) {
   corpus.add(
       "dashboard", "measurement",
       "POST /api/measurement\n" + entry +
-          R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
+          R"({"specimen":"a-1","pattern":"577fffe9fffdef","test":"toughness","curve_csv":"strain,stress_pa\n0,0\n)"
+          R"(0.01,1e6\n0.02,2e6\n0.03,1e6\n0.04,0\n","valid":true})");
   corpus.add("dashboard", "review",
              "POST /api/review\n" + entry + R"({"specimen":"a","valid":false,"by":"Ada","why":"slipped"})");
   corpus.add("dashboard", "families", "GET /api/families\n" + host + cookie + "\n");

@@ -1,4 +1,4 @@
-// Batches for a cluster: how questions are cut, when a task is taken for lost, what the files carry, what Slurm is
+// Batches for a cluster: how test requests are cut, when a task is taken for lost, what the files carry, what Slurm is
 // told.
 
 #include <gmock/gmock.h>
@@ -17,10 +17,10 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Batches, HoldAboutAsMuchWorkAsIsAskedForAndEveryQuestionOnce) {
+TEST(Batches, HoldAboutAsMuchWorkAsIsAskedForAndEveryTestOnce) {
   EXPECT_THAT(cut_into_batches({1, 1, 1, 1, 1}, 2.0, 100), ElementsAre(2, 2, 1));
-  EXPECT_THAT(cut_into_batches({5, 1, 1}, 2.0, 100), ElementsAre(1, 2)) << "a long question goes by itself";
-  EXPECT_THAT(cut_into_batches({0, 0, 0}, 2.0, 2), ElementsAre(2, 1)) << "not too many questions";
+  EXPECT_THAT(cut_into_batches({5, 1, 1}, 2.0, 100), ElementsAre(1, 2)) << "a long test goes by itself";
+  EXPECT_THAT(cut_into_batches({0, 0, 0}, 2.0, 2), ElementsAre(2, 1)) << "not too many tests";
   EXPECT_TRUE(cut_into_batches({}, 2.0, 2).empty());
 }
 
@@ -29,7 +29,7 @@ TEST(Batches, CostsComeNearerToWhatTasksReport) {
   const double guess = costs.seconds(tester::TestKind::toughness, tester::Fidelity::full);
   for (int i = 0; i < 100; ++i) costs.learn(tester::TestKind::toughness, tester::Fidelity::full, 10.0 * guess);
   EXPECT_NEAR(costs.seconds(tester::TestKind::toughness, tester::Fidelity::full), 10.0 * guess, 0.01 * guess);
-  EXPECT_LT(costs.seconds(tester::TestKind::modulus, tester::Fidelity::full), guess) << "another kind of question";
+  EXPECT_LT(costs.seconds(tester::TestKind::modulus, tester::Fidelity::full), guess) << "another kind of test";
 }
 
 constexpr Patience kPatience{.listing_s = 10.0, .sign_s = 100.0};
@@ -96,12 +96,12 @@ TEST(Slurm, OptionsOfTheScenarioComeLastSoThatTheyWin) {
 
 std::vector<BatchRecord> records() {
   BatchRecord broken{
-      .key = "k1", .answer = {}, .breaks = std::vector<tester::Break>{{7, 0.01}, {9, 0.1}}, .seconds = 2};
-  broken.answer.toughness_pa = 1.0 / 3.0;
-  broken.answer.curve.strain = {0.0, 0.1};
-  broken.answer.curve.stress_pa = {1.0, 2.0 / 3.0};
-  BatchRecord failed{.key = "k2", .answer = {}, .breaks = std::nullopt, .seconds = 0.5};
-  failed.answer.failure = "J = 0";
+      .key = "k1", .response = {}, .breaks = std::vector<tester::Break>{{7, 0.01}, {9, 0.1}}, .seconds = 2};
+  broken.response.toughness_pa = 1.0 / 3.0;
+  broken.response.curve.strain = {0.0, 0.1};
+  broken.response.curve.stress_pa = {1.0, 2.0 / 3.0};
+  BatchRecord failed{.key = "k2", .response = {}, .breaks = std::nullopt, .seconds = 0.5};
+  failed.response.failure = "J = 0";
   return {broken, failed};
 }
 
@@ -118,7 +118,7 @@ TEST(BatchFiles, CarryEveryBit) {
 
 TEST(BatchFiles, DamageAndForeignBatchesAreNoticed) {
   const std::string bytes = write_batch_result("name", records());
-  EXPECT_THAT(read_batch_result(bytes, "another").error().message, HasSubstr("it answers batch name"));
+  EXPECT_THAT(read_batch_result(bytes, "another").error().message, HasSubstr("it is the result of batch name"));
   RandomStream random(3, "damage");
   for (int i = 0; i < 300; ++i) {
     std::string damaged = bytes;

@@ -58,7 +58,7 @@ InProcessGame played(const game::Scenario& scenario, std::function<diagnosis_t(i
 }
 
 bool proposal_agent_asked_with(const InProcessGame& game, const std::string& effect) {
-  const auto requests = game.said<wire::SimulateRequest>("SIMULATE");
+  const auto requests = game.sent<wire::SimulateRequest>("SIMULATE");
   return std::any_of(requests.begin(), requests.end(), [&](const wire::SimulateRequest& request) {
     return request.request_id.starts_with("proposal_agent/") && request.parameters.extensions.contains(effect);
   });
@@ -77,7 +77,7 @@ InProcessGame played_with(const std::string& effect, double value, int rounds, c
 
 std::vector<bool> adopted(const InProcessGame& game, const std::string& effect) {
   std::vector<bool> held;
-  for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS"))
+  for (const auto& model : game.sent<wire::AdoptedModel>("PARAMETERS"))
     held.push_back(model.parameters.extensions.contains(effect));
   return held;
 }
@@ -88,7 +88,7 @@ TEST(Diagnosis, AnEffectOfTheMaterialThatPredictsBetterExtendsTheModelOfTheSearc
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 2, 3});
   const std::vector<bool> held = adopted(game, "droplet_mixing");
   EXPECT_FALSE(held[1]) << "a name alone adopts nothing";
-  EXPECT_TRUE(held[3]) << "eight designs were foretold within two per cent, against forty";
+  EXPECT_TRUE(held[3]) << "eight designs were predicted within two per cent, against forty";
   EXPECT_TRUE(held[4]);
   EXPECT_TRUE(proposal_agent_asked_with(game, "droplet_mixing"));
 }
@@ -97,13 +97,13 @@ TEST(Diagnosis, WhatAnExtensionExpectsIsNotedBeforeAnythingIsOrdered) {
   const auto game = played_with("droplet_mixing", 0.3, 2, {1, 2});
   int noted = 0;
   bool ordered = false;
-  for (const runtime::Message& message : game.everything_said()) {
+  for (const runtime::Message& message : game.everything_sent()) {
     if (message.channel == "TEST_ORDER") ordered = ordered || wire::read<wire::TestOrder>(message.payload)->round == 2;
     if (message.channel != "SIMULATED") continue;
-    const auto answer = wire::read<wire::SimulateResult>(message.payload).value();
-    if (!answer.request_id.starts_with("validation_agent/r2/f/")) continue;
-    EXPECT_FALSE(ordered) << answer.request_id;
-    noted += static_cast<int>(answer.results.size());
+    const auto response = wire::read<wire::SimulateResult>(message.payload).value();
+    if (!response.request_id.starts_with("validation_agent/r2/f/")) continue;
+    EXPECT_FALSE(ordered) << response.request_id;
+    noted += static_cast<int>(response.results.size());
   }
   EXPECT_EQ(noted, 4) << "designs proposed in round 1";
 }
@@ -131,15 +131,15 @@ TEST(Diagnosis, WhatSeparatesANameFromTheBaseIsPredictedByBothAndOrdered) {
   };
   const auto game = played(scenario, diagnosed, laboratory);
   int by_the_name = 0, by_the_adopted = 0;
-  for (const auto& answer : game.said<wire::SimulateResult>("SIMULATED")) {
-    const int designs = static_cast<int>(answer.results.size());
-    if (answer.request_id.starts_with("validation_agent/r2/f/1/")) by_the_name += designs;
-    if (answer.request_id.starts_with("validation_agent/r2/f/2/")) by_the_adopted += designs;
+  for (const auto& response : game.sent<wire::SimulateResult>("SIMULATED")) {
+    const int designs = static_cast<int>(response.results.size());
+    if (response.request_id.starts_with("validation_agent/r2/f/1/")) by_the_name += designs;
+    if (response.request_id.starts_with("validation_agent/r2/f/2/")) by_the_adopted += designs;
   }
   EXPECT_EQ(by_the_name, 2);
   EXPECT_EQ(by_the_adopted, 2);
   std::map<int, int> ordered;  // by round
-  for (const auto& order : game.said<wire::TestOrder>("TEST_ORDER"))
+  for (const auto& order : game.sent<wire::TestOrder>("TEST_ORDER"))
     if (order.reason == "discrimination") ++ordered[order.round];
   EXPECT_TRUE(adopted(game, "droplet_mixing")[2]);
   EXPECT_EQ(ordered[2], 2);
@@ -149,24 +149,24 @@ TEST(Diagnosis, WhatSeparatesANameFromTheBaseIsPredictedByBothAndOrdered) {
 TEST(Diagnosis, AnEffectOfTheTestingMachineActsInComparisonsOnly) {
   const auto game = played_with("machine_compliance", 2e-9, 3, {1, 2, 3});
   EXPECT_TRUE(adopted(game, "machine_compliance").back());
-  for (const auto& request : game.said<wire::SimulateRequest>("SIMULATE")) {
+  for (const auto& request : game.sent<wire::SimulateRequest>("SIMULATE")) {
     EXPECT_THAT(request.parameters.extensions, IsEmpty()) << request.request_id;
   }
   EXPECT_FALSE(proposal_agent_asked_with(game, "machine_compliance"));
 }
 
-// Held-out errors are taken of what the machine would show: asked again, with curves.
-TEST(Diagnosis, HeldOutErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
+// Prediction errors are taken of what the machine would record: requested again, with curves.
+TEST(Diagnosis, PredictionErrorsOfAnExtendedModelAreThoseThroughTheMachine) {
   const auto game = played_with("machine_compliance", 2e-9, 4, {1, 2, 3, 4});
   const std::vector<bool> held = adopted(game, "machine_compliance");
   const auto first = std::find(held.begin(), held.end(), true) - held.begin();
   ASSERT_LT(first, 4);
-  const auto requests = game.said<wire::SimulateRequest>("SIMULATE");
+  const auto requests = game.sent<wire::SimulateRequest>("SIMULATE");
   EXPECT_TRUE(std::any_of(requests.begin(), requests.end(), [&](const wire::SimulateRequest& request) {
     return request.request_id.starts_with("validation_agent/r" + std::to_string(first + 1) + "/h/") &&
            request.curve_points > 0;
   }));
-  EXPECT_EQ(game.said<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 4);
+  EXPECT_EQ(game.sent<wire::RoundSummary>("ROUND")[static_cast<std::size_t>(first) + 1].held_out.toughness_count, 4);
 }
 
 TEST(Diagnosis, ANameThatPredictsNothingBetterIsNeverAdopted) {
@@ -179,7 +179,7 @@ TEST(Diagnosis, ANameThatPredictsNothingBetterIsNeverAdopted) {
 TEST(Diagnosis, ANameThatIsNotHeldEndsItsTrial) {
   const auto game = played_with("droplet_mixing", 0.3, 4, {1, 3, 4});
   EXPECT_EQ(adopted(game, "droplet_mixing"), (std::vector<bool>{false, false, false, false, true}))
-      << "what it foretold for round 2 does not count in round 3";
+      << "what it predicted for round 2 does not count in round 3";
 }
 
 TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
@@ -193,12 +193,12 @@ TEST(Diagnosis, NothingIsAdoptedWithoutAUsableName) {
   for (const diagnosis_t& diagnosis : unusable) {
     const auto game = played(
         scenario, [&](int) { return diagnosis; }, laboratory);
-    for (const auto& model : game.said<wire::AdoptedModel>("PARAMETERS"))
+    for (const auto& model : game.sent<wire::AdoptedModel>("PARAMETERS"))
       EXPECT_THAT(model.parameters.extensions, IsEmpty());
   }
 }
 
-TEST(Diagnosis, SeparatingExperimentsAreOrderedBesideTheProposals) {
+TEST(Diagnosis, SeparatingExperimentsAreOrderedWithTheProposals) {
   game::Scenario scenario = small_scenario();
   const pattern::Design coupon = pattern::Pattern(0x577fffe9fffdefULL);
   const auto game = played(scenario, [&](int) {
@@ -221,7 +221,7 @@ TEST(Diagnosis, SeparatingExperimentsAreOrderedBesideTheProposals) {
     return diagnosis;
   });
   std::vector<wire::TestOrder> separating;
-  for (const auto& order : game.said<wire::TestOrder>("TEST_ORDER")) {
+  for (const auto& order : game.sent<wire::TestOrder>("TEST_ORDER")) {
     if (order.reason == "discrimination" && order.round == 2) separating.push_back(order);
   }
   ASSERT_THAT(separating, SizeIs(2)) << "discrimination_orders of the scenario";
@@ -235,7 +235,7 @@ TEST(Diagnosis, SeparatingExperimentsAreOrderedBesideTheProposals) {
 TEST(Diagnosis, RoundOneOrdersRotatedTwins) {
   const auto game = played(small_scenario(), {});
   int twins = 0;
-  for (const auto& order : game.said<wire::TestOrder>("TEST_ORDER")) {
+  for (const auto& order : game.sent<wire::TestOrder>("TEST_ORDER")) {
     if (order.reason != "discrimination") continue;
     EXPECT_EQ(order.round, 1);
     EXPECT_EQ(order.conditions.orientation_deg, 90.0);
@@ -250,7 +250,7 @@ TEST(Diagnosis, ADisabledDiagnosisIsNeitherAskedForNorWaitedFor) {
   scenario.diagnosis.enabled = false;
   const auto game = played(scenario, {});
   EXPECT_THAT(game.payloads("DIAGNOSE"), IsEmpty());
-  for (const auto& order : game.said<wire::TestOrder>("TEST_ORDER")) EXPECT_NE(order.reason, "discrimination");
+  for (const auto& order : game.sent<wire::TestOrder>("TEST_ORDER")) EXPECT_NE(order.reason, "discrimination");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/files.hpp"
 #include "base/statistics.hpp"
 #include "families/dense_sampling.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
 #include "game/standings.hpp"
 #include "in_process_game.hpp"
@@ -48,16 +49,16 @@ InProcessGame played(const game::Scenario& scenario, const Delivery& delivery = 
 }
 
 /// The second word of each family, by number.
-std::vector<wire::Family> validated(const InProcessGame& game) {
-  std::vector<wire::Family> families = game.said<wire::Family>("FAMILY");
-  std::erase_if(families, [](const wire::Family& family) { return !family.is_validated; });
+std::vector<wire::CalibratedFamily> validated(const InProcessGame& game) {
+  std::vector<wire::CalibratedFamily> families = game.sent<wire::CalibratedFamily>("FAMILY");
+  std::erase_if(families, [](const wire::CalibratedFamily& family) { return !family.is_validated; });
   return families;
 }
 
 TEST(FamilyStage, FollowsTheLastRoundAndClosesItForGood) {
   const game::Scenario scenario = with_families();
   InProcessGame game = played(scenario);
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_THAT(rounds, SizeIs(3));
   EXPECT_EQ(rounds[1].round, 1);
   EXPECT_FALSE(rounds[1].last);
@@ -65,17 +66,17 @@ TEST(FamilyStage, FollowsTheLastRoundAndClosesItForGood) {
   wire::RoundSummary again = rounds[1];
   again.last = true;
   again.decided_by = rounds[2].decided_by;
-  EXPECT_EQ(rounds[2], again) << "the same figures, said as the last";
+  EXPECT_EQ(rounds[2], again) << "the same figures, sent as the last";
   const auto families = validated(game);
   ASSERT_FALSE(families.empty());
-  EXPECT_EQ(game.said<wire::Family>("FAMILY").size(), 2 * families.size());
+  EXPECT_EQ(game.sent<wire::CalibratedFamily>("FAMILY").size(), 2 * families.size());
   for (const char* node : {"validation_agent", "proposal_agent", "simulator_farm"})
     EXPECT_TRUE(game.status_of(node).finished) << node;
 }
 
 TEST(FamilyStage, ChosenDesignsAreFeasibleVariantsMeasuredAndPredictedByBothModels) {
   InProcessGame game = played(with_families());
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     std::vector<pattern::Pattern> seeds;
     int chosen = 0;
     for (const game::FamilyDesign& design : family.designs) {
@@ -125,10 +126,10 @@ TEST(FamilyStage, WhatWasMeasuredOfADesignIsNotWhatItsTwinAtAnotherRateShowed) {
   game.announce(scenario);
   game.play();
   std::vector<measurement::SpecimenRecord> specimens;
-  for (const auto& measured : game.said<wire::Measurement>("MEASUREMENT")) specimens.push_back(measured.record);
+  for (const auto& measured : game.sent<wire::Measurement>("MEASUREMENT")) specimens.push_back(measured.record);
   const auto values = game::measured_values(specimens);
   ASSERT_FALSE(validated(game).empty());
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     for (const game::FamilyDesign& design : family.designs) {
       const std::string name = design.pattern.key() + (design.is_seed ? ", a seed" : ", chosen");
       ASSERT_TRUE(design.measured.modulus_pa && design.measured.toughness_pa) << name;
@@ -142,7 +143,7 @@ TEST(FamilyStage, WhatWasMeasuredOfADesignIsNotWhatItsTwinAtAnotherRateShowed) {
 TEST(FamilyStage, ItsModelIsNearerToItsSeedsThanTheGlobalOne) {
   InProcessGame game = played(with_families());
   double global = 0.0, own = 0.0;
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     global += errors.seeds_global.toughness_mean;
     own += errors.seeds_family.toughness_mean;
@@ -174,7 +175,7 @@ TEST(FamilyStage, IsPlayedOnRequestAlone) {
   InProcessGame game = played(scenario);
   EXPECT_THAT(game.payloads("FAMILY"), IsEmpty());
   EXPECT_THAT(game.work_of("validation_agent"), IsEmpty());
-  EXPECT_TRUE(game.said<wire::RoundSummary>("ROUND").back().last);
+  EXPECT_TRUE(game.sent<wire::RoundSummary>("ROUND").back().last);
 }
 
 TEST(FamilyStage, MeasuresWhatAPersonAddedAfterTheLastRoundWasMeasured) {
@@ -199,7 +200,7 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
   add_players(game, scenario);
   game.announce(scenario);
   game.play();
-  const auto decide = [&](int round, const pattern::Design& design, bool yes) {
+  const auto send_approval = [&](int round, const pattern::Design& design, bool yes) {
     approval_t approval{};
     approval.round = round;
     approval.design = design.name();
@@ -207,26 +208,26 @@ TEST(FamilyStage, WaitsForAPersonsYesWhereTheScenarioSaysSo) {
     approval.by = "a person";
     game.publish({"APPROVAL", wire::encode(approval)});
   };
-  const wire::Proposal first = game.said<wire::Proposal>("PROPOSAL").at(0);
-  for (const auto& proposed : first.designs) decide(0, proposed.design, true);
+  const wire::Proposal first = game.sent<wire::Proposal>("PROPOSAL").at(0);
+  for (const auto& proposed : first.designs) send_approval(0, proposed.design, true);
   game.play();
   EXPECT_THAT(validated(game), IsEmpty()) << "nobody has approved the variants yet";
   std::vector<pattern::Pattern> chosen;
-  for (const wire::Family& family : game.said<wire::Family>("FAMILY")) {
+  for (const wire::CalibratedFamily& family : game.sent<wire::CalibratedFamily>("FAMILY")) {
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) chosen.push_back(design.pattern);
   }
   ASSERT_FALSE(chosen.empty());
-  for (const pattern::Pattern& each : chosen) decide(2, each, each != chosen.front());
+  for (const pattern::Pattern& each : chosen) send_approval(2, each, each != chosen.front());
   game.play();
   ASSERT_FALSE(validated(game).empty());
-  for (const wire::Family& family : validated(game)) {
+  for (const wire::CalibratedFamily& family : validated(game)) {
     for (const game::FamilyDesign& design : family.designs)
       EXPECT_EQ(design.measured.toughness_pa.has_value(), design.pattern != chosen.front());
   }
 }
 
-std::vector<families::Member> three_measured() {
+std::vector<families::MeasuredPattern> three_measured() {
   return {{pattern::Pattern(0x577fffe9fffdef), {1.5e9, 4e5}},
           {pattern::Pattern(0x3ffc9b4ad4d2d9), {1.1e9, 5e5}},
           {pattern::Pattern((std::uint64_t{1} << 55) - 1), {2.6e9, 1e5}}};
@@ -240,9 +241,9 @@ TEST(FamilyGrouping, APersonsFileIsTakenAndAFaultyOnePassedOver) {
   const std::string spec = validation_agent::grouping_spec(three_measured(), 2);
   const auto proposed = validation_agent::grouping_from(group(spec));
   EXPECT_EQ(families::read_families(file), proposed.families) << "the proposal is there to be edited";
-  EXPECT_EQ(group(spec), group(spec)) << "a restart finds what the first attempt wrote and says the same";
+  EXPECT_EQ(group(spec), group(spec)) << "a restart finds what the first attempt wrote and returns the same";
 
-  const std::vector<families::Family> own = {{"mine", {three_measured()[1].pattern}}};
+  const std::vector<families::SeedFamily> own = {{"mine", {three_measured()[1].pattern}}};
   write_file_atomically(file, families::to_toml(own));
   EXPECT_EQ(validation_agent::grouping_from(group(spec)).families, own);
 

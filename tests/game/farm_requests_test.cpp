@@ -1,4 +1,4 @@
-// What the validation agent asks the farm, with answers made up by the test.
+// What the validation agent requests from the farm, with responses made up by the test.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,14 +26,14 @@ FarmBatch third_evaluation(double w_if_j_per_m3, std::uint64_t second_design = 6
   return batch;
 }
 
-wire::SimulateRequest only_request(FarmRequests& questions, const FarmBatch& batch) {
-  const std::vector<wire::SimulateRequest> requests = questions.ask(batch);
+wire::SimulateRequest only_request(FarmRequests& test_requests, const FarmBatch& batch) {
+  const std::vector<wire::SimulateRequest> requests = test_requests.ask(batch);
   EXPECT_THAT(requests, SizeIs(1));
   EXPECT_THAT(requests.front().request_id, StartsWith("validation_agent/r1/c/T2.0/0#"));
   return requests.front();
 }
 
-wire::SimulateResult answer(const wire::SimulateRequest& request, double toughness_pa) {
+wire::SimulateResult response(const wire::SimulateRequest& request, double toughness_pa) {
   wire::SimulateResult whole{.request_id = request.request_id, .chunk = 0, .chunks = 1, .first = 0, .results = {}};
   for (const pattern::Design& design : request.designs) {
     wire::SimulatedDesign result;
@@ -46,16 +46,16 @@ wire::SimulateResult answer(const wire::SimulateRequest& request, double toughne
 
 // The journal was lost, and the second course of the game comes to other parameters, or to other designs in the same
 // places, under the same label.
-TEST(FarmRequests, AnAnswerToAnotherCoursesQuestionIsNotTaken) {
+TEST(FarmRequests, AResponseToAnotherCoursesRequestIsNotTaken) {
   for (const FarmBatch& second_course : {third_evaluation(2e7), third_evaluation(1e7, 7)}) {
     FarmRequests before, now;
     const wire::SimulateRequest stale = only_request(before, third_evaluation(1e7));
     const wire::SimulateRequest asked = only_request(now, second_course);
-    EXPECT_FALSE(now.take(answer(stale, 1e5)));
+    EXPECT_FALSE(now.take(response(stale, 1e5)));
     EXPECT_FALSE(now.predictions().at(0).at(1).toughness_pa);
-    EXPECT_TRUE(now.take(answer(asked, 2e5)));
+    EXPECT_TRUE(now.take(response(asked, 2e5)));
     EXPECT_EQ(now.predictions().at(0).at(1).toughness_pa, 2e5);
-    EXPECT_FALSE(now.take(answer(stale, 1e5)));
+    EXPECT_FALSE(now.take(response(stale, 1e5)));
     EXPECT_EQ(now.predictions().at(0).at(1).toughness_pa, 2e5);
   }
 }

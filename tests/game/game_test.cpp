@@ -11,6 +11,7 @@
 #include "../instrumented.hpp"
 #include "base/files.hpp"
 #include "in_process_game.hpp"
+#include "material/parameter_file.hpp"
 #include "proposal_agent/proposal_core.hpp"
 #include "simulator_farm/farm_core.hpp"
 #include "stand_ins.hpp"
@@ -35,9 +36,9 @@ TEST(Game, TwoRoundsTakeTheCourseOfTheRules) {
   add_players(game, scenario);
   play_whole(game, scenario);
 
-  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
-  const auto proposals = game.said<wire::Proposal>("PROPOSAL");
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto models = game.sent<wire::AdoptedModel>("PARAMETERS");
+  const auto proposals = game.sent<wire::Proposal>("PROPOSAL");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_THAT(models, SizeIs(3));
   ASSERT_THAT(proposals, SizeIs(3));
   ASSERT_THAT(rounds, SizeIs(3));
@@ -49,7 +50,7 @@ TEST(Game, TwoRoundsTakeTheCourseOfTheRules) {
     EXPECT_EQ(rounds[at].round, round);
     EXPECT_EQ(rounds[at].last, round == 2);
   }
-  // N(n): 4 random patterns and 3 proposals in round 1, 3 more in round 2; held out are the proposals.
+  // N(n): 4 random patterns and 3 proposals in round 1, 3 more in round 2; the proposals are out-of-sample.
   EXPECT_EQ(rounds[1].calibration_count, 7);
   EXPECT_EQ(rounds[2].calibration_count, 10);
   EXPECT_EQ(rounds[1].held_out.modulus_count, 3);
@@ -65,7 +66,7 @@ TEST(Game, CalibrationBringsTheModelNearerToTheLaboratory) {
   InProcessGame game;
   add_players(game, scenario);
   play_whole(game, scenario);
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_THAT(rounds, SizeIs(3));
   EXPECT_LT(rounds[1].after.modulus_mean, 0.5 * rounds[1].before.modulus_mean);
   EXPECT_LT(rounds[1].after.toughness_mean, rounds[1].before.toughness_mean);
@@ -91,7 +92,7 @@ TEST(Game, BeginsWithTheModelOfAnEarlierOne) {
   InProcessGame game;
   add_players(game, scenario);
   play_whole(game, scenario);
-  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
+  const auto models = game.sent<wire::AdoptedModel>("PARAMETERS");
   ASSERT_THAT(models, SizeIs(3));
   EXPECT_EQ(models[0].parameters, model);
   EXPECT_EQ(models[0].provenance.search, "begun_with");
@@ -105,14 +106,14 @@ TEST(Game, BaseMaterialsAreFittedFromTheModelThatItBeginsWith) {
   InProcessGame game;
   add_players(game, scenario);
   play_whole(game, scenario);
-  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
+  const auto models = game.sent<wire::AdoptedModel>("PARAMETERS");
   ASSERT_THAT(models, SizeIs(3));
   EXPECT_EQ(models[0].parameters.extensions, model.extensions);
   EXPECT_NE(models[0].parameters.modulus, model.modulus);
   EXPECT_EQ(models[0].provenance.search, "base_materials");
 }
 
-TEST(Game, EveryQuestionIsComputedOnce) {
+TEST(Game, EveryTestRequestIsComputedOnce) {
   const game::Scenario scenario = small_scenario();
   InProcessGame game;
   add_players(game, scenario);
@@ -130,7 +131,7 @@ TEST(Game, LateShuffledAndRepeatedDeliveryIsTheSameGame) {
   InProcessGame undisturbed;
   add_players(undisturbed, scenario);
   play_whole(undisturbed, scenario);
-  ASSERT_THAT(undisturbed.said<wire::RoundSummary>("ROUND"), SizeIs(3));
+  ASSERT_THAT(undisturbed.sent<wire::RoundSummary>("ROUND"), SizeIs(3));
   for (std::uint64_t seed : {1, 2, 3}) {
     InProcessGame disturbed({.seed = seed, .repeat_probability = 0.3});
     add_players(disturbed, scenario);
@@ -173,7 +174,7 @@ TEST(Game, DesignsAreNotProposedTwice) {
   add_players(game, scenario);
   play_whole(game, scenario);
   std::set<std::string> proposed;
-  for (const auto& proposal : game.said<wire::Proposal>("PROPOSAL")) {
+  for (const auto& proposal : game.sent<wire::Proposal>("PROPOSAL")) {
     for (const auto& design : proposal.designs) EXPECT_TRUE(proposed.insert(design.design.name()).second);
   }
   EXPECT_THAT(proposed, SizeIs(15));
@@ -184,7 +185,7 @@ TEST(Game, BenchmarkOfTheSelectionComesFromTheMeasuredMixtures) {
   InProcessGame game;
   add_players(game, scenario);
   play_whole(game, scenario);
-  const auto models = game.said<wire::AdoptedModel>("PARAMETERS");
+  const auto models = game.sent<wire::AdoptedModel>("PARAMETERS");
   ASSERT_THAT(models, SizeIs(3));
   EXPECT_THAT(models[0].benchmark, IsEmpty());
   ASSERT_THAT(models[1].benchmark, SizeIs(4)) << "soft, interface, mix:0.75, rigid";
@@ -199,7 +200,7 @@ TEST(Game, EndsAtEquilibriumBeforeTheLimit) {
   InProcessGame game;
   add_players(game, scenario);
   play_whole(game, scenario);
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_FALSE(rounds.empty());
   EXPECT_TRUE(rounds.back().last);
   EXPECT_TRUE(rounds.back().equilibrium) << rounds.back().decided_by;
@@ -215,18 +216,18 @@ TEST(Game, FailedSimulationsDoNotStopIt) {
   play_whole(sound, scenario);
   // Everything that was proposed for round 1, and one of the random patterns, cannot be simulated.
   std::set<std::string> failing;
-  const wire::Proposal first = sound.said<wire::Proposal>("PROPOSAL").front();
+  const wire::Proposal first = sound.sent<wire::Proposal>("PROPOSAL").front();
   for (const auto& design : first.designs) failing.insert(design.design.name());
-  for (const auto& order : sound.said<wire::TestOrder>("TEST_ORDER")) {
+  for (const auto& order : sound.sent<wire::TestOrder>("TEST_ORDER")) {
     if (order.reason == "random" && failing.size() < 4) failing.insert(order.design.name());
   }
   InProcessGame game;
   add_players(game, scenario, {}, {}, failing);
   play_whole(game, scenario);
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_THAT(rounds, SizeIs(3));
   EXPECT_TRUE(rounds.back().last);
-  const wire::Proposal second = game.said<wire::Proposal>("PROPOSAL").front();
+  const wire::Proposal second = game.sent<wire::Proposal>("PROPOSAL").front();
   for (const auto& design : second.designs) {
     EXPECT_FALSE(failing.contains(design.design.name()));
   }

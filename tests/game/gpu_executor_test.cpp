@@ -9,8 +9,11 @@
 #include <mutex>
 
 #include "film/film_file.hpp"
+#include "gpu/emulated_device.hpp"
 #include "simulator_farm/gpu_executor.hpp"
 #include "simulator_farm/simulate_work.hpp"
+#include "tester/modulus.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::simulator_farm {
@@ -22,7 +25,7 @@ using testing::HasSubstr;
 
 constexpr const char* kDesigns[] = {"577fffe9fffdef", "3ffdbefbf7efef"};
 
-runtime::Compute question(const std::string& design, bool modulus) {
+runtime::Compute test_request(const std::string& design, bool modulus) {
   wire::SimulateRequest request;
   request.request_id = design + (modulus ? "/E" : "/T");
   request.modulus = modulus;
@@ -35,8 +38,8 @@ runtime::Compute question(const std::string& design, bool modulus) {
 }
 
 /// A fracture test whose crack, or film too, is asked for.
-runtime::Compute crack_question(const std::string& design, bool film) {
-  runtime::Compute compute = question(design, false);
+runtime::Compute crack_request(const std::string& design, bool film) {
+  runtime::Compute compute = test_request(design, false);
   auto request = wire::read<wire::SimulateRequest>(compute.spec).value();
   request.crack = true;
   request.film = film;
@@ -45,10 +48,10 @@ runtime::Compute crack_question(const std::string& design, bool film) {
 }
 
 std::vector<runtime::Compute> both_tests() {
-  std::vector<runtime::Compute> questions;
+  std::vector<runtime::Compute> test_requests;
   for (const char* design : kDesigns)
-    for (const bool modulus : {true, false}) questions.push_back(question(design, modulus));
-  return questions;
+    for (const bool modulus : {true, false}) test_requests.push_back(test_request(design, modulus));
+  return test_requests;
 }
 
 tester::Simulation simulation_of(const std::string& design) {
@@ -98,33 +101,33 @@ class GpuExecutorTest : public testing::Test {
     cache_ = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   }
 
-  /// Answers by the questions' ids.
-  std::map<std::string, Answer> answers(MakeDevice make_device,
-                                        const std::vector<runtime::Compute>& questions = both_tests()) {
+  /// Responses by the ids of the test requests.
+  std::map<std::string, TestResponse> responses(MakeDevice make_device,
+                                                const std::vector<runtime::Compute>& test_requests = both_tests()) {
     GpuExecutor executor(cache_, {.films = folder_ / "films", .threads = 1, .make_device = std::move(make_device)},
                          [this] {
                            const std::lock_guard lock(mutex_);
                            woken_ = true;
                            changed_.notify_all();
                          });
-    for (const runtime::Compute& compute : questions) executor.start(compute);
-    const int expected = static_cast<int>(questions.size());
+    for (const runtime::Compute& compute : test_requests) executor.start(compute);
+    const int expected = static_cast<int>(test_requests.size());
     EXPECT_EQ(executor.pending(), expected);
-    std::map<std::string, Answer> answers;
-    while (static_cast<int>(answers.size()) < expected) {
+    std::map<std::string, TestResponse> responses;
+    while (static_cast<int>(responses.size()) < expected) {
       std::unique_lock lock(mutex_);
       EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(120), [this] { return std::exchange(woken_, false); }))
           << "nothing more comes";
       lock.unlock();
       for (runtime::FinishedWork& work : executor.finished()) {
         EXPECT_TRUE(work.result) << work.result.error().message;
-        EXPECT_TRUE(answers.emplace(work.compute.id, read_answer(*work.result).value()).second)
-            << work.compute.id << " was answered twice";
+        EXPECT_TRUE(responses.emplace(work.compute.id, read_response(*work.result).value()).second)
+            << work.compute.id << " has two responses";
       }
     }
     EXPECT_EQ(executor.pending(), 0);
     log_ = executor.take_log();
-    return answers;
+    return responses;
   }
 
   std::filesystem::path folder_;
@@ -135,12 +138,12 @@ class GpuExecutorTest : public testing::Test {
   bool woken_ = false;
 };
 
-void expect_like_the_processors(const std::map<std::string, Answer>& answers) {
+void expect_like_the_processors(const std::map<std::string, TestResponse>& responses) {
   for (const char* design : kDesigns) {
     const tester::Simulation simulation = simulation_of(design);
-    EXPECT_DOUBLE_EQ(answers.at(std::string(design) + "/E").design.modulus_pa,
+    EXPECT_DOUBLE_EQ(responses.at(std::string(design) + "/E").design.modulus_pa,
                      tester::test_modulus(simulation)->modulus_pa);
-    const Answer& fracture = answers.at(std::string(design) + "/T");
+    const TestResponse& fracture = responses.at(std::string(design) + "/T");
     // Which way a crack takes may hinge on rounding.
     EXPECT_NEAR(std::log(fracture.design.toughness_pa / tester::test_toughness(simulation)->toughness_pa), 0.0, 0.3)
         << design;
@@ -149,69 +152,70 @@ void expect_like_the_processors(const std::map<std::string, Answer>& answers) {
 }
 
 TEST_F(GpuExecutorTest, FractureTestsGoToTheDeviceAndAllElseToThreads) {
-  expect_like_the_processors(answers(emulated));
+  expect_like_the_processors(responses(emulated));
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("fracture tests run on"))));
 }
 
 TEST_F(GpuExecutorTest, WithoutADeviceThreadsDoEverything) {
-  expect_like_the_processors(answers(none));
+  expect_like_the_processors(responses(none));
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("there is none"))));
 }
 
-TEST_F(GpuExecutorTest, ADeviceThatIsLostLosesNoQuestion) {
+TEST_F(GpuExecutorTest, ADeviceThatIsLostLosesNoTest) {
   expect_like_the_processors(
-      answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(3); }));
+      responses([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(3); }));
   EXPECT_THAT(log_, Contains(Field(&runtime::LogLine::text, HasSubstr("it fell off the bus"))));
 }
 
 TEST_F(GpuExecutorTest, WhatTheCacheKnowsIsNotPulledAgain) {
-  const auto first = answers(emulated);
+  const auto first = responses(emulated);
   const auto second =
-      answers([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(0); });
-  for (const auto& [id, answer] : first) EXPECT_EQ(second.at(id).design.toughness_pa, answer.design.toughness_pa) << id;
+      responses([](int) -> Result<std::unique_ptr<gpu::Device>> { return std::make_unique<FailingDevice>(0); });
+  for (const auto& [id, response] : first)
+    EXPECT_EQ(second.at(id).design.toughness_pa, response.design.toughness_pa) << id;
   EXPECT_TRUE(log_.empty()) << "the device was asked for something";
 }
 
 TEST_F(GpuExecutorTest, NumbersCrackAndFilmTellOfTheDevicesFracture) {
-  const auto filmed = answers(emulated, {crack_question(kDesigns[0], true), crack_question(kDesigns[1], true)});
+  const auto filmed = responses(emulated, {crack_request(kDesigns[0], true), crack_request(kDesigns[1], true)});
   for (const char* design : kDesigns) {
     const tester::ToughnessResult pulled = pulled_by_device(design);
-    const Answer& answer = filmed.at(std::string(design) + "/T");
-    EXPECT_EQ(answer.design.toughness_pa, pulled.toughness_pa) << "also for those who want a film";
-    ASSERT_TRUE(answer.fracture);
-    EXPECT_EQ(answer.fracture->crack.order, pulled.breaks);
+    const TestResponse& response = filmed.at(std::string(design) + "/T");
+    EXPECT_EQ(response.design.toughness_pa, pulled.toughness_pa) << "also for those who want a film";
+    ASSERT_TRUE(response.fracture);
+    EXPECT_EQ(response.fracture->crack.order, pulled.breaks);
     const auto file =
         folder_ / "films" / (tester::simulation_key(simulation_of(design), tester::TestKind::toughness) + ".film");
     // Rounding may have led the processor's specimen another way: then there is no film.
-    ASSERT_EQ(std::filesystem::exists(file), !answer.fracture->film.empty());
-    if (answer.fracture->film.empty()) continue;
-    EXPECT_EQ(answer.fracture->film, file.filename());
+    ASSERT_EQ(std::filesystem::exists(file), !response.fracture->film.empty());
+    if (response.fracture->film.empty()) continue;
+    EXPECT_EQ(response.fracture->film, file.filename());
     EXPECT_NEAR(film::read_film(file).toughness_pa, pulled.toughness_pa, 0.01 * pulled.toughness_pa);
   }
 }
 
 TEST_F(GpuExecutorTest, ACrackAskedForWithoutTheDeviceIsStillThatOfItsNumbers) {
-  answers(emulated);
-  const auto later = answers(none, {crack_question(kDesigns[0], false), crack_question(kDesigns[1], false)});
+  responses(emulated);
+  const auto later = responses(none, {crack_request(kDesigns[0], false), crack_request(kDesigns[1], false)});
   for (const char* design : kDesigns) {
     const tester::ToughnessResult pulled = pulled_by_device(design);
-    const Answer& answer = later.at(std::string(design) + "/T");
-    EXPECT_EQ(answer.design.toughness_pa, pulled.toughness_pa);
-    ASSERT_TRUE(answer.fracture);
-    EXPECT_EQ(answer.fracture->crack.order, pulled.breaks);
+    const TestResponse& response = later.at(std::string(design) + "/T");
+    EXPECT_EQ(response.design.toughness_pa, pulled.toughness_pa);
+    ASSERT_TRUE(response.fracture);
+    EXPECT_EQ(response.fracture->crack.order, pulled.breaks);
   }
 }
 
 TEST_F(GpuExecutorTest, ACrackOfNumbersThatThreadsGaveIsOfTheirFractureWithADeviceToo) {
-  answers(none);
-  const auto later = answers(emulated, {crack_question(kDesigns[0], false)});
-  const Answer& answer = later.at(std::string(kDesigns[0]) + "/T");
+  responses(none);
+  const auto later = responses(emulated, {crack_request(kDesigns[0], false)});
+  const TestResponse& response = later.at(std::string(kDesigns[0]) + "/T");
   const auto tested = tester::test_toughness(simulation_of(kDesigns[0])).value();
-  EXPECT_EQ(answer.design.toughness_pa, tested.toughness_pa);
-  ASSERT_TRUE(answer.fracture) << answer.design.failure;
+  EXPECT_EQ(response.design.toughness_pa, tested.toughness_pa);
+  ASSERT_TRUE(response.fracture) << response.design.failure;
   const auto pulled = pulled_by_device(kDesigns[0]);
   if (std::abs(pulled.toughness_pa / tested.toughness_pa - 1.0) > 0.01) {
-    EXPECT_EQ(answer.fracture->broken, static_cast<int>(tested.breaks.size())) << "not the device's";
+    EXPECT_EQ(response.fracture->broken, static_cast<int>(tested.breaks.size())) << "not the device's";
   }
 }
 

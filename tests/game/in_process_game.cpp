@@ -35,7 +35,7 @@ void InProcessGame::publish(const runtime::Message& message) {
   const auto sound = channel->validate(message.payload);
   ASSERT_TRUE(sound) << message.channel << ": " << sound.error().message;
   ASSERT_LT(message.payload.size(), wire::kMaximumPayload) << message.channel;
-  if (heard_contents_.emplace(message.channel, message.payload).second) said_.push_back(message);
+  if (known_contents_.emplace(message.channel, message.payload).second) sent_.push_back(message);
   for (const auto& [name, node] : nodes_) {
     if (wire::is_meant_for(*channel, message.payload, name)) pending_.push_back({name, message});
   }
@@ -80,7 +80,7 @@ void InProcessGame::play() {
 
 std::vector<std::string> InProcessGame::payloads(const std::string& channel) const {
   std::vector<std::string> all;
-  for (const runtime::Message& message : said_) {
+  for (const runtime::Message& message : sent_) {
     if (message.channel == channel) all.push_back(message.payload);
   }
   return all;
@@ -90,7 +90,7 @@ std::set<std::pair<std::string, std::string>> InProcessGame::essence() const {
   static const std::set<std::string> kChannels = {"RUN",         "PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
                                                   "MEASUREMENT", "DIAGNOSIS",  "ROUND", "FAMILY",   "FAMILY_GAMUT"};
   std::set<std::pair<std::string, std::string>> contents;
-  for (const runtime::Message& message : said_) {
+  for (const runtime::Message& message : sent_) {
     if (kChannels.contains(message.channel)) contents.emplace(message.channel, message.payload);
   }
   return contents;

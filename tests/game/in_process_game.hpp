@@ -46,14 +46,14 @@ class InProcessGame {
 
   /// Everything that was published on a channel, in order; repeats of the same content once.
   template <class Domain>
-  std::vector<Domain> said(const std::string& channel) const {
+  std::vector<Domain> sent(const std::string& channel) const {
     std::vector<Domain> all;
     for (const std::string& payload : payloads(channel)) all.push_back(wire::read<Domain>(payload).value());
     return all;
   }
   std::vector<std::string> payloads(const std::string& channel) const;
   /// Everything that was published, in order; repeats of the same content once.
-  const std::vector<runtime::Message>& everything_said() const { return said_; }
+  const std::vector<runtime::Message>& everything_sent() const { return sent_; }
 
   /// Channels and contents that equal games share (docs/ARCHITECTURE.md).
   std::set<std::pair<std::string, std::string>> essence() const;
@@ -64,10 +64,10 @@ class InProcessGame {
   const std::vector<std::string>& complaints_of(const std::string& node) { return complaints_[node]; }
   runtime::Status status_of(const std::string& node) const { return nodes_.at(node).core->status(); }
 
-  /// Feeds everything that `node` received to a fresh core and compares what it says. Returns the number of inputs.
+  /// Feeds everything that `node` received to a fresh core and compares what it sends. Returns the number of inputs.
   std::size_t replay(const std::string& node, runtime::NodeCore& fresh) const;
 
-  /// Writes what `node` received and said as its shell would have journaled it. Returns the number of records.
+  /// Writes what `node` received and sent as its shell would have journaled it. Returns the number of records.
   std::int64_t write_journal(const std::string& node, const std::filesystem::path& file) const;
 
   /// Longest time that a core has computed within one step.
@@ -88,8 +88,8 @@ class InProcessGame {
   RandomStream random_;
   std::map<std::string, Node> nodes_;
   std::vector<Pending> pending_;
-  std::vector<runtime::Message> said_;
-  std::set<std::pair<std::string, std::string>> heard_contents_;
+  std::vector<runtime::Message> sent_;
+  std::set<std::pair<std::string, std::string>> known_contents_;
   std::map<std::string, std::vector<std::string>> work_ids_, complaints_;
   std::map<std::string, std::vector<std::pair<runtime::Input, runtime::Outputs>>> journal_;
   double longest_step_s_ = 0.0;

@@ -17,14 +17,16 @@
 namespace nacre::game_test {
 namespace {
 
+using testing::AllOf;
 using testing::AnyOf;
 using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
+using testing::StartsWith;
 
-// A game that a person measures for: nothing answers TEST_ORDERs by itself.
+// A game that a person measures for: nothing measures what is ordered by itself.
 class PersonGame : public testing::Test {
  protected:
   PersonGame() {
@@ -42,13 +44,13 @@ class PersonGame : public testing::Test {
   }
   std::vector<wire::Measurement> all_measurements() const {
     std::vector<wire::Measurement> all;
-    for (const auto& order : game_.said<wire::TestOrder>("TEST_ORDER")) {
+    for (const auto& order : game_.sent<wire::TestOrder>("TEST_ORDER")) {
       for (auto& measured : measure(order, {})) all.push_back(std::move(measured));
     }
     return all;
   }
   std::size_t rounds() const { return game_.payloads("ROUND").size(); }
-  wire::RoundSummary last_round() const { return game_.said<wire::RoundSummary>("ROUND").back(); }
+  wire::RoundSummary last_round() const { return game_.sent<wire::RoundSummary>("ROUND").back(); }
 
   game::Scenario scenario_ = small_scenario();
   InProcessGame game_;
@@ -107,14 +109,14 @@ TEST_F(PersonGame, RepeatsAreIgnoredAndContradictionsRefused) {
   clean.play();
   for (const auto& measured : all) clean.publish("MEASUREMENT", measured);
   clean.play();
-  EXPECT_EQ(clean.said<wire::RoundSummary>("ROUND").back(), reference);
+  EXPECT_EQ(clean.sent<wire::RoundSummary>("ROUND").back(), reference);
 }
 
 TEST_F(PersonGame, InvalidSpecimensCompleteAnOrderAndAreNotUsed) {
   begin();
   auto all = all_measurements();
   // One design has no valid toughness specimen, one modulus specimen is absurd and invalid.
-  const std::string spoiled = game_.said<wire::Proposal>("PROPOSAL").front().designs.front().design.name();
+  const std::string spoiled = game_.sent<wire::Proposal>("PROPOSAL").front().designs.front().design.name();
   bool absurd = false;
   for (auto& measured : all) {
     measurement::SpecimenRecord& record = measured.record;
@@ -186,13 +188,13 @@ TEST_F(PersonGame, DesignsThatNobodyOrderedJoinTheCalibrationSet) {
   ASSERT_EQ(rounds(), 2u);
   EXPECT_EQ(last_round().calibration_count, 8);
   EXPECT_EQ(last_round().held_out.modulus_count, 3) << "nobody had predicted it";
-  const auto model = game_.said<wire::AdoptedModel>("PARAMETERS").back();
+  const auto model = game_.sent<wire::AdoptedModel>("PARAMETERS").back();
   EXPECT_THAT(model.measured, Contains(*pattern::Pattern::from_layout(*unknown.layout())));
 }
 
 TEST_F(PersonGame, SpecimensWithSwappedLabelsCloseNoOrderOfADesignThatNobodyTested) {
   begin();
-  const auto proposal = game_.said<wire::Proposal>("PROPOSAL").front();
+  const auto proposal = game_.sent<wire::Proposal>("PROPOSAL").front();
   const pattern::Design untested = proposal.designs.at(0).design, tested = proposal.designs.at(1).design;
   std::vector<wire::Measurement> awaited;
   for (wire::Measurement measured : all_measurements()) {
@@ -206,7 +208,7 @@ TEST_F(PersonGame, SpecimensWithSwappedLabelsCloseNoOrderOfADesignThatNobodyTest
   ASSERT_THAT(awaited, SizeIs(3));
   EXPECT_EQ(rounds(), 1u);
   EXPECT_THAT(game_.complaints_of("validation_agent"), SizeIs(3));
-  EXPECT_THAT(game_.complaints_of("validation_agent"), Each(HasSubstr("does not answer order")));
+  EXPECT_THAT(game_.complaints_of("validation_agent"), Each(HasSubstr("does not fit order")));
   for (const wire::Measurement& measured : awaited) report(measured);
   EXPECT_EQ(rounds(), 2u);
 }
@@ -214,7 +216,7 @@ TEST_F(PersonGame, SpecimensWithSwappedLabelsCloseNoOrderOfADesignThatNobodyTest
 TEST_F(PersonGame, TwinsAtAnotherRateAreNotHeldAgainstWhatWasPredicted) {
   begin();
   const auto all = all_measurements();
-  const auto proposal = game_.said<wire::Proposal>("PROPOSAL").front();
+  const auto proposal = game_.sent<wire::Proposal>("PROPOSAL").front();
   for (wire::Measurement twin : all) {
     const auto is_it = [&](const auto& each) { return each.design == twin.record.design; };
     if (std::ranges::none_of(proposal.designs, is_it)) continue;
@@ -247,7 +249,7 @@ TEST_F(PersonGame, EnoughValidSpecimensCompleteAnOrder) {
   EXPECT_EQ(rounds(), 2u);
 }
 
-TEST_F(PersonGame, SpecimensMeasuredInAdvanceAnswerLaterOrders) {
+TEST_F(PersonGame, SpecimensMeasuredInAdvanceCountForLaterOrders) {
   add_players(game_, scenario_);
   // The pure materials are known from before: reported even before the run is announced.
   for (const auto& order : game::opening_orders(scenario_, {})) {
@@ -278,7 +280,7 @@ class ApprovalGame : public PersonGame {
     scenario_.validation.approval = true;
     scenario_.laboratory.virtual_lab = true;
   }
-  void decide(const pattern::Design& design, bool approved, int round = 0) {
+  void send_approval(const pattern::Design& design, bool approved, int round = 0) {
     approval_t message{};
     message.round = round;
     message.design = design.name();
@@ -290,7 +292,7 @@ class ApprovalGame : public PersonGame {
   }
   std::set<std::string> ordered() const {
     std::set<std::string> names;
-    for (const auto& order : game_.said<wire::TestOrder>("TEST_ORDER")) names.insert(order.design.name());
+    for (const auto& order : game_.sent<wire::TestOrder>("TEST_ORDER")) names.insert(order.design.name());
     return names;
   }
 };
@@ -298,35 +300,36 @@ class ApprovalGame : public PersonGame {
 TEST_F(ApprovalGame, NothingProposedIsOrderedWithoutAYes) {
   begin();
   EXPECT_EQ(rounds(), 1u);
-  const auto designs = game_.said<wire::Proposal>("PROPOSAL").front().designs;
+  const auto designs = game_.sent<wire::Proposal>("PROPOSAL").front().designs;
   for (const auto& each : designs) EXPECT_FALSE(ordered().contains(each.design.name()));
-  EXPECT_THAT(game_.status_of("validation_agent").phase, HasSubstr("3 designs wait for approval"));
-  decide(designs[0].design, true);
-  decide(designs[1].design, false);
+  EXPECT_THAT(game_.status_of("validation_agent").phase,
+              AllOf(StartsWith("waits for you: 3 designs to approve; "), HasSubstr(" orders complete")));
+  send_approval(designs[0].design, true);
+  send_approval(designs[1].design, false);
   EXPECT_EQ(rounds(), 1u);
-  decide(designs[2].design, true);
+  send_approval(designs[2].design, true);
   ASSERT_EQ(rounds(), 2u);
   EXPECT_TRUE(ordered().contains(designs[0].design.name()));
   EXPECT_FALSE(ordered().contains(designs[1].design.name()));
   EXPECT_EQ(last_round().calibration_count, 6);
   EXPECT_EQ(last_round().held_out.modulus_count, 2);
   // A refused design is not proposed again.
-  const auto next_designs = game_.said<wire::Proposal>("PROPOSAL").back().designs;
+  const auto next_designs = game_.sent<wire::Proposal>("PROPOSAL").back().designs;
   for (const auto& each : next_designs) {
     EXPECT_FALSE(each.design == designs[1].design);
   }
 }
 
-TEST_F(ApprovalGame, TheFirstDecisionCountsAndStrayOnesAreRefused) {
+TEST_F(ApprovalGame, TheFirstApprovalCountsAndStrayOnesAreRefused) {
   begin();
-  const auto designs = game_.said<wire::Proposal>("PROPOSAL").front().designs;
-  decide(designs[0].design, true);
-  decide(designs[0].design, false);
+  const auto designs = game_.sent<wire::Proposal>("PROPOSAL").front().designs;
+  send_approval(designs[0].design, true);
+  send_approval(designs[0].design, false);
   EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("was approved before")));
-  decide(pattern::Design(pattern::Mixture{0.65}), true);
+  send_approval(pattern::Design(pattern::Mixture{0.65}), true);
   EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("not in the proposal")));
-  decide(designs[1].design, true);
-  decide(designs[2].design, true);
+  send_approval(designs[1].design, true);
+  send_approval(designs[2].design, true);
   ASSERT_EQ(rounds(), 2u);
   EXPECT_EQ(last_round().calibration_count, 7);
 }
@@ -334,17 +337,17 @@ TEST_F(ApprovalGame, TheFirstDecisionCountsAndStrayOnesAreRefused) {
 TEST_F(ApprovalGame, ADesignOfAPersonsOwnIsOrderedOnceAndMeasuredWithTheRest) {
   begin();
   const pattern::Design own = pattern::checkerboard(5);
-  decide(own, true, -1);
+  send_approval(own, true, -1);
   EXPECT_TRUE(ordered().contains(own.name()));
   const std::size_t orders = game_.payloads("TEST_ORDER").size();
-  decide(own, true, -1);
+  send_approval(own, true, -1);
   EXPECT_THAT(game_.complaints_of("validation_agent"), Contains(HasSubstr("is ordered already")));
   EXPECT_EQ(game_.payloads("TEST_ORDER").size(), orders);
-  const auto designs = game_.said<wire::Proposal>("PROPOSAL").front().designs;
+  const auto designs = game_.sent<wire::Proposal>("PROPOSAL").front().designs;
   for (const auto& each : designs) {
-    decide(each.design, true, -1);
-    EXPECT_THAT(game_.complaints_of("validation_agent").back(), HasSubstr("waits for a plain yes"));
-    decide(each.design, true);
+    send_approval(each.design, true, -1);
+    EXPECT_THAT(game_.complaints_of("validation_agent").back(), HasSubstr("waits for its approval"));
+    send_approval(each.design, true);
   }
   ASSERT_EQ(rounds(), 2u);
   EXPECT_EQ(last_round().calibration_count, 8) << "proposals, random patterns and the person's design";
@@ -393,7 +396,7 @@ TEST(OwnDesigns, WhatOpensTheGameIsNotOrderedOnceMore) {
 TEST(OwnDesigns, AnExperimentOnOneDoesNotStandForIt) {
   validation_agent::OrderDesk desk(small_scenario());
   const pattern::Design coupon = pattern::Mixture{0.7};
-  const game::Experiment experiment{.design = coupon, .test = tester::TestKind::tensile, .replicates = 1};
+  const game::DiscriminationTest experiment{.design = coupon, .test = tester::TestKind::tensile, .replicates = 1};
   ASSERT_EQ(std::ranges::count(desk.open_round(2, {}, {experiment}), coupon, &game::Order::design), 1);
   const auto orders = desk.add_own(coupon, true);
   ASSERT_TRUE(orders) << orders.error().message;
@@ -401,7 +404,7 @@ TEST(OwnDesigns, AnExperimentOnOneDoesNotStandForIt) {
   EXPECT_FALSE(desk.add_own(coupon, true)) << "now it is ordered";
 }
 
-TEST(Approval, TheOrderOfDecisionsDoesNotMatter) {
+TEST(Approval, TheOrderOfApprovalsDoesNotMatter) {
   game::Scenario scenario = small_scenario();
   scenario.rounds = 1;
   scenario.validation.approval = true;
@@ -411,7 +414,7 @@ TEST(Approval, TheOrderOfDecisionsDoesNotMatter) {
     add_players(game, scenario);
     game.announce(scenario);
     game.play();
-    auto designs = game.said<wire::Proposal>("PROPOSAL").front().designs;
+    auto designs = game.sent<wire::Proposal>("PROPOSAL").front().designs;
     if (backwards) std::reverse(designs.begin(), designs.end());
     for (const auto& each : designs) {
       approval_t message{};

@@ -42,7 +42,7 @@ TEST(RealTesters, PlayAWholeGame) {
   game.add("analyser", make_analyser());
   game.announce(scenario);
   game.play();
-  const auto rounds = game.said<wire::RoundSummary>("ROUND");
+  const auto rounds = game.sent<wire::RoundSummary>("ROUND");
   ASSERT_EQ(rounds.size(), 2u);
   EXPECT_TRUE(rounds.back().last);
   EXPECT_EQ(rounds.back().calibration_count, 3);
@@ -52,7 +52,7 @@ TEST(RealTesters, PlayAWholeGame) {
   EXPECT_LE(rounds.back().after.toughness_mean, rounds.back().before.toughness_mean);
   std::size_t simulations = 0;
   for (const std::string& id : game.work_of("simulator_farm")) simulations += id.find('/') == std::string::npos;
-  EXPECT_EQ(static_cast<std::size_t>(cache->size()), simulations) << "each question was simulated once";
+  EXPECT_EQ(static_cast<std::size_t>(cache->size()), simulations) << "each test was simulated once";
   std::filesystem::remove_all(folder);
 }
 

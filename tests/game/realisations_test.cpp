@@ -1,4 +1,4 @@
-// Candidates that are drawn again, with answers made up by the test.
+// Realisations of candidates, with responses made up by the test.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,8 +38,9 @@ wire::SimulateRequest model() {
   return request;
 }
 
-/// The first eight were lucky: under other parameters T is a third. A little of it is the draw's own.
-std::vector<wire::SimulatedDesign> answer(const wire::SimulateRequest& request, const std::vector<Evaluated>& truth) {
+/// The first eight are best of N by chance: with perturbed parameters T is a third. A little of it is the realisation's
+/// own.
+std::vector<wire::SimulatedDesign> response(const wire::SimulateRequest& request, const std::vector<Evaluated>& truth) {
   std::vector<wire::SimulatedDesign> results;
   const double draw =
       std::sqrt(request.parameters.toughness.w_if_j_per_m3 / model().parameters.toughness.w_if_j_per_m3);
@@ -54,7 +55,8 @@ std::vector<wire::SimulatedDesign> answer(const wire::SimulateRequest& request, 
   return results;
 }
 
-/// Draws until nothing is asked for; requests are answered in their order, or from the last to the first.
+/// Realisations until nothing more is requested; responses come in the order of requests, or from the last to the
+/// first.
 Realisations drawn(const std::vector<pattern::Pattern>& chosen, bool backwards = false) {
   Realisations realisations(gamut(), chosen, kDraws, 7, "test");
   for (auto requests = realisations.next(model()); !requests.empty(); requests = realisations.next(model())) {
@@ -63,13 +65,13 @@ Realisations drawn(const std::vector<pattern::Pattern>& chosen, bool backwards =
       EXPECT_FALSE(request.modulus);
       EXPECT_NE(request.parameters.toughness, model().parameters.toughness);
       EXPECT_TRUE(realisations.waits_for(request.request_id));
-      realisations.take(request.request_id, answer(request, gamut()));
+      realisations.take(request.request_id, response(request, gamut()));
     }
   }
   return realisations;
 }
 
-TEST(Realisations, LuckFallsBackAndOthersAreDrawnInItsPlace) {
+TEST(Realisations, TheBestOfNFallBackAndOthersAreSimulatedInTheirPlace) {
   const Realisations realisations = drawn({});
   EXPECT_EQ(realisations.simulated(), 16 * kDraws);
   for (std::size_t i = 0; i < 16; ++i) {
@@ -79,9 +81,9 @@ TEST(Realisations, LuckFallsBackAndOthersAreDrawnInItsPlace) {
   }
 }
 
-TEST(Realisations, TheOrderOfAnswersChangesNothing) { EXPECT_EQ(drawn({}).gamut(), drawn({}, true).gamut()); }
+TEST(Realisations, TheOrderOfResponsesChangesNothing) { EXPECT_EQ(drawn({}).gamut(), drawn({}, true).gamut()); }
 
-TEST(Realisations, WhatCannotBeSelectedIsDrawnOnTheFrontOnly) {
+TEST(Realisations, WhatCannotBeSelectedIsSimulatedAgainOnTheFrontOnly) {
   std::vector<pattern::Pattern> all;
   for (const Evaluated& sample : gamut()) all.push_back(sample.pattern);
   Realisations realisations(gamut(), all, kDraws, 7, "test");
@@ -93,7 +95,7 @@ TEST(Realisations, WhatCannotBeSelectedIsDrawnOnTheFrontOnly) {
 TEST(Realisations, ADrawThatFailsDoesNotCount) {
   Realisations realisations(gamut(), {}, kDraws, 7, "test");
   for (const wire::SimulateRequest& request : realisations.next(model())) {
-    auto results = answer(request, gamut());
+    auto results = response(request, gamut());
     for (wire::SimulatedDesign& result : results)
       result = {.design = result.design, .failure = "did not break", .curve = {}};
     realisations.take(request.request_id, results);
@@ -101,7 +103,7 @@ TEST(Realisations, ADrawThatFailsDoesNotCount) {
   EXPECT_EQ(realisations.gamut(), gamut());
 }
 
-TEST(Realisations, NoDrawsNoQuestions) {
+TEST(Realisations, NoRealisationsNoRequests) {
   Realisations realisations(gamut(), {}, 0, 7, "test");
   EXPECT_THAT(realisations.next(model()), IsEmpty());
   EXPECT_EQ(realisations.gamut(), gamut());

@@ -66,8 +66,8 @@ TEST(Restart, FoldsTheJournalOfFiveRoundsInSeconds) {
   expect_quick_restart("simulator_farm", simulator_farm::make_core(scenario));
 }
 
-// A power cut took the validation agent's journal: the others offer what they said of all rounds before it has come
-// back to any of them, and nobody says it twice.
+// A power cut took the validation agent's journal: the others offer what they sent of all rounds before it has come
+// back to any of them, and nobody sends it twice.
 TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
   const game::Scenario scenario = small_scenario();
   InProcessGame whole;
@@ -83,7 +83,7 @@ TEST(Restart, AValidationAgentWithoutItsJournalComesBackToTheSameGame) {
   again.play();
   const auto counts = [](const InProcessGame& game) {
     std::vector<int> of_rounds;
-    for (const auto& round : game.said<wire::RoundSummary>("ROUND")) of_rounds.push_back(round.calibration_count);
+    for (const auto& round : game.sent<wire::RoundSummary>("ROUND")) of_rounds.push_back(round.calibration_count);
     return of_rounds;
   };
   EXPECT_EQ(counts(again), counts(whole));
@@ -145,8 +145,9 @@ TEST(Restart, AProposalAgentWaitsForTheModelOfTheRoundThatIsDue) {
   EXPECT_TRUE(wire::request_id_of("SIMULATE", begun.messages.front().payload).starts_with("proposal_agent/r0/"));
 }
 
-// Its journal lost, it comes to another model of the same round, and the farm still repeats what it said of the first.
-TEST(Restart, AProposalAgentWithoutItsJournalTakesNoAnswersAboutAnotherModel) {
+// Its journal lost, it comes to another model of the same round, and the farm still repeats its responses about the
+// first.
+TEST(Restart, AProposalAgentWithoutItsJournalTakesNoResponsesAboutAnotherModel) {
   const game::Scenario scenario = small_scenario();
   wire::AdoptedModel model;
   model.fidelity = scenario.fidelity;

@@ -9,7 +9,7 @@
 namespace nacre::proposal_agent {
 namespace {
 
-TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli) {
+TEST(SearchWork, FindsInTheSpecWhatTheBatchRequestHoldsAndTheModelThatMeasuresModuli) {
   explore::SearchSettings settings;
   settings.algorithm = "learned";
   settings.budget = 60;
@@ -21,15 +21,15 @@ TEST(SearchWork, FindsInTheSpecWhatTheQuestionHoldsAndTheModelThatMeasuresModuli
   double toughness_pa = 1e5;
   // Past the start, which nothing is believed for.
   while (search->evaluated().size() < static_cast<std::size_t>(settings.population + settings.learned.barred_start)) {
-    std::vector<std::optional<optimize::Performance>> answers;
+    std::vector<std::optional<optimize::Performance>> responses;
     const auto asked = search->batch_request();
     const auto start = search->ask();
     if (asked) {
       EXPECT_EQ(start, *batch_from_result(search_work(search_spec(*asked, model))));
     }
     for (const pattern::Pattern& pattern : start)
-      answers.push_back(optimize::Performance{1e9 * pattern.rigid_fraction(), toughness_pa += 1e3});
-    search->tell(answers);
+      responses.push_back(optimize::Performance{1e9 * pattern.rigid_fraction(), toughness_pa += 1e3});
+    search->tell(responses);
   }
   explore::BatchRequest batch_request = *search->batch_request();
   const auto batch = batch_from_result(search_work(search_spec(batch_request, model)));

@@ -1,4 +1,4 @@
-// The farm's core with answers made up by the test, and its work function with real simulations at tiny fidelity.
+// The farm's core with responses made up by the test, and its work function with real simulations at tiny fidelity.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,6 +23,7 @@
 #include "simulator_farm/simulate_work.hpp"
 #include "simulator_farm/slurm_executor.hpp"
 #include "simulator_farm/test_request.hpp"
+#include "tester/simulation_key.hpp"
 #include "wire/schema.hpp"
 
 namespace nacre::simulator_farm {
@@ -49,49 +50,50 @@ Outputs ask(FarmCore& farm, const wire::SimulateRequest& request) {
   return farm.step(Message{"SIMULATE", wire::write(request)});
 }
 
-// Numbers that only this question has, so that mixed-up answers show.
-wire::SimulatedDesign made_up(const wire::SimulateRequest& question) {
-  wire::SimulatedDesign answer;
-  answer.design = question.designs.front();
-  const double mark = 1.0 + answer.design.rigid_fraction();
-  if (question.modulus) answer.modulus_pa = 1e9 * mark;
-  if (question.toughness) answer.toughness_pa = 1e5 * mark;
-  if (question.curve_points > 0) {
-    for (int point = 0; point < question.curve_points; ++point) {
-      answer.curve.strain.push_back(point);
-      answer.curve.stress_pa.push_back(1.0);
+// Numbers that only this test has, so that mixed-up responses show.
+wire::SimulatedDesign made_up(const wire::SimulateRequest& test_request) {
+  wire::SimulatedDesign response;
+  response.design = test_request.designs.front();
+  const double mark = 1.0 + response.design.rigid_fraction();
+  if (test_request.modulus) response.modulus_pa = 1e9 * mark;
+  if (test_request.toughness) response.toughness_pa = 1e5 * mark;
+  if (test_request.curve_points > 0) {
+    for (int point = 0; point < test_request.curve_points; ++point) {
+      response.curve.strain.push_back(point);
+      response.curve.stress_pa.push_back(1.0);
     }
   }
-  return answer;
+  return response;
 }
 
-wire::Fracture made_up_fracture(const wire::SimulateRequest& question) {
+wire::Fracture made_up_fracture(const wire::SimulateRequest& test_request) {
   wire::Fracture fracture;
-  fracture.design = question.designs.front();
+  fracture.design = test_request.designs.front();
   fracture.crack = {.columns = 10, .rows = 10, .order = {{7, 0.25}}, .path = std::nullopt, .branches = 3};
   fracture.broken = 1;
-  if (question.film) fracture.film = "some.film";
+  if (test_request.film) fracture.film = "some.film";
   return fracture;
 }
 
-/// Like done(), for questions with crack or film.
+/// Like done(), for test requests with crack or film.
 runtime::WorkDone broken(const Compute& compute) {
-  const auto question = wire::read<wire::SimulateRequest>(compute.spec).value();
-  Answer answer{made_up(question), std::nullopt};
-  if (question.crack || question.film) answer.fracture = made_up_fracture(question);
-  return {compute.id, write_answer(answer)};
+  const auto test_request = wire::read<wire::SimulateRequest>(compute.spec).value();
+  TestResponse response{made_up(test_request), std::nullopt};
+  if (test_request.crack || test_request.film) response.fracture = made_up_fracture(test_request);
+  return {compute.id, write_response(response)};
 }
 
 runtime::WorkDone done(const Compute& compute) {
-  const auto question = wire::read<wire::SimulateRequest>(compute.spec);
-  EXPECT_TRUE(question) << question.error().message;
-  return {
-      compute.id,
-      wire::write(wire::SimulateResult{
-          .request_id = question->request_id, .chunk = 0, .chunks = 1, .first = 0, .results = {made_up(*question)}})};
+  const auto test_request = wire::read<wire::SimulateRequest>(compute.spec);
+  EXPECT_TRUE(test_request) << test_request.error().message;
+  return {compute.id, wire::write(wire::SimulateResult{.request_id = test_request->request_id,
+                                                       .chunk = 0,
+                                                       .chunks = 1,
+                                                       .first = 0,
+                                                       .results = {made_up(*test_request)}})};
 }
 
-std::vector<wire::SimulateResult> answers(const Outputs& outputs) {
+std::vector<wire::SimulateResult> responses(const Outputs& outputs) {
   std::vector<wire::SimulateResult> all;
   for (const Message& message : outputs.messages) {
     EXPECT_EQ(message.channel, "SIMULATED");
@@ -107,7 +109,7 @@ const pattern::Design kSoft = pattern::Mixture{0.0};
 const pattern::Design kMixed = pattern::Mixture{0.65};
 const pattern::Design kRigid = pattern::Mixture{1.0};
 
-TEST(SimulatorFarm, AnswersComeInTheOrderOfTheRequestWhateverTheOrderOfTheResults) {
+TEST(SimulatorFarm, ResponsesComeInTheOrderOfTheRequestWhateverTheOrderOfTheResults) {
   FarmCore farm;
   const std::vector<Compute> computes = ask(farm, request("node/1", {kRigid, kSoft, kMixed})).computes;
   ASSERT_THAT(computes, SizeIs(6)) << "one per design and test";
@@ -116,7 +118,7 @@ TEST(SimulatorFarm, AnswersComeInTheOrderOfTheRequestWhateverTheOrderOfTheResult
     EXPECT_THAT(last.messages, IsEmpty());
     last = farm.step(done(*compute));
   }
-  const auto parts = answers(last);
+  const auto parts = responses(last);
   ASSERT_THAT(parts, SizeIs(1));
   ASSERT_THAT(parts[0].results, SizeIs(3));
   EXPECT_EQ(parts[0].results[0].design, kRigid);
@@ -125,23 +127,23 @@ TEST(SimulatorFarm, AnswersComeInTheOrderOfTheRequestWhateverTheOrderOfTheResult
   EXPECT_EQ(parts[0].results[2].design, kMixed);
 }
 
-TEST(SimulatorFarm, EqualQuestionsOfDifferentRequestsAreComputedOnce) {
+TEST(SimulatorFarm, EqualTestsOfDifferentRequestsAreComputedOnce) {
   FarmCore farm;
   const auto first = ask(farm, request("a/1", {kRigid, kSoft}));
   const auto second = ask(farm, request("b/1", {kSoft, kRigid, kSoft}));
   EXPECT_THAT(second.computes, IsEmpty());
   std::vector<wire::SimulateResult> all;
   for (const Compute& compute : first.computes) {
-    for (const auto& part : answers(farm.step(done(compute)))) all.push_back(part);
+    for (const auto& part : responses(farm.step(done(compute)))) all.push_back(part);
   }
   ASSERT_THAT(all, SizeIs(2));
   EXPECT_EQ(all[0].request_id, "a/1");
   EXPECT_EQ(all[1].request_id, "b/1");
   EXPECT_THAT(all[1].results, SizeIs(3));
-  EXPECT_EQ(answers(ask(farm, request("c/1", {kRigid}))).size(), 1u) << "an answered question is answered from memory";
+  EXPECT_EQ(responses(ask(farm, request("c/1", {kRigid}))).size(), 1u) << "a test that is done is not simulated again";
 }
 
-TEST(SimulatorFarm, ARepeatedRequestIsAnsweredAgainAndAChangedOneRefused) {
+TEST(SimulatorFarm, ARepeatedRequestGetsItsResponseAgainAndAChangedOneIsRefused) {
   FarmCore farm;
   const auto computes = ask(farm, request("a/1", {kRigid})).computes;
   EXPECT_THAT(ask(farm, request("a/1", {kRigid})).computes, IsEmpty());
@@ -156,7 +158,7 @@ TEST(SimulatorFarm, ARepeatedRequestIsAnsweredAgainAndAChangedOneRefused) {
 }
 
 // Of a requester that lost its journal and takes another course the second time.
-TEST(SimulatorFarm, AnotherQuestionAtTheSamePlaceIsAnsweredUnderItsOwnId) {
+TEST(SimulatorFarm, AnotherRequestAtTheSamePlaceGetsAResponseUnderItsOwnId) {
   FarmCore farm;
   const auto before = wire::with_content_id(request("a/1", {kRigid}));
   const auto now = wire::with_content_id(request("a/1", {kSoft}));
@@ -166,11 +168,11 @@ TEST(SimulatorFarm, AnotherQuestionAtTheSamePlaceIsAnsweredUnderItsOwnId) {
   ASSERT_THAT(asked.computes, SizeIs(2));
   Outputs last;
   for (const Compute& compute : asked.computes) last = farm.step(done(compute));
-  const auto parts = answers(last);
+  const auto parts = responses(last);
   ASSERT_THAT(parts, SizeIs(1));
   EXPECT_EQ(parts[0].request_id, now.request_id);
   EXPECT_EQ(parts[0].results.at(0).design, kSoft);
-  EXPECT_EQ(answers(ask(farm, before)).at(0).results.at(0).design, kRigid);
+  EXPECT_EQ(responses(ask(farm, before)).at(0).results.at(0).design, kRigid);
 }
 
 TEST(SimulatorFarm, ACurveIsFetchedWithoutAskingForTheSameSimulationTwice) {
@@ -184,16 +186,16 @@ TEST(SimulatorFarm, ACurveIsFetchedWithoutAskingForTheSameSimulationTwice) {
   EXPECT_THAT(ask(farm, with_curve).computes, IsEmpty())
       << "the simulation is running: its curve is fetched from the cache later";
   const Outputs settled = farm.step(done(plain[0]));
-  EXPECT_EQ(answers(settled).size(), 1u);
+  EXPECT_EQ(responses(settled).size(), 1u);
   ASSERT_THAT(settled.computes, SizeIs(1));
   EXPECT_NE(settled.computes[0].id, plain[0].id);
-  const auto parts = answers(farm.step(done(settled.computes[0])));
+  const auto parts = responses(farm.step(done(settled.computes[0])));
   ASSERT_THAT(parts, SizeIs(1));
   EXPECT_EQ(parts[0].request_id, "b/1");
   EXPECT_THAT(parts[0].results[0].curve.strain, SizeIs(16));
 }
 
-TEST(SimulatorFarm, AFailedSimulationIsAnAnswerWithItsReason) {
+TEST(SimulatorFarm, AFailedSimulationIsAResponseWithItsReason) {
   FarmCore farm;
   auto modulus = request("a/1", {kRigid, kSoft});
   modulus.toughness = false;
@@ -205,20 +207,20 @@ TEST(SimulatorFarm, AFailedSimulationIsAnAnswerWithItsReason) {
       computes[0].id,
       wire::write(wire::SimulateResult{
           .request_id = "simulator_farm/question", .chunk = 0, .chunks = 1, .first = 0, .results = {failed}})});
-  const auto parts = answers(farm.step(done(computes[1])));
+  const auto parts = responses(farm.step(done(computes[1])));
   ASSERT_THAT(parts, SizeIs(1));
   EXPECT_EQ(parts[0].results[0].failure, "modulus: J = -0.1 at element 7");
   EXPECT_EQ(parts[0].results[1].failure, "");
 }
 
-TEST(SimulatorFarm, LongAnswersAreCutIntoMessagesBelowTheLimit) {
+TEST(SimulatorFarm, LongResponsesAreCutIntoMessagesBelowTheLimit) {
   FarmCore farm;
   std::vector<pattern::Design> designs;
   for (int i = 0; i < 60; ++i) designs.emplace_back(pattern::Mixture{0.01 * (i + 1)});
   Outputs last;
   for (const Compute& compute : ask(farm, request("a/1", designs, kCurvePoints)).computes)
     last = farm.step(done(compute));
-  const auto parts = answers(last);
+  const auto parts = responses(last);
   EXPECT_GT(parts.size(), 1u);
   wire::ResponseCollector collector;
   std::optional<std::vector<wire::SimulatedDesign>> whole;
@@ -228,7 +230,7 @@ TEST(SimulatorFarm, LongAnswersAreCutIntoMessagesBelowTheLimit) {
   for (std::size_t i = 0; i < designs.size(); ++i) EXPECT_EQ((*whole)[i].design, designs[i]);
 }
 
-TEST(SimulatorFarm, EffectsOfTheTestingMachineAreNoQuestionForTheSimulator) {
+TEST(SimulatorFarm, EffectsOfTheTestingMachineAreNotRequestedFromTheSimulator) {
   FarmCore farm;
   const auto plain = ask(farm, request("a/1", {kRigid}));
   auto observed = request("b/1", {kRigid});
@@ -257,7 +259,7 @@ TEST(SimulatorFarm, FracturesGoToThoseWhoAskedForThem) {
   while (!open.empty()) {
     const Compute compute = open.back();
     open.pop_back();
-    EXPECT_TRUE(ids.insert(compute.id).second) << "one id, one question: " << compute.id;
+    EXPECT_TRUE(ids.insert(compute.id).second) << "one id, one test request: " << compute.id;
     const Outputs outputs = farm.step(broken(compute));
     open.insert(open.end(), outputs.computes.begin(), outputs.computes.end());
     for (const Message& message : outputs.messages) {
@@ -284,21 +286,22 @@ TEST(SimulatorFarm, ACrackThatCannotBeToldTakesNoNumbersAway) {
   for (wire::SimulateRequest* each : {&numbers, &crack, &later}) each->modulus = false;
   crack.crack = true;
   const Compute first = ask(farm, numbers).computes.at(0);
-  ASSERT_THAT(answers(farm.step(done(first))), SizeIs(1));
+  ASSERT_THAT(responses(farm.step(done(first))), SizeIs(1));
   const Compute second = ask(farm, crack).computes.at(0);
-  Answer failed;
+  TestResponse failed;
   failed.design.design = kMixed;
   failed.design.failure = "the crack cannot be told";
-  const auto told = answers(farm.step(runtime::WorkDone{second.id, write_answer(failed)}));
+  const auto told = responses(farm.step(runtime::WorkDone{second.id, write_response(failed)}));
   ASSERT_THAT(told, SizeIs(1));
-  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told")) << "whoever asked for it hears why";
+  EXPECT_THAT(told[0].results.at(0).failure, testing::HasSubstr("cannot be told"))
+      << "whoever requested it is told why";
   const Outputs again = ask(farm, later);
   EXPECT_THAT(again.computes, IsEmpty());
-  ASSERT_THAT(answers(again), SizeIs(1));
-  EXPECT_EQ(answers(again)[0].results.at(0).failure, "");
-  EXPECT_GT(answers(again)[0].results.at(0).toughness_pa, 0.0);
+  ASSERT_THAT(responses(again), SizeIs(1));
+  EXPECT_EQ(responses(again)[0].results.at(0).failure, "");
+  EXPECT_GT(responses(again)[0].results.at(0).toughness_pa, 0.0);
   crack.request_id = "d/1";
-  EXPECT_THAT(answers(ask(farm, crack)).at(0).results.at(0).failure, testing::HasSubstr("cannot be told"));
+  EXPECT_THAT(responses(ask(farm, crack)).at(0).results.at(0).failure, testing::HasSubstr("cannot be told"));
 }
 
 TEST(SimulatorFarm, ForeignBytesChangeNothing) {
@@ -315,51 +318,52 @@ class SimulateWork : public testing::Test {
   std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "nacre_simulate_work_test";
 };
 
-TEST_F(SimulateWork, TheSameQuestionIsSimulatedOnceEvenByTwoFarms) {
+TEST_F(SimulateWork, TheSameTestIsSimulatedOnceEvenByTwoFarms) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
-  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
-  const std::string first = work_functions(cache, folder_ / "films").at("simulate")(wire::write(question));
+  const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
+  const std::string first = work_functions(cache, folder_ / "films").at("simulate")(wire::write(test_request));
   EXPECT_EQ(cache->size(), 1);
   auto second_cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
-  EXPECT_EQ(work_functions(second_cache, folder_ / "films").at("simulate")(wire::write(question)), first);
+  EXPECT_EQ(work_functions(second_cache, folder_ / "films").at("simulate")(wire::write(test_request)), first);
   EXPECT_EQ(cache->size(), 1);
   const auto result = wire::read<wire::SimulateResult>(first);
   ASSERT_TRUE(result);
-  EXPECT_EQ(result->results.front().modulus_pa, tester::test_modulus(simulation_of(question, kMixed))->modulus_pa);
+  EXPECT_EQ(result->results.front().modulus_pa, tester::test_modulus(simulation_of(test_request, kMixed))->modulus_pa);
 }
 
 TEST_F(SimulateWork, ToughnessAndCurveAgree) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const pattern::Design design = pattern::Pattern(0x577fffe9fffdefULL);
-  const auto question = question_of(request("a/1", {design}), design, tester::TestKind::toughness, {.curve = true});
-  const auto result =
-      wire::read<wire::SimulateResult>(work_functions(cache, folder_ / "films").at("simulate")(wire::write(question)));
+  const auto test_request =
+      test_request_of(request("a/1", {design}), design, tester::TestKind::toughness, {.curve = true});
+  const auto result = wire::read<wire::SimulateResult>(
+      work_functions(cache, folder_ / "films").at("simulate")(wire::write(test_request)));
   ASSERT_TRUE(result);
-  const wire::SimulatedDesign& answer = result->results.front();
-  ASSERT_EQ(answer.failure, "");
-  ASSERT_THAT(answer.curve.strain, SizeIs(kCurvePoints));
+  const wire::SimulatedDesign& response = result->results.front();
+  ASSERT_EQ(response.failure, "");
+  ASSERT_THAT(response.curve.strain, SizeIs(kCurvePoints));
   // The tester records so densely that the area is right to 0.1 %.
-  EXPECT_NEAR(tester::area_under(answer.curve), answer.toughness_pa, 1e-3 * answer.toughness_pa);
+  EXPECT_NEAR(tester::area_under(response.curve), response.toughness_pa, 1e-3 * response.toughness_pa);
 }
 
 TEST_F(SimulateWork, AFilmIsMadeOnceAndTheCrackIsThatOfTheTest) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
   const pattern::Design design = pattern::Pattern(0x577fffe9fffdefULL);
-  const auto plain = question_of(request("a/1", {design}), design, tester::TestKind::toughness, {});
-  const auto filmed = question_of(request("a/1", {design}), design, tester::TestKind::toughness, {.film = true});
+  const auto plain = test_request_of(request("a/1", {design}), design, tester::TestKind::toughness, {});
+  const auto filmed = test_request_of(request("a/1", {design}), design, tester::TestKind::toughness, {.film = true});
   const auto work = work_functions(cache, folder_ / "films").at("simulate");
-  EXPECT_FALSE(read_answer(work(wire::write(plain)))->fracture) << "nobody asked";
+  EXPECT_FALSE(read_response(work(wire::write(plain)))->fracture) << "nobody asked";
   const std::string bytes = work(wire::write(filmed));
-  const Answer answer = read_answer(bytes).value();
-  ASSERT_TRUE(answer.fracture);
+  const TestResponse response = read_response(bytes).value();
+  ASSERT_TRUE(response.fracture);
   const tester::Simulation simulation = simulation_of(filmed, design);
   const auto tested = tester::test_toughness(simulation).value();
-  EXPECT_EQ(answer.fracture->broken, static_cast<int>(tested.breaks.size()));
-  EXPECT_EQ(answer.fracture->crack.path, crack::record_of(simulation, tested.breaks).path);
-  const auto file = folder_ / "films" / answer.fracture->film;
+  EXPECT_EQ(response.fracture->broken, static_cast<int>(tested.breaks.size()));
+  EXPECT_EQ(response.fracture->crack.path, crack::record_of(simulation, tested.breaks).path);
+  const auto file = folder_ / "films" / response.fracture->film;
   const film::Film film = film::read_film(file);
   EXPECT_EQ(film.design, design.name());
-  EXPECT_EQ(film.crack, answer.fracture->crack);
+  EXPECT_EQ(film.crack, response.fracture->crack);
   EXPECT_EQ(film.frames.size(), static_cast<std::size_t>(film::kFrames));
   const auto written = std::filesystem::last_write_time(file);
   EXPECT_EQ(work(wire::write(filmed)), bytes);
@@ -369,14 +373,15 @@ TEST_F(SimulateWork, AFilmIsMadeOnceAndTheCrackIsThatOfTheTest) {
 
 TEST_F(SimulateWork, AFailedSimulationHasNoFracture) {
   auto cache = std::make_shared<store::SimulationCache>(folder_ / "simulations.db");
-  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::toughness, {.crack = true});
+  const auto test_request =
+      test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::toughness, {.crack = true});
   store::CachedSimulation failed;
   failed.failure = "J <= 0";
-  cache->insert(tester::simulation_key(simulation_of(question, kMixed), tester::TestKind::toughness), failed);
-  const Answer answer =
-      read_answer(work_functions(cache, folder_ / "films").at("simulate")(wire::write(question))).value();
-  EXPECT_EQ(answer.design.failure, "J <= 0");
-  EXPECT_FALSE(answer.fracture);
+  cache->insert(tester::simulation_key(simulation_of(test_request, kMixed), tester::TestKind::toughness), failed);
+  const TestResponse response =
+      read_response(work_functions(cache, folder_ / "films").at("simulate")(wire::write(test_request))).value();
+  EXPECT_EQ(response.design.failure, "J <= 0");
+  EXPECT_FALSE(response.fracture);
 }
 
 /// A cache whose numbers are not this program's: a device rounds otherwise, and cracks hinge on rounding.
@@ -393,9 +398,9 @@ class NumbersFromElsewhere : public SimulateWork {
     numbers.toughness_pa *= factor;
     return numbers;
   }
-  Answer answer(const Extras& extras) const {
-    const auto question = question_of(request("a/1", {kDesign}), kDesign, tester::TestKind::toughness, extras);
-    return read_answer(simulate_work(*cache_, folder_ / "films", wire::write(question))).value();
+  TestResponse response(const Extras& extras) const {
+    const auto test_request = test_request_of(request("a/1", {kDesign}), kDesign, tester::TestKind::toughness, extras);
+    return read_response(simulate_work(*cache_, folder_ / "films", wire::write(test_request))).value();
   }
 
   const pattern::Design kDesign = pattern::Pattern(0x577fffe9fffdefULL);
@@ -407,26 +412,26 @@ class NumbersFromElsewhere : public SimulateWork {
 
 TEST_F(NumbersFromElsewhere, ACrackThatIsNotTheirsIsAFailureWithItsReason) {
   cache_->insert(key_, numbers(1.5));
-  const Answer cracked = answer({.crack = true});
+  const TestResponse cracked = response({.crack = true});
   EXPECT_THAT(cracked.design.failure, testing::HasSubstr("crack cannot be told"));
   EXPECT_FALSE(cracked.fracture);
   EXPECT_FALSE(cache_->find_breaks(key_)) << "they would be taken for those of the numbers";
-  const Answer plain = answer({});
+  const TestResponse plain = response({});
   EXPECT_EQ(plain.design.failure, "") << "the numbers are as good as they were";
   EXPECT_EQ(plain.design.toughness_pa, 1.5 * tested_.toughness_pa);
 }
 
 TEST_F(NumbersFromElsewhere, ACrackIsTheirsWhenOnlyRoundingTellsThemApart) {
   cache_->insert(key_, numbers(1.001));
-  const Answer cracked = answer({.crack = true});
+  const TestResponse cracked = response({.crack = true});
   EXPECT_EQ(cracked.design.toughness_pa, 1.001 * tested_.toughness_pa);
   ASSERT_TRUE(cracked.fracture) << cracked.design.failure;
   EXPECT_EQ(cracked.fracture->broken, static_cast<int>(tested_.breaks.size()));
 }
 
 TEST_F(NumbersFromElsewhere, AFilmOfOtherNumbersIsNotKept) {
-  keep_answer(*cache_, key_, numbers(1.5), &tested_.breaks);
-  const Answer filmed = answer({.crack = true, .film = true});
+  keep_response(*cache_, key_, numbers(1.5), &tested_.breaks);
+  const TestResponse filmed = response({.crack = true, .film = true});
   EXPECT_EQ(filmed.design.toughness_pa, 1.5 * tested_.toughness_pa);
   ASSERT_TRUE(filmed.fracture);
   EXPECT_EQ(filmed.fracture->film, "");
@@ -436,22 +441,22 @@ TEST_F(NumbersFromElsewhere, AFilmOfOtherNumbersIsNotKept) {
 TEST_F(NumbersFromElsewhere, AFilmOfAnotherCrackIsNotKeptThoughNumbersAgree) {
   std::vector<tester::Break> some = tested_.breaks;
   some.resize(some.size() / 2);
-  keep_answer(*cache_, key_, numbers(1.0), &some);
-  const Answer filmed = answer({.film = true});
+  keep_response(*cache_, key_, numbers(1.0), &some);
+  const TestResponse filmed = response({.film = true});
   ASSERT_TRUE(filmed.fracture);
   EXPECT_EQ(filmed.fracture->broken, static_cast<int>(some.size()));
   EXPECT_EQ(filmed.fracture->film, "");
 }
 
 TEST_F(NumbersFromElsewhere, AFilmIsTheirsWhenOnlyRoundingTellsThemApart) {
-  keep_answer(*cache_, key_, numbers(0.999), &tested_.breaks);
-  const Answer filmed = answer({.film = true});
+  keep_response(*cache_, key_, numbers(0.999), &tested_.breaks);
+  const TestResponse filmed = response({.film = true});
   ASSERT_TRUE(filmed.fracture);
   EXPECT_EQ(filmed.fracture->film, key_ + ".film");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "films" / filmed.fracture->film));
 }
 
-TEST_F(SimulateWork, BreaksStandBesideTheNumbersOfTheirFractureAlone) {
+TEST_F(SimulateWork, BreaksAreKeptWithTheNumbersOfTheirFractureAlone) {
   store::SimulationCache cache(folder_ / "simulations.db");
   store::CachedSimulation first, other;
   first.toughness_pa = other.toughness_pa = 2e5;
@@ -459,10 +464,10 @@ TEST_F(SimulateWork, BreaksStandBesideTheNumbersOfTheirFractureAlone) {
   first.failure_strain = 0.02;
   other.failure_strain = 0.03;
   const std::vector<tester::Break> breaks = {{7, 0.015625}}, of_another = {{8, 0.015625}};
-  EXPECT_TRUE(keep_answer(cache, "key", first, nullptr));
-  EXPECT_FALSE(keep_answer(cache, "key", other, &of_another));
+  EXPECT_TRUE(keep_response(cache, "key", first, nullptr));
+  EXPECT_FALSE(keep_response(cache, "key", other, &of_another));
   EXPECT_FALSE(cache.find_breaks("key"));
-  EXPECT_FALSE(keep_answer(cache, "key", first, &breaks));
+  EXPECT_FALSE(keep_response(cache, "key", first, &breaks));
   EXPECT_EQ(cache.find_breaks("key"), breaks);
   EXPECT_EQ(cache.find("key")->failure_strain, first.failure_strain);
 }
@@ -507,11 +512,11 @@ class ForgetfulSlurm : public SimulateWork {
 
 TEST_F(ForgetfulSlurm, ABatchThatIsGivenOutAgainHasItsFileAgain) {
   open_executor();
-  const auto question = question_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
-  executor_->start({"q", "simulate", wire::write(question)});
+  const auto test_request = test_request_of(request("a/1", {kMixed}), kMixed, tester::TestKind::modulus, {});
+  executor_->start({"q", "simulate", wire::write(test_request)});
   const Spool spool(folder_ / "slurm");
   ASSERT_TRUE(becomes_true([&] { return !spool.batches().empty(); }));
-  const std::filesystem::path file = spool.question(spool.batches().front());
+  const std::filesystem::path file = spool.batch_file(spool.batches().front());
   const std::string bytes = read_file(file);
   std::filesystem::remove(file);
   ASSERT_TRUE(becomes_true([&] { return std::filesystem::exists(file); })) << "its tasks would find nothing to do";

@@ -88,20 +88,20 @@ tester::Simulation truth_of(const wire::TestOrder& order, const LaboratorySettin
   return simulation;
 }
 
-wire::SimulatedDesign true_answer(const wire::TestOrder& order, const LaboratorySettings& settings) {
+wire::SimulatedDesign true_response(const wire::TestOrder& order, const LaboratorySettings& settings) {
   const tester::Simulation truth = truth_of(order, settings);
   const bool modulus = order.test == tester::TestKind::modulus;
   if (!settings.real_testers) return closed_form(truth, modulus, !modulus, 32);
-  wire::SimulatedDesign answer;
-  answer.design = order.design;
+  wire::SimulatedDesign response;
+  response.design = order.design;
   if (modulus) {
-    answer.modulus_pa = tester::test_modulus(truth).value().modulus_pa;
+    response.modulus_pa = tester::test_modulus(truth).value().modulus_pa;
   } else {
     const auto result = tester::test_toughness(truth).value();
-    answer.toughness_pa = result.toughness_pa;
-    answer.curve = tester::resampled(result.curve, 32);
+    response.toughness_pa = result.toughness_pa;
+    response.curve = tester::resampled(result.curve, 32);
   }
-  return answer;
+  return response;
 }
 
 }  // namespace
@@ -116,47 +116,47 @@ wire::SimulatedDesign closed_form(const tester::Simulation& simulation, bool mod
   const double mixing = material::extension_value(simulation.parameters.extensions, "droplet_mixing");
   const double mixed =
       simulation.design.layout() && content_hash64(simulation.design.name()) % 2 == 1 ? mixing : -mixing;
-  wire::SimulatedDesign answer;
-  answer.design = simulation.design;
+  wire::SimulatedDesign response;
+  response.design = simulation.design;
   if (modulus) {
-    answer.modulus_pa = geometric_mean(shares, theta.e_tb_pa, theta.e_vw_pa, theta.e_if_pa) *
-                        (1.0 + turned * anisotropy * shares.interface) * std::exp(mixed);
+    response.modulus_pa = geometric_mean(shares, theta.e_tb_pa, theta.e_vw_pa, theta.e_if_pa) *
+                          (1.0 + turned * anisotropy * shares.interface) * std::exp(mixed);
   }
   if (toughness) {
-    answer.toughness_pa =
+    response.toughness_pa =
         geometric_mean(shares, eta.w_tb_j_per_m3, eta.w_vw_j_per_m3, eta.w_if_j_per_m3) * (1.0 + shares.interface);
     const double young_pa = geometric_mean(shares, eta.e_tb_pa, eta.e_vw_pa, eta.e_if_pa);
-    answer.peak_stress_pa = std::sqrt(young_pa * answer.toughness_pa);
-    answer.failure_strain = 2.0 * answer.toughness_pa / answer.peak_stress_pa;
-    if (curve_points > 1) answer.curve = triangle(answer.toughness_pa, answer.peak_stress_pa, curve_points);
+    response.peak_stress_pa = std::sqrt(young_pa * response.toughness_pa);
+    response.failure_strain = 2.0 * response.toughness_pa / response.peak_stress_pa;
+    if (curve_points > 1) response.curve = triangle(response.toughness_pa, response.peak_stress_pa, curve_points);
   }
-  return answer;
+  return response;
 }
 
 std::map<std::string, runtime::WorkFunction> closed_form_work(std::set<std::string> failing) {
   return {{"simulate", [failing = std::move(failing)](const std::string& spec) {
-             const auto question = wire::read<wire::SimulateRequest>(spec).value();
-             const pattern::Design& design = question.designs.front();
-             wire::SimulatedDesign answer =
-                 closed_form({design, question.parameters, question.conditions, question.fidelity}, question.modulus,
-                             question.toughness, question.curve_points);
+             const auto test_request = wire::read<wire::SimulateRequest>(spec).value();
+             const pattern::Design& design = test_request.designs.front();
+             wire::SimulatedDesign response =
+                 closed_form({design, test_request.parameters, test_request.conditions, test_request.fidelity},
+                             test_request.modulus, test_request.toughness, test_request.curve_points);
              if (failing.contains(design.name())) {
-               answer = {};
-               answer.design = design;
-               answer.failure = "made to fail";
+               response = {};
+               response.design = design;
+               response.failure = "made to fail";
              }
              return wire::write(wire::SimulateResult{
-                 .request_id = question.request_id, .chunk = 0, .chunks = 1, .first = 0, .results = {answer}});
+                 .request_id = test_request.request_id, .chunk = 0, .chunks = 1, .first = 0, .results = {response}});
            }}};
 }
 
 std::vector<wire::Measurement> measure(const wire::TestOrder& order, const LaboratorySettings& settings) {
-  const wire::SimulatedDesign answer = true_answer(order, settings);
+  const wire::SimulatedDesign response = true_response(order, settings);
   const bool pulled = order.test == tester::TestKind::modulus;
   const sysid::Prediction truth =
-      sysid::observed({.modulus_pa = pulled ? std::optional(answer.modulus_pa) : std::nullopt,
-                       .toughness_pa = pulled ? std::nullopt : std::optional(answer.toughness_pa),
-                       .curve = answer.curve},
+      sysid::observed({.modulus_pa = pulled ? std::optional(response.modulus_pa) : std::nullopt,
+                       .toughness_pa = pulled ? std::nullopt : std::optional(response.toughness_pa),
+                       .curve = response.curve},
                       settings.hidden);
   std::vector<wire::Measurement> measurements;
   for (int replicate = 1; replicate <= order.replicates; ++replicate) {
@@ -198,14 +198,14 @@ std::unique_ptr<runtime::NodeCore> make_laboratory(const LaboratorySettings& set
 std::unique_ptr<runtime::NodeCore> make_analyser(std::function<diagnosis_t(int)> diagnosis) {
   return std::make_unique<Responder>("DIAGNOSE", [diagnosis = std::move(diagnosis)](const std::string& payload) {
     const int round = wire::read<wire::DiagnoseRequest>(payload).value().round;
-    diagnosis_t answer{};
+    diagnosis_t response{};
     if (diagnosis) {
-      answer = diagnosis(round);
+      response = diagnosis(round);
     } else {
-      answer.verdict = "base_sufficient";
+      response.verdict = "base_sufficient";
     }
-    answer.round = round;
-    return std::vector<runtime::Message>{{"DIAGNOSIS", wire::encode(answer)}};
+    response.round = round;
+    return std::vector<runtime::Message>{{"DIAGNOSIS", wire::encode(response)}};
   });
 }
 

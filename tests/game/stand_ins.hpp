@@ -1,6 +1,6 @@
 #pragma once
 // Stand-ins for tests of the game's logic: a closed-form tester instead of the simulations, a laboratory with another
-// truth and noise, an analyser that says what the test wants it to say.
+// truth and noise, an analyser that sends the diagnosis of the test.
 
 #include <functional>
 #include <memory>
@@ -10,7 +10,6 @@
 #include "game/scenario.hpp"
 #include "in_process_game.hpp"
 #include "runtime/node_core.hpp"
-#include "tester/tester.hpp"
 #include "wire/convert.hpp"
 
 namespace nacre::game_test {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
+#include "material/parameter_file.hpp"
 #include "material/parameters.hpp"
 #include "nacre/review_t.hpp"
 #include "program_test.hpp"

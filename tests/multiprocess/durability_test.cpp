@@ -92,7 +92,7 @@ TEST_F(Durability, ABackupOfAPlayingGamePlaysOnToTheSameEnd) {
   PlayedGame resumed(run);
   ASSERT_TRUE(resumed.play_to_end(kPatienceS)) << resumed.said();
   ASSERT_EQ(resumed.status(), 0) << resumed.said();
-  EXPECT_THAT(differences(said_in_game(game_->folder()), said_in_game(run)), IsEmpty());
+  EXPECT_THAT(differences(sent_in_game(game_->folder()), sent_in_game(run)), IsEmpty());
   EXPECT_EQ(content(run / "run.db"), content(game_->folder() / "run.db"));
 }
 
@@ -104,7 +104,7 @@ TEST_F(Durability, AJournalOfABackupTakesThePlaceOfOneThatIsLost) {
   PlayedGame resumed(copy_);
   ASSERT_TRUE(resumed.play_to_end(kPatienceS)) << resumed.said();
   ASSERT_EQ(resumed.status(), 0) << resumed.said();
-  EXPECT_THAT(differences(said_in_game(game_->folder()), said_in_game(copy_)), IsEmpty());
+  EXPECT_THAT(differences(sent_in_game(game_->folder()), sent_in_game(copy_)), IsEmpty());
 }
 
 TEST_F(Durability, ABackupNeedsANewFolder) {

@@ -1,6 +1,7 @@
 #pragma once
-// Two tiny cores that speak the real messages: the asker sends requests in batches, the farm answers them by long work.
-// What the asker says in the end depends on every message that reached its core, so that one too many or too few shows.
+// Two tiny cores with the real messages: the asker sends requests in batches, the farm responds by long work.
+// What the asker sends in the end depends on every message that reached its core, so that one too many or too few
+// shows.
 
 #include <chrono>
 #include <map>
@@ -36,9 +37,9 @@ class AskerCore : public runtime::NodeCore {
       const auto result = wire::read<wire::SimulateResult>(message->payload);
       if (!result) return outputs;
       const int request = std::stoi(result->request_id.substr(result->request_id.rfind('/') + 1));
-      answers_[request] = result->results.at(0).modulus_pa;
-      if (static_cast<int>(answers_.size()) == asked_ && asked_ < kRequests) ask(outputs);
-      if (static_cast<int>(answers_.size()) == kRequests) conclude(outputs);
+      responses_[request] = result->results.at(0).modulus_pa;
+      if (static_cast<int>(responses_.size()) == asked_ && asked_ < kRequests) ask(outputs);
+      if (static_cast<int>(responses_.size()) == kRequests) conclude(outputs);
     }
     return outputs;
   }
@@ -46,7 +47,7 @@ class AskerCore : public runtime::NodeCore {
   runtime::Status status() const override {
     return {.phase = "asking",
             .round = 0,
-            .progress = static_cast<double>(answers_.size()) / kRequests,
+            .progress = static_cast<double>(responses_.size()) / kRequests,
             .finished = finished_};
   }
 
@@ -67,7 +68,7 @@ class AskerCore : public runtime::NodeCore {
     wire::Proposal proposal;
     proposal.fidelity = tester::Fidelity::tiny;
     proposal.simulations = inputs_;
-    for (const auto& [request, modulus_pa] : answers_)
+    for (const auto& [request, modulus_pa] : responses_)
       proposal.designs.push_back({design_of(request), modulus_pa, 0.0, -1, "echo"});
     outputs.messages.push_back({"PROPOSAL", wire::write(proposal)});
     finished_ = true;
@@ -76,7 +77,7 @@ class AskerCore : public runtime::NodeCore {
   int inputs_ = 0;
   int asked_ = 0;
   bool finished_ = false;
-  std::map<int, double> answers_;
+  std::map<int, double> responses_;
 };
 
 class FarmCore : public runtime::NodeCore {

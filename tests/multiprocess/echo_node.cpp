@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "echo_cores.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("echo node");

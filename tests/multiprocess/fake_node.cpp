@@ -11,7 +11,7 @@
 #include <string>
 
 #include "nacre/round_summary_t.hpp"
-#include "runtime/node_shell.hpp"
+#include "runtime/node_main.hpp"
 #include "wire/codec.hpp"
 
 namespace nacre {

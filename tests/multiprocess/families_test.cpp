@@ -53,9 +53,9 @@ class FamilyStageOfProcesses : public testing::Test {
       messages.push_back(wire::read<Message>(payload).value());
     return messages;
   }
-  static std::vector<wire::Family> families(bool validated) {
-    std::vector<wire::Family> all = said<wire::Family>("FAMILY");
-    std::erase_if(all, [&](const wire::Family& family) { return family.is_validated != validated; });
+  static std::vector<wire::CalibratedFamily> families(bool validated) {
+    std::vector<wire::CalibratedFamily> all = said<wire::CalibratedFamily>("FAMILY");
+    std::erase_if(all, [&](const wire::CalibratedFamily& family) { return family.is_validated != validated; });
     return all;
   }
 
@@ -80,7 +80,7 @@ TEST_F(FamilyStageOfProcesses, FollowsTheLastRoundAndEndsTheGame) {
 TEST_F(FamilyStageOfProcesses, EveryVariantChosenIsOrderedAndMeasuredInBothTests) {
   std::set<std::string> chosen;
   int round = -1;
-  for (const wire::Family& family : families(false)) {
+  for (const wire::CalibratedFamily& family : families(false)) {
     round = family.round;
     for (const game::FamilyDesign& design : family.designs)
       if (!design.is_seed) chosen.insert(design.pattern.key());
@@ -97,7 +97,7 @@ TEST_F(FamilyStageOfProcesses, EveryVariantChosenIsOrderedAndMeasuredInBothTests
 }
 
 TEST_F(FamilyStageOfProcesses, TheResultHoldsTheErrorsOfBothModels) {
-  for (const wire::Family& family : families(true)) {
+  for (const wire::CalibratedFamily& family : families(true)) {
     const game::FamilyErrors errors = game::family_errors(family.designs);
     for (const sysid::PredictionErrors& each :
          {errors.seeds_global, errors.seeds_family, errors.chosen_global, errors.chosen_family}) {
@@ -144,7 +144,7 @@ TEST_F(FamilyStageOfProcesses, AKilledValidationAgentGoesOnWithTheSameStage) {
   ASSERT_EQ(game->status(), 0) << game->said();
   for (const Kill& kill : kills) EXPECT_NE(kill.process, 0) << kill.when_said;
   EXPECT_THAT(game->said(), HasSubstr("validation_agent died (killed by SIGKILL"));
-  EXPECT_THAT(differences(said_in_game(undisturbed_->folder()), said_in_game(game->folder())), IsEmpty());
+  EXPECT_THAT(differences(sent_in_game(undisturbed_->folder()), sent_in_game(game->folder())), IsEmpty());
   const Outcome replay = run_nacre({"replay", game->folder().string(), "--node", "validation_agent"});
   EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
 }

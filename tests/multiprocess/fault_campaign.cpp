@@ -45,7 +45,7 @@ struct Options {
 
 /// What a game leaves behind: what was said, what was measured, what was simulated.
 struct PlannedSignatures {
-  SaidInGame said;
+  SentInGame said;
   std::map<std::string, int> measured;   ///< specimens in the validation agent's journal: times
   std::vector<std::string> simulations;  ///< rows of the cache
 };
@@ -62,7 +62,7 @@ std::vector<std::string> cache_rows(const fs::path& database) {
 
 PlannedSignatures planned_signatures_of(const fs::path& run) {
   PlannedSignatures traces;
-  traces.said = said_in_game(run);
+  traces.said = sent_in_game(run);
   for (const wire::Measurement& taken : measurements_taken(run)) ++traces.measured[taken.record.specimen];
   traces.simulations = cache_rows(run.parent_path() / "simulations.db");
   return traces;

@@ -51,7 +51,7 @@ class Game : public testing::Test {
   static fs::path undisturbed_run() { return undisturbed_->folder(); }
 
   static void expect_undisturbed_course(const fs::path& run) {
-    EXPECT_THAT(differences(said_in_game(undisturbed_run()), said_in_game(run)), IsEmpty());
+    EXPECT_THAT(differences(sent_in_game(undisturbed_run()), sent_in_game(run)), IsEmpty());
   }
   /// Every node says again what its journal holds.
   static void expect_replays(const fs::path& run) {
@@ -80,7 +80,7 @@ TEST_F(Game, EndsAtItsRoundLimitAndLeavesACompleteFolder) {
   EXPECT_FALSE(rounds[0].last || rounds[1].last);
   EXPECT_TRUE(rounds[2].last);
   EXPECT_FALSE(rounds[2].equilibrium) << rounds[2].decided_by;
-  const SaidInGame said = said_in_game(undisturbed_run());
+  const SentInGame said = sent_in_game(undisturbed_run());
   const auto count = [&](const char* channel) { return on_channels(said, {channel}).size(); };
   EXPECT_EQ(count("RUN"), 1U);
   EXPECT_EQ(count("PARAMETERS"), 3U);
@@ -223,7 +223,7 @@ TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
   text += "\n[laboratory]\nvirtual_lab = false\n";
   PlayedGame game(written(folder_ / "by_hand.toml", text), logs(), "by_hand");
   const auto ordered = [&](int round) {
-    return on_channels(said_in_game(game.folder()), {"PROPOSAL"}).size() == static_cast<std::size_t>(round);
+    return on_channels(sent_in_game(game.folder()), {"PROPOSAL"}).size() == static_cast<std::size_t>(round);
   };
   auto first = specimens_of_round(undisturbed_run(), 1);
   const auto second = specimens_of_round(undisturbed_run(), 2);
@@ -253,8 +253,8 @@ TEST_F(Game, MeasurementsBroughtByHandMakeTheSameGameAndCountOnce) {
   EXPECT_EQ(times.size(), first.size() + second.size() + 1);
   for (const auto& [specimen, count] : times) EXPECT_EQ(count, 1) << specimen;
   const std::vector<std::string> course = {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER", "ROUND"};
-  EXPECT_THAT(differences(on_channels(said_in_game(undisturbed_run()), course),
-                          on_channels(said_in_game(game.folder()), course)),
+  EXPECT_THAT(differences(on_channels(sent_in_game(undisturbed_run()), course),
+                          on_channels(sent_in_game(game.folder()), course)),
               IsEmpty());
 }
 
@@ -314,7 +314,7 @@ TEST_F(Game, EndsByEquilibriumBeforeItsRoundLimit) {
   }
 }
 
-/// Everything that a bus should not hear, a little of it each time.
+/// Everything that should not be on a bus, a little of it each time.
 class Stranger {
  public:
   Stranger(const fs::path& run, const fs::path& other_run) : random_(7, "stranger"), run_(run) {

@@ -1,7 +1,8 @@
 #!/bin/sh
 # usage: isolated_slurm.sh COMMAND...
-# isolated.sh for tests that start Slurm: its daemons want a user who exists and is not root of a namespace (they set groups, which is
-# forbidden there), and a network with an address beside loopback (they resolve names for configured families only).
+# isolated.sh for tests that start Slurm: its daemons want a user who exists and is not root of a namespace (they set
+# groups, which is forbidden there), and a network with an address other than loopback (they resolve names for
+# configured families only).
 here=$(dirname "$0")
 if unshare -rn --pid --fork --mount-proc true 2>/dev/null; then
   exec "$here/isolated.sh" sh -c '

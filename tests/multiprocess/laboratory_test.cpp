@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.hpp"
+#include "measurement/read_set.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
 
@@ -139,7 +140,7 @@ TEST(ReviewProgram, ProposesTheOutlierOfTheExampleAndLeavesTheDecisionToAPerson)
   EXPECT_EQ(run_nacre({"review", "--set", set, "tutorial-19", "--invalid"}).status, 2) << "a reason is wanted";
 }
 
-TEST(ReviewProgram, ChangesNothingOfTheSetButTheJudgementAndShowsItsWarnings) {
+TEST(ReviewProgram, ChangesNothingOfTheSetButTheReviewAndShowsItsWarnings) {
   const fs::path set = fresh_folder("judged");
   std::ofstream(set / "measurements.csv") << "specimen,pattern,test,modulus_pa,curve,note,colour\n"
                                              "A,rigid,modulus,2e9,raw.csv,bent,red\n"
@@ -192,7 +193,7 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
   const std::string own = (*pattern::design_from_name("3ffc9b4ad4d2d9")).name();
   EXPECT_EQ(states(person.run()).at(proposed), "pending");
   EXPECT_EQ(states(person.run()).at("soft"), "approved");
-  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  pending "));
+  EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  waits for approval "));
   person.decide({"approve", proposed, "--reject", "--why", "islands"});
   EXPECT_THAT(run_nacre({"approve", "--run", run}).out, HasSubstr(proposed + "  rejected "));
   EXPECT_THAT(person.decide({"approve", "--add", own, "--why", "published"}), HasSubstr("added"));
@@ -208,7 +209,7 @@ TEST(LaboratoryGame, DesignsGoFromPendingToMeasuredAndTheirStatesOutliveEveryPro
     ASSERT_EQ(run_nacre(arguments).status, 0);
   };
   fabricate_one({"checkerboard:5", "--out", earlier});
-  EXPECT_THAT(run_nacre({"printed", earlier, "--run", run}).out, HasSubstr("1 specimens printed"));
+  EXPECT_THAT(run_nacre({"printed", earlier, "--run", run}).out, HasSubstr("1 specimen printed"));
   const Outcome printed =
       run_nacre({"fabricate", "--orders", "--run", run, "--out", job, "--dpi", "100,100,100", "--json"}, 120.0);
   ASSERT_EQ(printed.status, 0) << printed.err;

@@ -97,8 +97,8 @@ TEST(TwoMachines, FarmOnOneAndEverybodyElseOnTheOtherPlayTheGameToItsEnd) {
   EXPECT_EQ(host_end.exit_status + host_end.signal, 0) << said_here;
   EXPECT_EQ(guest_end.exit_status + guest_end.signal, 0) << said_there;
 
-  EXPECT_THAT(said_here, AllOf(HasSubstr("simulator_farm is heard from elsewhere"), HasSubstr("the game is over")));
-  EXPECT_THAT(said_there, AllOf(HasSubstr("round 1: gap"), HasSubstr("the game is over")));
+  EXPECT_THAT(said_here, AllOf(HasSubstr("simulator_farm reports from elsewhere"), HasSubstr("the game is over")));
+  EXPECT_THAT(said_there, AllOf(HasSubstr("round 1: gap "), HasSubstr("the game is over")));
   const auto rounds = runtime::read_rounds(here / "logs/game");
   ASSERT_EQ(rounds.size(), 2U);
   EXPECT_TRUE(rounds.back().last);

@@ -74,7 +74,8 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
   const Outcome outcome = run_nacre(arguments());
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("every node is ready"), HasSubstr("round 0: gap"), HasSubstr("the game is over")));
+              AllOf(HasSubstr("every node is ready"), HasSubstr("round 0: nothing measured yet; model not fitted"),
+                    HasSubstr("the game is over")));
   EXPECT_THAT(outcome.out, Not(HasSubstr("recorder | "))) << "what nodes log goes to standard error";
   EXPECT_THAT(outcome.err, HasSubstr("recorder | recording into"));
   for (const char* file : {"scenario.toml", "manifest.json", "run.lcm", "inputs/base_materials.csv",
@@ -92,9 +93,10 @@ TEST_F(Launcher, PlaysUntilTheLastRoundAndLeavesACompleteFolder) {
 TEST_F(Launcher, AReaderOfItsOutputWhoGoesEarlyTakesNothingFromTheGame) {
   std::string command = program("nacre");
   for (const std::string& argument : arguments()) command += " " + shell_word(argument);
-  const auto answer = runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
-  EXPECT_EQ(answer.end.exit_status, 0) << answer.end.in_words();
-  EXPECT_THAT(answer.output, HasSubstr("run game on UDP port"));
+  const auto printed =
+      runtime::ask_program({"bash", "-c", command + " 2>/dev/null | head -n 1; exit ${PIPESTATUS[0]}"});
+  EXPECT_EQ(printed.end.exit_status, 0) << printed.end.in_words();
+  EXPECT_THAT(printed.output, HasSubstr("run game on UDP port"));
 }
 
 TEST_F(Launcher, NodeThatDiesIsStartedAgainAndTheGameGoesOn) {
@@ -193,15 +195,15 @@ TEST_F(Launcher, NodesThatAPersonStopsHaveNotFailed) {
                           Not(HasSubstr("has failed"))));
 }
 
-TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsHeard) {
+TEST_F(Launcher, ARoundIsShownOnceHoweverOftenItIsReceived) {
   ::setenv("NACRE_FAULTS", "seed=1,duplicate=1", 1);
   const Outcome outcome = run_nacre(arguments());
   ::unsetenv("NACRE_FAULTS");
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   const std::string live = outcome.out.substr(0, outcome.out.find("the game is over"));
-  const std::size_t first = live.find("round 0: gap");
+  const std::size_t first = live.find("round 0: nothing measured yet");
   ASSERT_NE(first, std::string::npos) << live;
-  EXPECT_EQ(live.find("round 0: gap", first + 1), std::string::npos) << live;
+  EXPECT_EQ(live.find("round 0: nothing measured yet", first + 1), std::string::npos) << live;
 }
 
 TEST_F(Launcher, RunFolderUnderAnotherNameIsResumed) {

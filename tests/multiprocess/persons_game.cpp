@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "base/result.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_set.hpp"
 #include "program.hpp"
 #include "runtime/journal.hpp"
 

@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "measurement/measurement.hpp"
 #include "played_game.hpp"
 
 namespace nacre {

@@ -41,13 +41,13 @@ int round_of(const std::string& channel, const std::string& payload) {
   return json && json->contains("round") ? json->at("round").get<int>() : -1;
 }
 
-void count(SaidInGame& said, const std::string& channel, const std::string& payload) {
-  ++said[{channel, round_of(channel, payload), wire::message_hash(channel, payload)}];
+void count(SentInGame& sent, const std::string& channel, const std::string& payload) {
+  ++sent[{channel, round_of(channel, payload), wire::message_hash(channel, payload)}];
 }
 
-std::string in_words(const SaidOnce& message, int times) {
+std::string in_words(const SentMessage& message, int times) {
   const auto& [channel, round, hash] = message;
-  return fmt::format("{} of round {}, {}, said {} times", channel, round, hash, times);
+  return fmt::format("{} of round {}, {}, sent {} times", channel, round, hash, times);
 }
 
 }  // namespace
@@ -128,32 +128,32 @@ std::vector<std::string> journaled(const fs::path& run, const std::string& node,
   return payloads;
 }
 
-SaidInGame said_in_game(const fs::path& run) {
-  SaidInGame said;
-  for (const std::string& payload : journaled(run, "validation_agent", "RUN")) count(said, "RUN", payload);
+SentInGame sent_in_game(const fs::path& run) {
+  SentInGame sent;
+  for (const std::string& payload : journaled(run, "validation_agent", "RUN")) count(sent, "RUN", payload);
   for (const std::string& node : kGameNodes) {
     for (const std::string& channel : kComparedChannels) {
       const std::string as_output = std::string(runtime::kOutPrefix) + channel;
-      for (const std::string& payload : journaled(run, node, as_output)) count(said, channel, payload);
+      for (const std::string& payload : journaled(run, node, as_output)) count(sent, channel, payload);
     }
   }
-  return said;
+  return sent;
 }
 
-SaidInGame on_channels(const SaidInGame& said, const std::vector<std::string>& channels) {
-  SaidInGame chosen;
-  std::copy_if(said.begin(), said.end(), std::inserter(chosen, chosen.end()), [&](const auto& entry) {
+SentInGame on_channels(const SentInGame& sent, const std::vector<std::string>& channels) {
+  SentInGame chosen;
+  std::copy_if(sent.begin(), sent.end(), std::inserter(chosen, chosen.end()), [&](const auto& entry) {
     return std::find(channels.begin(), channels.end(), std::get<0>(entry.first)) != channels.end();
   });
   return chosen;
 }
 
-std::vector<std::string> differences(const SaidInGame& expected, const SaidInGame& actual) {
+std::vector<std::string> differences(const SentInGame& expected, const SentInGame& actual) {
   std::vector<std::string> lines;
   for (const auto& [message, times] : expected) {
     const auto found = actual.find(message);
-    const int said = found == actual.end() ? 0 : found->second;
-    if (said != times) lines.push_back(in_words(message, said) + fmt::format(", expected {}", times));
+    const int sent = found == actual.end() ? 0 : found->second;
+    if (sent != times) lines.push_back(in_words(message, sent) + fmt::format(", expected {}", times));
   }
   for (const auto& [message, times] : actual) {
     if (!expected.contains(message)) lines.push_back(in_words(message, times) + ", expected 0");

@@ -1,5 +1,5 @@
 #pragma once
-// Whole games with the real programs, and what was said in them.
+// Whole games with the real programs, and what was sent in them.
 
 #include <filesystem>
 #include <functional>
@@ -58,20 +58,20 @@ std::filesystem::path journal_of(const std::filesystem::path& run, const std::st
 /// Bytes of a node's journal so far, 0 before it is begun.
 std::int64_t journal_bytes(const std::filesystem::path& run, const std::string& node);
 
-/// What identifies a message of a game: channel, round, hash of the payload without header; and how often it was said.
-using SaidOnce = std::tuple<std::string, int, std::string>;
-using SaidInGame = std::map<SaidOnce, int>;
+/// What identifies a message of a game: channel, round, hash of the payload without header; and how often it was sent.
+using SentMessage = std::tuple<std::string, int, std::string>;
+using SentInGame = std::map<SentMessage, int>;
 
-/// Everything said on the channels by which games are compared (RUN, PARAMETERS, GAMUT, PROPOSAL, TEST_ORDER,
+/// Everything sent on the channels by which games are compared (RUN, PARAMETERS, GAMUT, PROPOSAL, TEST_ORDER,
 /// MEASUREMENT, DIAGNOSIS, ROUND, FAMILY, FAMILY_GAMUT), from the nodes' journals: their outputs, and RUN as the
-/// validation agent heard it.
-SaidInGame said_in_game(const std::filesystem::path& run);
+/// validation agent received it.
+SentInGame sent_in_game(const std::filesystem::path& run);
 
-/// Only what was said on some of the channels.
-SaidInGame on_channels(const SaidInGame& said, const std::vector<std::string>& channels);
+/// Only what was sent on some of the channels.
+SentInGame on_channels(const SentInGame& sent, const std::vector<std::string>& channels);
 
 /// What one game has and the other has not, a line each: empty for equal games.
-std::vector<std::string> differences(const SaidInGame& expected, const SaidInGame& actual);
+std::vector<std::string> differences(const SentInGame& expected, const SentInGame& actual);
 
 /// Payloads that a node's journal holds on a channel, outputs as "~out/CHANNEL".
 std::vector<std::string> journaled(const std::filesystem::path& run, const std::string& node,

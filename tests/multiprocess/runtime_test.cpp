@@ -255,7 +255,7 @@ TEST(Shell, LostJournalsAreMadeUpForByTheOthers) {
     std::filesystem::remove(game.journal(victim));
     game.start(victim);
     ASSERT_TRUE(game.play()) << victim;
-    // The farm may still be answering again what the asker knows already.
+    // The farm may still be sending again what the asker knows already.
     EXPECT_TRUE(game.watch(10, [&] { return game.said() == undisturbed_game(); })) << victim;
   }
 }

@@ -1,5 +1,5 @@
 // The farm on a Slurm cluster: a loopback one, started for the test. Whatever happens to tasks, controller, node and
-// farm, every question is answered as threads of this machine answer it, to the last bit. And programs of nodes that
+// farm, every test has the result that threads of this machine get, to the last bit. And programs of nodes that
 // need no cluster: what a second one, started by mistake, leaves alone.
 
 #include <csignal>
@@ -33,8 +33,8 @@ using simulator_farm::SlurmSettings;
 
 constexpr double kPatienceS = 90.0;
 
-/// Questions of different kinds: two tests, with and without curve, crack, film.
-std::vector<Compute> questions(int designs) {
+/// Test requests of different kinds: two tests, with and without curve, crack, film.
+std::vector<Compute> test_computes(int designs) {
   wire::SimulateRequest request;
   request.request_id = "test/1";
   request.fidelity = tester::Fidelity::tiny;
@@ -47,22 +47,22 @@ std::vector<Compute> questions(int designs) {
       const simulator_farm::Extras extras{
           .curve = is_toughness && i % 2 == 0, .crack = is_toughness && i % 3 == 0, .film = is_toughness && i % 4 == 0};
       computes.push_back({fmt::format("q{}", computes.size()), "simulate",
-                          wire::write(simulator_farm::question_of(request, design, test, extras))});
+                          wire::write(simulator_farm::test_request_of(request, design, test, extras))});
     }
   }
   return computes;
 }
 
-using Answers = std::map<std::string, std::string>;  ///< by id
+using Responses = std::map<std::string, std::string>;  ///< by id
 
-/// What threads of this machine say.
-Answers local_answers(const std::vector<Compute>& computes, const fs::path& folder) {
+/// What threads of this machine get.
+Responses local_responses(const std::vector<Compute>& computes, const fs::path& folder) {
   store::SimulationCache cache(folder / "simulations.db");
-  Answers answers;
+  Responses responses;
   for (const Compute& compute : computes) {
-    answers[compute.id] = simulator_farm::simulate_work(cache, folder / "films", compute.spec);
+    responses[compute.id] = simulator_farm::simulate_work(cache, folder / "films", compute.spec);
   }
-  return answers;
+  return responses;
 }
 
 /// Every value of every row of a table, as SQL writes it.
@@ -106,7 +106,7 @@ class Cluster : public testing::Test {
   void start(const std::vector<Compute>& computes) {
     for (const Compute& compute : computes) executor_->start(compute);
   }
-  /// Collects until `count` answers have come; `every_turn` is called meanwhile.
+  /// Collects until `count` responses have come; `every_turn` is called meanwhile.
   void collect(
       std::size_t count, const std::function<void()>& every_turn = [] {}) {
     EXPECT_TRUE(becomes_true(
@@ -114,10 +114,10 @@ class Cluster : public testing::Test {
           slurm_->mend_node();
           every_turn();
           take();
-          return answers_.size() >= count;
+          return responses_.size() >= count;
         },
         kPatienceS))
-        << answers_.size() << " of " << count << " answers; " << executor_->standing() << "\n"
+        << responses_.size() << " of " << count << " responses; " << executor_->standing() << "\n"
         << log_ << slurm_->standing();
   }
   /// Waits for tasks to run. The node of a controller that was killed may be drained long after it looked ready: it is
@@ -132,7 +132,7 @@ class Cluster : public testing::Test {
   void take() {
     for (runtime::FinishedWork& work : executor_->finished()) {
       ASSERT_TRUE(work.result) << work.result.error().message;
-      EXPECT_TRUE(answers_.emplace(work.compute.id, *work.result).second) << work.compute.id << " is answered twice";
+      EXPECT_TRUE(responses_.emplace(work.compute.id, *work.result).second) << work.compute.id << " has two responses";
     }
     for (const runtime::LogLine& line : executor_->take_log()) log_ += line.text + "\n";
   }
@@ -143,9 +143,9 @@ class Cluster : public testing::Test {
     found.insert(found.end(), working.begin(), working.end());
     return found;
   }
-  void expect_answers_of_threads(const std::vector<Compute>& computes) {
+  void expect_responses_of_threads(const std::vector<Compute>& computes) {
     const fs::path local = fresh_folder("local_" + folder_.filename().string());
-    EXPECT_EQ(answers_, local_answers(computes, local));
+    EXPECT_EQ(responses_, local_responses(computes, local));
     const std::string columns =
         "failure || printf('|%!.17g|%!.17g|%!.17g|%!.17g|', modulus_pa, toughness_pa, peak_stress_pa, failure_strain) "
         "|| hex(curve)";
@@ -162,33 +162,33 @@ class Cluster : public testing::Test {
   fs::path folder_;
   std::shared_ptr<store::SimulationCache> cache_;
   std::unique_ptr<SlurmExecutor> executor_;
-  Answers answers_;
+  Responses responses_;
   std::string log_;
 };
 
 std::unique_ptr<test::LoopbackSlurm> Cluster::slurm_;
 
-TEST_F(Cluster, AnswersAsThreadsDoToTheLastBit) {
-  const auto computes = questions(12);
+TEST_F(Cluster, RespondsAsThreadsDoToTheLastBit) {
+  const auto computes = test_computes(12);
   open_executor();
   start(computes);
   collect(computes.size());
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
   EXPECT_TRUE(becomes_true([&] { return simulator_farm::Spool(folder_ / "slurm").batches().empty(); }, 5.0));
 }
 
 TEST_F(Cluster, WhatTheCacheKnowsNeedsNoTask) {
-  const auto computes = questions(4);
+  const auto computes = test_computes(4);
   for (const Compute& compute : computes) simulator_farm::simulate_work(*cache_, folder_ / "films", compute.spec);
   open_executor();
   start(computes);
   collect(computes.size());
   EXPECT_TRUE(stands(" 0 tasks so far")) << executor_->standing();
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
 }
 
 TEST_F(Cluster, KilledTasksAreGivenOutAgain) {
-  const auto computes = questions(4);
+  const auto computes = test_computes(4);
   open_executor(1.0);
   start(computes);
   int killed = 0;
@@ -199,11 +199,11 @@ TEST_F(Cluster, KilledTasksAreGivenOutAgain) {
   });
   EXPECT_EQ(killed, 4);
   EXPECT_THAT(log_, HasSubstr("it is given out again"));
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
 }
 
 TEST_F(Cluster, AKilledControllerIsWaitedForAndTakesTasksWhenItIsBack) {
-  const auto computes = questions(6);
+  const auto computes = test_computes(6);
   open_executor(0.5);
   start({computes.begin(), computes.begin() + 6});
   ASSERT_NO_FATAL_FAILURE(await_tasks());
@@ -213,11 +213,11 @@ TEST_F(Cluster, AKilledControllerIsWaitedForAndTakesTasksWhenItIsBack) {
   slurm_->start_controller();
   EXPECT_TRUE(slurm_->becomes_ready(60.0));
   collect(computes.size());
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
 }
 
 TEST_F(Cluster, ANodeThatIsGoneIsWaitedForWithItsTasks) {
-  const auto computes = questions(4);
+  const auto computes = test_computes(4);
   open_executor(1.0);
   start(computes);
   ASSERT_NO_FATAL_FAILURE(await_tasks());
@@ -228,11 +228,11 @@ TEST_F(Cluster, ANodeThatIsGoneIsWaitedForWithItsTasks) {
   slurm_->start_node();
   EXPECT_TRUE(slurm_->becomes_ready(60.0));
   collect(computes.size());
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
 }
 
 TEST_F(Cluster, ATaskThatStandsStillIsDoneByAnotherAndItsLateResultIsNotNeeded) {
-  const auto computes = questions(2);
+  const auto computes = test_computes(2);
   open_executor(1.0, 10.0);
   start(computes);
   ASSERT_NO_FATAL_FAILURE(await_tasks());
@@ -243,12 +243,12 @@ TEST_F(Cluster, ATaskThatStandsStillIsDoneByAnotherAndItsLateResultIsNotNeeded) 
   for (const int task : stopped) ::kill(task, SIGCONT);
   EXPECT_TRUE(becomes_true([&] { return tasks().empty(); }, 20.0));
   take();
-  EXPECT_EQ(answers_.size(), computes.size());
-  expect_answers_of_threads(computes);
+  EXPECT_EQ(responses_.size(), computes.size());
+  expect_responses_of_threads(computes);
 }
 
 TEST_F(Cluster, AResultThatComesTwiceOrDamagedChangesNothing) {
-  const auto computes = questions(2);
+  const auto computes = test_computes(2);
   open_executor(2.0, 10.0);
   start(computes);
   const simulator_farm::Spool spool(folder_ / "slurm");
@@ -258,12 +258,12 @@ TEST_F(Cluster, AResultThatComesTwiceOrDamagedChangesNothing) {
   std::ofstream(spool.result("00000000000000000000000000000000")) << "nobody asked for this";
   collect(computes.size());
   EXPECT_THAT(log_, HasSubstr("it is asked for again"));
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
   EXPECT_TRUE(becomes_true([&] { return spool.results().empty(); }, 20.0));
 }
 
 TEST_F(Cluster, AFarmThatIsStartedAgainTakesTheTasksOfTheOneBefore) {
-  const auto computes = questions(4);
+  const auto computes = test_computes(4);
   open_executor(2.0);
   start(computes);
   ASSERT_TRUE(becomes_true([&] { return tasks().size() >= 1; }, 20.0));
@@ -273,14 +273,14 @@ TEST_F(Cluster, AFarmThatIsStartedAgainTakesTheTasksOfTheOneBefore) {
   start(computes);  // what the journal calls open
   collect(computes.size());
   EXPECT_TRUE(stands(" 0 tasks so far")) << executor_->standing();
-  expect_answers_of_threads(computes);
+  expect_responses_of_threads(computes);
 }
 
-TEST_F(Cluster, AQuestionThatKillsItsTasksStopsTheFarmWithTheReason) {
+TEST_F(Cluster, ATestThatKillsItsTasksStopsTheFarmWithTheReason) {
   open_executor();
   const fs::path program = folder_ / "slow_task";
   std::ofstream(program) << "#!/bin/sh\necho cannot load this library >&2\nexit 1\n";
-  start({questions(1).front()});
+  start({test_computes(1).front()});
   std::string said;
   EXPECT_TRUE(becomes_true(
       [&] {
@@ -294,12 +294,12 @@ TEST_F(Cluster, AQuestionThatKillsItsTasksStopsTheFarmWithTheReason) {
 TEST_F(Cluster, AWholeGameIsTheSameAsWithThreads) {
   std::ofstream(folder_ / "threads.toml") << short_game("cluster", 1);
   std::ofstream(folder_ / "slurm.toml") << short_game("cluster", 1) << "[farm]\nexecutor = \"slurm\"\nbatch_s = 1\n";
-  std::map<std::string, SaidInGame> said;
+  std::map<std::string, SentInGame> said;
   for (const std::string executor : {"threads", "slurm"}) {
     PlayedGame game(folder_ / (executor + ".toml"), folder_ / executor, "game");
     ASSERT_TRUE(game.play_to_end(200.0)) << game.said();
     ASSERT_EQ(game.status(), 0) << game.said();
-    said[executor] = on_channels(said_in_game(game.folder()), {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
+    said[executor] = on_channels(sent_in_game(game.folder()), {"PARAMETERS", "GAMUT", "PROPOSAL", "TEST_ORDER",
                                                                "MEASUREMENT", "DIAGNOSIS", "ROUND"});
     EXPECT_FALSE(said[executor].empty());
   }
@@ -346,7 +346,7 @@ TEST_F(NodeProgramTest, ASecondFarmIsRefusedBeforeItTouchesWhatTheFirstGaveOut) 
   test::Process second = start("simulator_farm", {"--executor", "slurm"});
   EXPECT_EQ(second.wait(20.0), 2);
   EXPECT_THAT(errors(), HasSubstr("another process"));
-  EXPECT_TRUE(fs::exists(spool.question(name)));
+  EXPECT_TRUE(fs::exists(spool.batch_file(name)));
   EXPECT_TRUE(fs::exists(spool.result(std::string(32, '1'))));
 }
 
@@ -365,7 +365,7 @@ TEST_F(NodeProgramTest, AnAnalyserThatStartsForTheFirstTimeMakesNothingAnew) {
   EXPECT_THAT(errors(), Not(HasSubstr("made anew")));
 }
 
-TEST_F(NodeProgramTest, AFarmBesideADeviceHasTheThreadsThatItIsGiven) {
+TEST_F(NodeProgramTest, AFarmWithADeviceHasTheThreadsThatItIsGiven) {
   const auto threads_of = [&](int threads) {
     test::Process farm = start("simulator_farm", {"--executor", "cuda", "--threads", std::to_string(threads), "--cache",
                                                   (run_ / fmt::format("{}.db", threads)).string()});

@@ -126,7 +126,7 @@ TEST(BlowUp, PureSoftMaterialThatRunsOutOfStepsGivesAReasonAndNoNumber) {
                                                      testing::HasSubstr("the solution blew up")));
 }
 
-// A step as short as this law asks for would make a plan of more samples than there is memory.
+// A step as short as this law needs would take more samples than fit into memory.
 TEST(BlowUp, AStepThatIsNextToNothingGivesAReasonToo) {
   tester::Simulation simulation = specimen(patterns(1)[0]);
   simulation.fidelity = tester::Fidelity::tiny;

@@ -6,6 +6,7 @@
 #include "fem/static_solver.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
+#include "tester/modulus.hpp"
 #include "tester/modulus_explicit.hpp"
 #include "thesis/constants.hpp"
 

@@ -52,29 +52,29 @@ double largest_difference(const fem::Grid& grid, const material::ExtendedLaw& la
 
 material::ExtendedLaw law_of(const material::Lame& lame) { return {.lame = lame, .threshold_j_per_m3 = kThreshold}; }
 
-struct Case {
+struct LawCase {
   const char* name;
   fem::Grid grid;
   material::ExtendedLaw law;
   double end;
 };
 
-std::vector<Case> cases() {
+std::vector<LawCase> cases() {
   const material::Lame lame = material::lame_from_engineering(kYoungPa, kPoisson);
   const auto everywhere = [](double value) { return std::vector<double>(strip().phase.size(), value); };
-  std::vector<Case> all;
-  const auto add = [&](const char* name, double end) -> Case& {
+  std::vector<LawCase> all;
+  const auto add = [&](const char* name, double end) -> LawCase& {
     all.push_back({name, strip(), law_of(lame), end});
     return all.back();
   };
-  Case& gent = add("Gent", 0.055);
+  LawCase& gent = add("Gent", 0.055);
   gent.grid.laws.inverse_limit = everywhere(gent.law.inverse_limit = 20.0);
-  Case& flow = add("flow", 0.06);
+  LawCase& flow = add("flow", 0.06);
   flow.grid.laws.yield_pa = everywhere(flow.law.yield_pa = 2.5e7);
-  Case& branch = add("branch", 0.04);
+  LawCase& branch = add("branch", 0.04);
   branch.grid.laws.overstress = branch.law.overstress = 0.6;
   branch.grid.laws.relaxation_time_s = branch.law.relaxation_time_s = 8e-4;
-  Case& all_of_them = add("all", 0.05);
+  LawCase& all_of_them = add("all", 0.05);
   all_of_them.grid.laws = {.eigenstrain = {},
                            .inverse_limit = everywhere(all_of_them.law.inverse_limit = 5.0),
                            .yield_pa = everywhere(all_of_them.law.yield_pa = 2.5e7),
@@ -85,7 +85,7 @@ std::vector<Case> cases() {
 }
 
 TEST(ExtendedKernel, StripsFollowThePointLaw) {
-  for (const Case& each : cases()) EXPECT_LT(largest_difference(each.grid, each.law, each.end), 0.02) << each.name;
+  for (const LawCase& each : cases()) EXPECT_LT(largest_difference(each.grid, each.law, each.end), 0.02) << each.name;
 }
 
 // One row softens between rows too stiff to store energy: the work of the grips is the declared energy of that row.
@@ -190,14 +190,14 @@ TEST(ResidualStrain, OfColumnsRestsAtTheStiffnessWeightedMean) {
   EXPECT_NEAR(fem::pull_from_rest(grid, 0.0).value().rest_strain, -0.003, 3e-5);
 }
 
-// What was mounted has had the time to relax: only what comes later is stiffer by the branch.
+// A mounted specimen has relaxed: only later strain is stiffer by the branch.
 TEST(ResidualStrain, LeavesNoOverstressWhereASpecimenRests) {
   fem::Grid grid = strip();
   fem::ExplicitSettings settings = settings_for(grid);
   settings.initial_strain = 0.01;
   const double elastic_pa = fem::ExplicitSolver<float>::create(grid, settings).value().step().value().top_stress_pa;
   grid.laws.overstress = 1.0;
-  grid.laws.relaxation_time_s = 1.0;  // long beside the test
+  grid.laws.relaxation_time_s = 1.0;  // long compared with the test
   grid.laws.softening = 1.0;
   settings = settings_for(grid);
   settings.initial_strain = 0.01;
@@ -212,7 +212,7 @@ TEST(ResidualStrain, LeavesNoOverstressWhereASpecimenRests) {
   EXPECT_NEAR((ended - begun) / 0.009 / (elastic_pa / 0.01), 2.0, 0.25);
 }
 
-// A mounted specimen at rest shows no force until it is pulled.
+// A mounted specimen at rest carries no force until it is pulled.
 TEST(ResidualStrain, AMountedSpecimenStartsWithoutForce) {
   tester::Simulation simulation = specimen(patterns(2)[1]);
   simulation.parameters.extensions = {{"residual_strain", {0.01}}};

@@ -4,6 +4,7 @@
 
 #include "specimens.hpp"
 #include "tester/assembly.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {

@@ -13,6 +13,7 @@
 #include "../instrumented.hpp"
 #include "fem/explicit_storage.hpp"
 #include "tester/fracture_test.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {
@@ -30,8 +31,8 @@ std::size_t bytes_in_use() {
   return heap.uordblks + heap.hblkhd;
 }
 
-// The first round may keep what threads set aside for the next specimen; after it, 1000 more add nothing. The pulls end
-// at a strain of 0.001, which leaves out nothing that a longer one would allocate but frames.
+// The first round may keep memory that threads reserve for the next specimen; after it, 1000 more add nothing. The
+// pulls end at a strain of 0.001, which leaves out nothing that a longer one would allocate but frames.
 TEST(Memory, ThousandSpecimensTakeThatOfOne) {
   tester::FractureTest test = tester::fracture_test(specimen());
   test.strain_limit = 0.001;

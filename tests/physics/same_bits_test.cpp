@@ -6,6 +6,7 @@
 
 #include "../output_of.hpp"
 #include "specimens.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {
@@ -54,7 +55,7 @@ std::string exact_results() {
   return text;
 }
 
-/// Not a test: what SimdLevelForcedFromOutside has other processes say.
+/// Not a test: the output of the other processes that SimdLevelForcedFromOutside starts.
 TEST(SameBits, DISABLED_SayExactResults) { std::printf("RESULTS %s\n", exact_results().c_str()); }
 
 /// The results of this program run anew under an environment setting; the instruction set comes first.

@@ -11,7 +11,7 @@
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre {
 namespace {
@@ -53,11 +53,11 @@ material::ParameterSet uniform_parameters() {
 }
 
 /// Arithmetic (Voigt) and harmonic (Reuss) means of the elements' moduli.
-struct Bounds {
+struct ModulusBounds {
   double reuss_pa = 0.0, voigt_pa = 0.0;
 };
 
-Bounds bounds_of(const fem::Grid& grid) {
+ModulusBounds bounds_of(const fem::Grid& grid) {
   double sum = 0.0, inverse_sum = 0.0;
   for (const double young : grid.young_pa) {
     sum += young;
@@ -78,7 +78,7 @@ TEST(Statics, ModuliLieBetweenReussAndVoigt) {
   material::ParameterSet parameters = kDefaults;
   parameters.modulus.nu_tb = parameters.modulus.nu_if = parameters.modulus.nu_vw = 0.3;
   for (const pattern::Pattern& pattern : some_patterns(8)) {
-    const Bounds bounds = bounds_of(assembled(pattern, parameters));
+    const ModulusBounds bounds = bounds_of(assembled(pattern, parameters));
     const double modulus = modulus_of(pattern, parameters);
     EXPECT_GT(modulus, bounds.reuss_pa);
     EXPECT_LT(modulus, bounds.voigt_pa);

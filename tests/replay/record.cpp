@@ -1,5 +1,6 @@
-// Plays the golden games anew and writes them down. For deliberate changes of what nodes say; tests/replay/README.md.
-// usage: record_golden_games FOLDER [GAME...]
+// Plays the golden games anew and writes them down, or puts new sentences into them as they were played. For deliberate
+// changes of what nodes send; tests/replay/README.md.
+// usage: record_golden_games [--reword] FOLDER [GAME...]
 
 #include <algorithm>
 #include <cstdio>
@@ -11,9 +12,11 @@
 
 #include "base/result.hpp"
 #include "golden_game.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/specimen_record.hpp"
+#include "measurement/summary.hpp"
 #include "persons_game.hpp"
 #include "program.hpp"
+#include "reword.hpp"
 
 namespace nacre::golden {
 namespace {
@@ -94,15 +97,30 @@ fs::path persons_game(const fs::path& folder) {
 const std::map<std::string, std::function<fs::path(const fs::path&)>> kGames = {{"laboratory", laboratory_game},
                                                                                 {"person", persons_game}};
 
-int record(const fs::path& games, std::vector<std::string> names) {
+void record(const fs::path& games, const std::string& name) {
+  const fs::path run = kGames.at(name)(fresh_folder(name));
+  // These two send the same sort of messages all the time, and curves are long.
+  write_golden_game(run, games / name, {{"simulator_farm", name == "laboratory" ? 30 : 0}, {"virtual_lab", 16}});
+  fmt::print("{}: {} bytes\n", name, fs::file_size(games / name / "game.jsonl"));
+}
+
+void reword(const fs::path& games, const std::string& name) {
+  const Rewording rewording = reword_golden_game(games / name, fresh_folder("reword_" + name));
+  for (const auto& [field, counts] : rewording.fields)
+    fmt::print("{}: {}: {} of {} outputs changed\n", name, field, counts.changed, counts.outputs);
+  fmt::print("{}: ids of stored messages: {} changed\n", name, rewording.ids);
+}
+
+int run(std::vector<std::string> arguments) {
+  const bool is_rewording = !arguments.empty() && arguments.front() == "--reword";
+  if (is_rewording) arguments.erase(arguments.begin());
+  if (arguments.empty()) throw InputError("usage: record_golden_games [--reword] FOLDER [GAME...]");
+  const fs::path games = arguments.front();
+  std::vector<std::string> names(arguments.begin() + 1, arguments.end());
   if (names.empty()) names = {"laboratory", "person"};
   for (const std::string& name : names) {
-    const auto play = kGames.find(name);
-    if (play == kGames.end()) throw InputError::format("{}: no golden game of this name", name);
-    const fs::path run = play->second(fresh_folder(name));
-    // These two say the same sort of things all the time, and curves are long.
-    write_golden_game(run, games / name, {{"simulator_farm", name == "laboratory" ? 30 : 0}, {"virtual_lab", 16}});
-    fmt::print("{}: {} bytes\n", name, fs::file_size(games / name / "game.jsonl"));
+    if (!kGames.contains(name)) throw InputError::format("{}: no golden game of this name", name);
+    is_rewording ? reword(games, name) : record(games, name);
   }
   return 0;
 }
@@ -111,8 +129,7 @@ int record(const fs::path& games, std::vector<std::string> names) {
 }  // namespace nacre::golden
 
 int main(int argc, char** argv) try {
-  if (argc < 2) throw nacre::InputError("usage: record_golden_games FOLDER [GAME...]");
-  return nacre::golden::record(argv[1], {argv + 2, argv + argc});
+  return nacre::golden::run({argv + 1, argv + argc});
 } catch (const std::exception& problem) {
   std::fprintf(stderr, "%s\n", problem.what());
   return 2;

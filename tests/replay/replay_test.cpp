@@ -1,4 +1,4 @@
-// Golden games: every node still says what it said when the game was written down, to the last bit.
+// Golden games: every node still sends what it sent when the game was written down, to the last bit.
 
 #include <filesystem>
 #include <fstream>
@@ -14,6 +14,7 @@
 #include "base/result.hpp"
 #include "golden_game.hpp"
 #include "program.hpp"
+#include "reword.hpp"
 
 namespace nacre {
 namespace {
@@ -38,7 +39,7 @@ class GoldenGame : public testing::TestWithParam<const char*> {
   fs::path run_;
 };
 
-TEST_P(GoldenGame, IsSaidAgainByEveryNode) {
+TEST_P(GoldenGame, IsSentAgainByEveryNode) {
   golden::unpack_golden_game(game(), run_);
   const std::vector<std::string> nodes = golden::nodes_of(run_);
   EXPECT_THAT(nodes, IsSupersetOf({"validation_agent", "proposal_agent", "analyser"}));
@@ -78,7 +79,7 @@ void alter(const fs::path& file, const std::string& mark, const std::string& key
 struct Alteration {
   std::string line;   // a part of the line that is changed
   std::string key;    // its member
-  std::string node;   // who says it
+  std::string node;   // who sends it
   std::string where;  // how the difference is named
 };
 
@@ -107,6 +108,60 @@ TEST_P(GoldenGame, WrittenDownAgainIsTheSameText) {
   const fs::path again = fresh_folder("again");
   golden::write_golden_game(run_, again);
   EXPECT_TRUE(read_file(again / "game.jsonl") == read_file(game() / "game.jsonl"));
+}
+
+void replace_once(const fs::path& file, const std::string& before, const std::string& now) {
+  std::string text = read_file(file);
+  const std::size_t place = text.find(before);
+  ASSERT_NE(place, std::string::npos) << before;
+  write_file_atomically(file, text.replace(place, before.size(), now));
+}
+
+/// What refuses the rewording of a game in this folder; empty when nothing does.
+std::string refusal_of(const fs::path& folder) {
+  try {
+    golden::reword_golden_game(folder, fresh_folder("rewording"));
+    return "";
+  } catch (const InputError& refusal) {
+    return refusal.what();
+  }
+}
+
+TEST_P(GoldenGame, RewordedHasTheSentencesOfNowWhereverTheMessageStands) {
+  const fs::path copy = fresh_folder("reworded");
+  fs::copy(game(), copy, fs::copy_options::recursive);
+  replace_once(copy / "game.jsonl", "nothing has been measured yet", "an older sentence");
+  replace_once(copy / "game.jsonl", R"("reason":"bin )", R"("reason":"an older bin )");
+  const golden::Rewording rewording = golden::reword_golden_game(copy, run_);
+  EXPECT_EQ(rewording.fields.at("round_summary_t.decided_by").changed, 1);
+  EXPECT_EQ(rewording.fields.at("proposal_t.designs[].reason").changed, 1);
+  EXPECT_EQ(rewording.ids, 0) << "those in the text are of the sentences of now";
+  EXPECT_TRUE(read_file(copy / "game.jsonl") == read_file(game() / "game.jsonl"));
+}
+
+TEST_P(GoldenGame, RewordingRefusesAnotherNumber) {
+  const Alteration alterations[] = {{R"("on":"ROUND")", "signed_gap", "validation_agent", "~out/ROUND): signed_gap: "},
+                                    {R"("on":"PROPOSAL")", "simulations", "proposal_agent", "simulations: "},
+                                    {R"("on":"GAMUT")", "round", "proposal_agent", "~out/GAMUT): round: "}};
+  for (const Alteration& alteration : alterations) {
+    const fs::path copy = fresh_folder("altered");
+    fs::copy(game(), copy, fs::copy_options::recursive);
+    alter(copy / "game.jsonl", alteration.line, alteration.key);
+    const std::string altered = read_file(copy / "game.jsonl");
+    EXPECT_THAT(refusal_of(copy), HasSubstr(alteration.where)) << alteration.line;
+    EXPECT_TRUE(read_file(copy / "game.jsonl") == altered) << "left as it was";
+  }
+}
+
+TEST_P(GoldenGame, RewordingRefusesAMissingMessageAndASentenceThatIsNone) {
+  const fs::path copy = fresh_folder("altered");
+  fs::copy(game(), copy, fs::copy_options::recursive);
+  replace_once(copy / "game.jsonl", "nothing has been measured yet", "");
+  EXPECT_THAT(refusal_of(copy), HasSubstr("decided_by: \"\" against \"...\""));
+  const std::string text = read_file(game() / "game.jsonl");
+  const std::size_t begin = text.find(R"({"node":"validation_agent","says":"ROUND")"), end = text.find('\n', begin) + 1;
+  write_file_atomically(copy / "game.jsonl", text.substr(0, begin) + text.substr(end));
+  EXPECT_THAT(refusal_of(copy), HasSubstr("the core now also sends ROUND"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Games, GoldenGame, testing::Values("laboratory", "person"),

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../diagnosis/synthetic_set.hpp"
+#include "analyser/diagnosis_work.hpp"
 #include "analyser/works.hpp"
 #include "diagnosis/possible_tests.hpp"
 #include "wire/channels.hpp"
@@ -38,7 +39,7 @@ struct Watched {
     for (auto& each : outputs.messages) messages.push_back(std::move(each));
     for (auto& each : outputs.log) log.push_back(std::move(each));
   }
-  void hear(const std::string& channel, const std::string& payload) { take(core.step(Message{channel, payload})); }
+  void receive(const std::string& channel, const std::string& payload) { take(core.step(Message{channel, payload})); }
   void finish(const std::string& id, const std::string& result = "kept") {
     take(core.step(runtime::WorkDone{id, result}));
   }
@@ -87,7 +88,7 @@ std::string coupon_of(const std::string& specimen, const char* material, double 
   return wire::write(m);
 }
 
-std::string question(std::vector<std::string> specimens) {
+std::string request_of(std::vector<std::string> specimens) {
   wire::DiagnoseRequest request;
   request.round = 1;
   request.parameters = material::default_parameters();
@@ -110,8 +111,8 @@ std::string round_of(int number, bool last) {
   return wire::write(round);
 }
 
-/// The farm's answer to all that a request asks for.
-std::vector<std::string> answers_to(const Message& request) {
+/// The farm's response to all that a request asks for.
+std::vector<std::string> responses_to(const Message& request) {
   const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
   std::vector<wire::SimulatedDesign> results;
   for (const pattern::Design& design : asked.designs)
@@ -123,7 +124,7 @@ std::vector<std::string> answers_to(const Message& request) {
                        .failure_strain = 0.03,
                        .curve = {}});
   std::vector<std::string> payloads;
-  for (const auto& part : wire::simulate_answer(asked.request_id, results)) payloads.push_back(wire::write(part));
+  for (const auto& part : wire::simulate_response(asked.request_id, results)) payloads.push_back(wire::write(part));
   return payloads;
 }
 
@@ -138,19 +139,19 @@ std::string proposal_of(int round, std::vector<std::uint64_t> patterns) {
 
 TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
   Watched analyser;
-  analyser.hear("PROPOSAL", proposal_of(1, {5, 6}));
+  analyser.receive("PROPOSAL", proposal_of(1, {5, 6}));
   EXPECT_THAT(analyser.sent_on("SIMULATE"), IsEmpty()) << "the model is still on its way";
-  analyser.hear("PARAMETERS", model_of(1));
+  analyser.receive("PARAMETERS", model_of(1));
   ASSERT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
   const Message request = analyser.sent_on("SIMULATE").front();
   const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
   EXPECT_TRUE(asked.film && asked.crack && asked.toughness && !asked.modulus);
   EXPECT_THAT(asked.designs, ElementsAre(pattern::Pattern(5), pattern::Pattern(6)));
-  analyser.hear("PROPOSAL", proposal_of(1, {5, 6}));
-  analyser.hear("ROUND", round_of(1, false));
+  analyser.receive("PROPOSAL", proposal_of(1, {5, 6}));
+  analyser.receive("ROUND", round_of(1, false));
   EXPECT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1)) << "once";
 
-  for (const std::string& answer : answers_to(request)) analyser.hear("SIMULATED", answer);
+  for (const std::string& response : responses_to(request)) analyser.receive("SIMULATED", response);
   for (const int index : {1, 0}) {
     analyser.finish_stores();
     EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "how a design breaks has not come";
@@ -162,7 +163,7 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
                             .film = "a.film"};
     fracture.crack.columns = fracture.crack.rows = 40;
     fracture.film = "a.film";
-    analyser.hear("FRACTURE", wire::write(fracture));
+    analyser.receive("FRACTURE", wire::write(fracture));
   }
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), SizeIs(1));
@@ -170,7 +171,7 @@ TEST(Analyser, ProposedDesignsAreFilmedWithTheModelOfTheirRound) {
 
 TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
   Watched analyser;
-  wire::Family family;
+  wire::CalibratedFamily family;
   family.number = 2;
   family.count = 3;
   family.name = "family-3";
@@ -179,9 +180,9 @@ TEST(Analyser, DesignsOfAFamilyAreFilmedOnceWithTheFamilysOwnModel) {
   family.designs = {
       {.pattern = pattern::Pattern(5), .is_seed = true, .measured = {}, .global_model = {}, .family_model = {}},
       {.pattern = pattern::Pattern(6), .is_seed = false, .measured = {}, .global_model = {}, .family_model = {}}};
-  analyser.hear("FAMILY", wire::write(family));
+  analyser.receive("FAMILY", wire::write(family));
   family.is_validated = true;
-  analyser.hear("FAMILY", wire::write(family));
+  analyser.receive("FAMILY", wire::write(family));
   ASSERT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
   const auto asked = wire::read<wire::SimulateRequest>(analyser.sent_on("SIMULATE").front().payload).value();
   EXPECT_THAT(asked.request_id, StartsWith("analyser/family2/films#"));
@@ -194,8 +195,8 @@ TEST(Analyser, MoreDesignsThanARequestHoldsAreFilmedByTwo) {
   Watched analyser;
   std::vector<std::uint64_t> patterns(wire::kMaximumDesigns + 2);
   for (std::size_t i = 0; i < patterns.size(); ++i) patterns[i] = i + 1;
-  analyser.hear("PARAMETERS", model_of(1));
-  analyser.hear("PROPOSAL", proposal_of(1, patterns));
+  analyser.receive("PARAMETERS", model_of(1));
+  analyser.receive("PROPOSAL", proposal_of(1, patterns));
   const std::vector<Message> requests = analyser.sent_on("SIMULATE");
   ASSERT_THAT(requests, SizeIs(2));
   for (const Message& request : requests)
@@ -218,21 +219,21 @@ TEST(Analyser, TinySpecimensAreNotFilmed) {
 
 TEST(Analyser, DiagnosisWaitsForEveryMeasurementMeant) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
-  analyser.hear("DIAGNOSE", question({"a", "b"}));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("DIAGNOSE", request_of({"a", "b"}));
   EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
-  analyser.hear("MEASUREMENT", measurement_of("c", 6));
+  analyser.receive("MEASUREMENT", measurement_of("c", 6));
   EXPECT_THAT(analyser.ids("diagnose"), IsEmpty());
-  EXPECT_EQ(analyser.core.status().phase, "waiting for specimens b of 2");
-  analyser.hear("MEASUREMENT", measurement_of("b", 7));
+  EXPECT_EQ(analyser.core.status().phase, "waiting for measurements of 1 of 2 specimens: b");
+  analyser.receive("MEASUREMENT", measurement_of("b", 7));
   EXPECT_THAT(analyser.ids("diagnose"), ElementsAre("diagnose/r1"));
   EXPECT_EQ(analyser.core.status().phase, "diagnosing round 1");
 }
 
 TEST(Analyser, NamesAFewOfTheSpecimensThatItWaitsFor) {
   Watched analyser;
-  analyser.hear("DIAGNOSE", question({"a", "b", "c", "d", "e"}));
-  EXPECT_EQ(analyser.core.status().phase, "waiting for specimens a, b, c, ... of 5");
+  analyser.receive("DIAGNOSE", request_of({"a", "b", "c", "d", "e"}));
+  EXPECT_EQ(analyser.core.status().phase, "waiting for measurements of 5 of 5 specimens: a, b, c, ...");
 }
 
 TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
@@ -242,14 +243,14 @@ TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
   std::vector<Message> messages = {{"MEASUREMENT", measurement_of("a", 5)},
                                    {"MEASUREMENT", measurement_of("b", 6)},
                                    {"MEASUREMENT", measurement_of("c", 7)},
-                                   {"DIAGNOSE", question({"a", "b", "c"})},
+                                   {"DIAGNOSE", request_of({"a", "b", "c"})},
                                    {"REVIEW", wire::encode(review)}};
   std::set<std::string> specs;
   std::mt19937 shuffling(1);
   for (int order = 0; order < 20; ++order) {
     std::shuffle(messages.begin(), messages.end(), shuffling);
     Watched analyser;
-    for (const Message& message : messages) analyser.hear(message.channel, message.payload);
+    for (const Message& message : messages) analyser.receive(message.channel, message.payload);
     ASSERT_THAT(analyser.ids("diagnose"), SizeIs(1));
     for (const auto& compute : analyser.computes) {
       if (compute.kind == "diagnose") specs.insert(compute.spec);
@@ -260,8 +261,8 @@ TEST(Analyser, OrderOfArrivalDoesNotChangeTheDiagnosis) {
 
 TEST(Analyser, DiagnosisIsPublishedAndKept) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
-  analyser.hear("DIAGNOSE", question({"a"}));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("DIAGNOSE", request_of({"a"}));
   const auto compute = std::find_if(analyser.computes.begin(), analyser.computes.end(),
                                     [](const auto& c) { return c.kind == "diagnose"; });
   ASSERT_NE(compute, analyser.computes.end());
@@ -274,19 +275,19 @@ TEST(Analyser, DiagnosisIsPublishedAndKept) {
   EXPECT_EQ(analyser.computes.back().spec, store_spec("DIAGNOSIS", result));
 }
 
-// A diagnosis orders coupons where they would tell; what they answer must be heard.
+// A diagnosis orders coupons where they would discriminate; their measurements must be used.
 TEST(Analyser, CouponsTakePartInADiagnosis) {
   Watched analyser;
   std::vector<std::string> names;
   for (const auto& [material, modulus_pa] : {std::pair{"rigid", 2.6e9}, {"interface", 5.6e8}, {"soft", 1e6}})
     for (const char* replicate : {"/1", "/2"}) {
       names.push_back(std::string(material) + replicate);
-      analyser.hear("MEASUREMENT", coupon_of(names.back(), material, modulus_pa));
+      analyser.receive("MEASUREMENT", coupon_of(names.back(), material, modulus_pa));
     }
   names.push_back("mix/1");
-  analyser.hear("MEASUREMENT", coupon_of(names.back(), "mix:0.75", 1.2e9));
+  analyser.receive("MEASUREMENT", coupon_of(names.back(), "mix:0.75", 1.2e9));
   std::sort(names.begin(), names.end());
-  analyser.hear("DIAGNOSE", question(names));
+  analyser.receive("DIAGNOSE", request_of(names));
   const auto compute = std::find_if(analyser.computes.begin(), analyser.computes.end(),
                                     [](const auto& c) { return c.kind == "diagnose"; });
   ASSERT_NE(compute, analyser.computes.end());
@@ -295,7 +296,7 @@ TEST(Analyser, CouponsTakePartInADiagnosis) {
   EXPECT_GT(diagnosis.n_candidates, 0);
 }
 
-// What relaxes has a time beside its size, and neither is known exactly.
+// What relaxes has a time in addition to its size, and neither is known exactly.
 TEST(Analyser, EveryNumberOfANamedEffectIsSentWithItsInterval) {
   DiagnosisTask task;
   task.request.round = 1;
@@ -319,29 +320,29 @@ TEST(Analyser, EveryNumberOfANamedEffectIsSentWithItsInterval) {
   EXPECT_GT(time_s.interval_high, std::max(time_s.parameter, 12.0));
 }
 
-TEST(Analyser, QuestionAskedTwiceIsAnsweredOnce) {
+TEST(Analyser, ARepeatedRequestIsDiagnosedOnce) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
-  for (int i = 0; i < 3; ++i) analyser.hear("DIAGNOSE", question({"a"}));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  for (int i = 0; i < 3; ++i) analyser.receive("DIAGNOSE", request_of({"a"}));
   EXPECT_THAT(analyser.ids("diagnose"), SizeIs(1));
 }
 
 TEST(Analyser, SameMessageTwiceIsStoredOnce) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
   analyser.finish_stores();
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
   EXPECT_THAT(analyser.ids("store"), SizeIs(1));
-  analyser.hear("MEASUREMENT", measurement_of("b", 5));
+  analyser.receive("MEASUREMENT", measurement_of("b", 5));
   EXPECT_THAT(analyser.ids("store"), SizeIs(2));
 }
 
 TEST(Analyser, CorruptMessagesAreAWarningAndChangeNothing) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", "not a message");
-  analyser.hear("ROUND", round_of(0, true).substr(3));
-  analyser.hear("NO_SUCH_CHANNEL", "x");
+  analyser.receive("MEASUREMENT", "not a message");
+  analyser.receive("ROUND", round_of(0, true).substr(3));
+  analyser.receive("NO_SUCH_CHANNEL", "x");
   EXPECT_THAT(analyser.computes, IsEmpty());
   EXPECT_THAT(analyser.messages, IsEmpty());
   EXPECT_THAT(analyser.log, SizeIs(2));
@@ -349,55 +350,55 @@ TEST(Analyser, CorruptMessagesAreAWarningAndChangeNothing) {
 
 TEST(Analyser, ReportWaitsForStoresAndTheModelsWordOnMeasuredDesigns) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
-  analyser.hear("MEASUREMENT", measurement_of("b", 5));
-  analyser.hear("PARAMETERS", model_of(1));
-  analyser.hear("ROUND", round_of(1, false));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("MEASUREMENT", measurement_of("b", 5));
+  analyser.receive("PARAMETERS", model_of(1));
+  analyser.receive("ROUND", round_of(1, false));
   const auto requests = analyser.sent_on("SIMULATE");
   ASSERT_THAT(requests, SizeIs(1));
   EXPECT_THAT(wire::read<wire::SimulateRequest>(requests.front().payload)->designs, SizeIs(1));
   analyser.finish_stores();
-  EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the farm has not answered";
-  for (const std::string& answer : answers_to(requests.front())) analyser.hear("SIMULATED", answer);
-  EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the answer is not stored";
+  EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the farm has not responded";
+  for (const std::string& response : responses_to(requests.front())) analyser.receive("SIMULATED", response);
+  EXPECT_THAT(analyser.ids("report"), IsEmpty()) << "the response is not stored";
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), ElementsAre(StartsWith("report/r1")));
 }
 
 // Its journal lost, it comes to another model of the same round, and the farm still repeats what it said of the first.
-TEST(Analyser, AnswersAboutAnotherModelOfTheRoundAreNotTaken) {
+TEST(Analyser, ResponsesAboutAnotherModelOfTheRoundAreNotTaken) {
   Watched before, now;
   for (Watched* each : {&before, &now}) {
-    each->hear("MEASUREMENT", measurement_of("a", 5));
-    each->hear("PROPOSAL", proposal_of(1, {6}));
-    each->hear("PARAMETERS", model_of(1, each == &now ? 1.5 : 1.0));
-    each->hear("ROUND", round_of(1, false));
+    each->receive("MEASUREMENT", measurement_of("a", 5));
+    each->receive("PROPOSAL", proposal_of(1, {6}));
+    each->receive("PARAMETERS", model_of(1, each == &now ? 1.5 : 1.0));
+    each->receive("ROUND", round_of(1, false));
     ASSERT_THAT(each->sent_on("SIMULATE"), SizeIs(2)) << "films, and the word on the measured design";
   }
-  const auto hear_all_answers = [&](const std::vector<Message>& requests) {
+  const auto receive_all_responses = [&](const std::vector<Message>& requests) {
     for (const Message& request : requests) {
-      for (const std::string& answer : answers_to(request)) now.hear("SIMULATED", answer);
+      for (const std::string& response : responses_to(request)) now.receive("SIMULATED", response);
       const auto asked = wire::read<wire::SimulateRequest>(request.payload).value();
       wire::Fracture fracture;
       fracture.request_id = asked.request_id;
       fracture.design = asked.designs.front();
       fracture.crack.columns = fracture.crack.rows = 40;
-      if (asked.film) now.hear("FRACTURE", wire::write(fracture));
+      if (asked.film) now.receive("FRACTURE", wire::write(fracture));
     }
     now.finish_stores();
   };
-  hear_all_answers(before.sent_on("SIMULATE"));
-  EXPECT_THAT(now.ids("report"), IsEmpty()) << "nothing that it asked has been answered";
-  hear_all_answers(now.sent_on("SIMULATE"));
+  receive_all_responses(before.sent_on("SIMULATE"));
+  EXPECT_THAT(now.ids("report"), IsEmpty()) << "nothing that it requested has come";
+  receive_all_responses(now.sent_on("SIMULATE"));
   EXPECT_THAT(now.ids("report"), SizeIs(1));
 }
 
-TEST(Analyser, ChunksOfAnAnswerCountOnceEach) {
+TEST(Analyser, ChunksOfAResponseCountOnceEach) {
   Watched analyser;
   for (std::uint64_t bits = 1; bits <= 60; ++bits)
-    analyser.hear("MEASUREMENT", measurement_of(std::to_string(bits), bits));
-  analyser.hear("PARAMETERS", model_of(1));
-  analyser.hear("ROUND", round_of(1, false));
+    analyser.receive("MEASUREMENT", measurement_of(std::to_string(bits), bits));
+  analyser.receive("PARAMETERS", model_of(1));
+  analyser.receive("ROUND", round_of(1, false));
   const auto asked = wire::read<wire::SimulateRequest>(analyser.sent_on("SIMULATE").front().payload).value();
   wire::SimulateResult part{.request_id = asked.request_id, .chunk = 0, .chunks = 2, .first = 0, .results = {}};
   part.results = {{.design = asked.designs.at(0),
@@ -407,23 +408,23 @@ TEST(Analyser, ChunksOfAnAnswerCountOnceEach) {
                    .peak_stress_pa = 0.0,
                    .failure_strain = 0.0,
                    .curve = {}}};
-  for (int i = 0; i < 3; ++i) analyser.hear("SIMULATED", wire::write(part));
+  for (int i = 0; i < 3; ++i) analyser.receive("SIMULATED", wire::write(part));
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), IsEmpty());
   part.chunk = 1;
   part.first = 30;
-  analyser.hear("SIMULATED", wire::write(part));
+  analyser.receive("SIMULATED", wire::write(part));
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), SizeIs(1));
 }
 
 TEST(Analyser, RoundBeforeItsModelWaitsForTheModel) {
   Watched analyser;
-  analyser.hear("MEASUREMENT", measurement_of("a", 5));
-  analyser.hear("ROUND", round_of(1, false));
+  analyser.receive("MEASUREMENT", measurement_of("a", 5));
+  analyser.receive("ROUND", round_of(1, false));
   analyser.finish_stores();
   EXPECT_THAT(analyser.ids("report"), IsEmpty());
-  analyser.hear("PARAMETERS", model_of(1));
+  analyser.receive("PARAMETERS", model_of(1));
   EXPECT_THAT(analyser.sent_on("SIMULATE"), SizeIs(1));
 }
 
@@ -443,7 +444,7 @@ TEST(Analyser, WhatItAsksOfAModelDoesNotDependOnTheOrderOfArrival) {
   std::sort(messages.begin(), messages.end(), before);
   do {
     Watched analyser;
-    for (const Message& message : messages) analyser.hear(message.channel, message.payload);
+    for (const Message& message : messages) analyser.receive(message.channel, message.payload);
     std::multiset<std::pair<std::string, std::string>> asked;
     for (const Message& request : analyser.sent_on("SIMULATE")) {
       const auto of = wire::read<wire::SimulateRequest>(request.payload).value();
@@ -456,13 +457,13 @@ TEST(Analyser, WhatItAsksOfAModelDoesNotDependOnTheOrderOfArrival) {
 
 TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
   Watched analyser;
-  analyser.hear("PARAMETERS", model_of(0));
-  analyser.hear("ROUND", round_of(0, false));
+  analyser.receive("PARAMETERS", model_of(0));
+  analyser.receive("ROUND", round_of(0, false));
   analyser.finish_stores();
   analyser.finish(analyser.ids("report").at(0));
   EXPECT_FALSE(analyser.core.status().finished);
-  analyser.hear("PARAMETERS", model_of(1));
-  analyser.hear("ROUND", round_of(1, true));
+  analyser.receive("PARAMETERS", model_of(1));
+  analyser.receive("ROUND", round_of(1, true));
   analyser.finish_stores();
   EXPECT_FALSE(analyser.core.status().finished);
   analyser.finish(analyser.ids("report").at(1));
@@ -471,20 +472,20 @@ TEST(Analyser, IsFinishedAfterTheReportOfTheLastRound) {
 
 TEST(Analyser, AFamilyStageKeepsTheGameOpenUntilItsLastRoundIsSaidOnceMore) {
   Watched analyser;
-  analyser.hear("PARAMETERS", model_of(1));
-  analyser.hear("ROUND", round_of(1, false));
+  analyser.receive("PARAMETERS", model_of(1));
+  analyser.receive("ROUND", round_of(1, false));
   analyser.finish_stores();
   analyser.finish(analyser.ids("report").at(0));
-  wire::Family family;
+  wire::CalibratedFamily family;
   family.name = "family-1";
   family.parameters = material::default_parameters();
-  analyser.hear("FAMILY", wire::write(family));
-  analyser.hear("FAMILY_GAMUT", wire::write(wire::FamilyGamut{}));
+  analyser.receive("FAMILY", wire::write(family));
+  analyser.receive("FAMILY_GAMUT", wire::write(wire::FamilyGamut{}));
   EXPECT_THAT(analyser.ids("store"), SizeIs(4)) << "kept like everything else";
   analyser.finish_stores();
   EXPECT_FALSE(analyser.core.status().finished);
-  analyser.hear("ROUND", round_of(1, true));
-  analyser.hear("ROUND", round_of(1, false));  // an old word that comes late
+  analyser.receive("ROUND", round_of(1, true));
+  analyser.receive("ROUND", round_of(1, false));  // an old word that comes late
   analyser.finish_stores();
   analyser.finish(analyser.ids("report").at(1));
   EXPECT_TRUE(analyser.core.status().finished);
@@ -500,11 +501,11 @@ TEST(Analyser, AScenarioMayNameNoDiscretisationFloor) {
 
 TEST(Analyser, LateMessagesAfterTheLastRoundReachTheReport) {
   Watched analyser;
-  analyser.hear("PARAMETERS", model_of(0));
-  analyser.hear("ROUND", round_of(0, true));
+  analyser.receive("PARAMETERS", model_of(0));
+  analyser.receive("ROUND", round_of(0, true));
   analyser.finish_stores();
   analyser.finish(analyser.ids("report").at(0));
-  analyser.hear("MEASUREMENT", measurement_of("late", 5));
+  analyser.receive("MEASUREMENT", measurement_of("late", 5));
   analyser.finish_stores();
   ASSERT_THAT(analyser.ids("report"), SizeIs(2));
   EXPECT_NE(analyser.ids("report").at(0), analyser.ids("report").at(1));
@@ -514,11 +515,11 @@ TEST(Analyser, LateMessagesAfterTheLastRoundReachTheReport) {
 
 TEST(Analyser, RoundAnnouncedTwiceIsReportedOnce) {
   Watched analyser;
-  analyser.hear("PARAMETERS", model_of(0));
-  for (int i = 0; i < 2; ++i) analyser.hear("ROUND", round_of(0, false));
+  analyser.receive("PARAMETERS", model_of(0));
+  for (int i = 0; i < 2; ++i) analyser.receive("ROUND", round_of(0, false));
   analyser.finish_stores();
   analyser.finish(analyser.ids("report").at(0));
-  analyser.hear("ROUND", round_of(0, false));
+  analyser.receive("ROUND", round_of(0, false));
   EXPECT_THAT(analyser.ids("report"), SizeIs(1));
 }
 

@@ -13,6 +13,7 @@
 #include "animation/scene.hpp"
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "pattern/phase_colours.hpp"
 
 namespace nacre::animation {
 namespace {
@@ -54,6 +55,12 @@ TEST(Colour, TheGlowRisesEvenlyInLightness) {
 TEST(Colour, BlendsReachBothEnds) {
   EXPECT_EQ(blend(0x123456, 0xfedcba, 0.0), 0x123456u);
   EXPECT_EQ(blend(0x123456, 0xfedcba, 1.0), 0xfedcbau);
+}
+
+TEST(Colour, UnstrainedElementsHaveTheColoursOfTheirPhases) {
+  EXPECT_EQ(element_colour(0, 0.0), pattern::kSoftRgb);
+  EXPECT_EQ(element_colour(1, 0.0), pattern::kRigidRgb);
+  EXPECT_EQ(element_colour(2, 0.0), pattern::kInterfaceRgb);
 }
 
 TEST(Colour, MaterialsDifferAtRestAndAgreeUnderTheGlow) {

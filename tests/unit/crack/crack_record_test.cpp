@@ -20,10 +20,10 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-TEST(CrackRecord, AStraightCrackIsAsLongAsTheWayItMakes) {
-  const Record record = drawn_record({"..........",  //
-                                      "oooxxsiixx",  //
-                                      ".........."});
+TEST(CrackRecord, AStraightCrackIsAsLongAsTheColumnsItCrosses) {
+  const CrackRecord record = drawn_record({"..........",  //
+                                           "oooxxsiixx",  //
+                                           ".........."});
   ASSERT_TRUE(record.path);
   EXPECT_DOUBLE_EQ(record.path->ratio(), 1.0);
   EXPECT_NEAR(record.path->length_m, 7 * kSize, 1e-15);
@@ -38,12 +38,12 @@ TEST(CrackRecord, AStraightCrackIsAsLongAsTheWayItMakes) {
 }
 
 TEST(CrackRecord, ADeflectedCrackIsLongerByItsSlope) {
-  const Record record = drawn_record({"........x.",  //
-                                      ".......x..",  //
-                                      "......x...",  //
-                                      ".....x....",  //
-                                      "....x.....",  //
-                                      "ooox......"});
+  const CrackRecord record = drawn_record({"........x.",  //
+                                           ".......x..",  //
+                                           "......x...",  //
+                                           ".....x....",  //
+                                           "....x.....",  //
+                                           "ooox......"});
   EXPECT_NEAR(record.path->length_m, (5 * std::sqrt(2.0) + 1) * kSize, 1e-12);
   EXPECT_NEAR(record.path->straight_length_m, 6 * kSize, 1e-12);
   EXPECT_FALSE(record.path->crosses);
@@ -51,17 +51,17 @@ TEST(CrackRecord, ADeflectedCrackIsLongerByItsSlope) {
 }
 
 TEST(CrackRecord, AStepAlongThePullCountsWithItsHeight) {
-  const Record record = drawn_record({".....xxxxx",  //
-                                      ".....x....",  //
-                                      ".....x....",  //
-                                      ".....x....",  //
-                                      "oooxxx...."});
+  const CrackRecord record = drawn_record({".....xxxxx",  //
+                                           ".....x....",  //
+                                           ".....x....",  //
+                                           ".....x....",  //
+                                           "oooxxx...."});
   // Corners are cut: 3 -> 4 -> diagonal -> up 2 -> diagonal -> on.
   EXPECT_NEAR(record.path->length_m, (1 + std::sqrt(2.0) + 2 + std::sqrt(2.0) + 3 + 1) * kSize, 1e-12);
   EXPECT_NEAR(record.path->straight_length_m, 7 * kSize, 1e-12);
 }
 
-TEST(CrackRecord, ALongWayOffThePathIsABranchAShortOneIsNot) {
+TEST(CrackRecord, ALongBranchCountsAShortOneDoesNot) {
   const auto fork = [](int height) {
     std::vector<std::string> lines(10, std::string(20, '.'));
     for (int column = 0; column < 20; ++column) lines[9][column] = column < 4 ? 'o' : 'x';
@@ -97,7 +97,7 @@ TEST(CrackRecord, TwoDisjointCracksAreBridgedOnThePathAndCountedApart) {
                                           "....................",  //
                                           "....................",  //
                                           "oooxxxxxx..........."};
-  const Record record = drawn_record(lines);
+  const CrackRecord record = drawn_record(lines);
   EXPECT_TRUE(record.path->crosses);
   EXPECT_GT(record.path->bridged_share, 0.05);
   EXPECT_LT(record.path->bridged_share, 0.25);
@@ -108,16 +108,16 @@ TEST(CrackRecord, TwoDisjointCracksAreBridgedOnThePathAndCountedApart) {
   apart[1] = "....................";
   apart[4] = "oooxxxxxxxxxxxxxxxxx";
   apart[0] = "....xxxx....xxx.....";
-  const Record beside = drawn_record(apart);
-  EXPECT_NEAR(beside.path->bridged_share, 0.0, 1e-15);
-  EXPECT_EQ(beside.separate_cracks, 1) << "three elements are no crack yet";
+  const CrackRecord separate = drawn_record(apart);
+  EXPECT_NEAR(separate.path->bridged_share, 0.0, 1e-15);
+  EXPECT_EQ(separate.separate_cracks, 1) << "three elements are no crack yet";
 }
 
 TEST(CrackRecord, OfEquallyLongWaysTheOneThatFailedFirstIsThePath) {
   const Drawing drawing = draw({"...xxx....",  //
                                 "oox...xxxx",  //
                                 "...xxx...."});
-  const auto in_row = [&](const Record& record, int row) {
+  const auto in_row = [&](const CrackRecord& record, int row) {
     return std::any_of(record.path->elements.begin(), record.path->elements.end(),
                        [&](int e) { return e / drawing.grid.columns == row; });
   };
@@ -126,21 +126,21 @@ TEST(CrackRecord, OfEquallyLongWaysTheOneThatFailedFirstIsThePath) {
     for (tester::Break& broken : order)
       if (broken.element / drawing.grid.columns == late_row) broken.strain += 1e-3;
     std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.strain < b.strain; });
-    const Record record = crack_record(drawing.grid, order);
+    const CrackRecord record = crack_record(drawing.grid, order);
     EXPECT_FALSE(in_row(record, late_row));
     EXPECT_TRUE(in_row(record, 2 - late_row));
   }
 }
 
 TEST(CrackRecord, WithoutFailedElementsThereIsNoPath) {
-  const Record record = drawn_record({"....", "oo..", "...."});
+  const CrackRecord record = drawn_record({"....", "oo..", "...."});
   EXPECT_FALSE(record.path);
   EXPECT_THAT(record.order, IsEmpty());
   EXPECT_EQ(record.branches, 0);
 }
 
 TEST(CrackRecord, WithoutANotchThePathBeginsFarthestLeft) {
-  const Record record = drawn_record({"......", "..xxx.", "......"});
+  const CrackRecord record = drawn_record({"......", "..xxx.", "......"});
   EXPECT_THAT(record.path->elements, ElementsAre(8, 9, 10));
   EXPECT_DOUBLE_EQ(record.path->ratio(), 1.0);
 }
@@ -172,7 +172,7 @@ TEST(CrackRecord, MirroringTheSpecimenMirrorsTheRecord) {
     };
     for (int e = 0; e < drawing.grid.element_count(); ++e) mirrored.grid.phase[mirror(e)] = drawing.grid.phase[e];
     for (tester::Break& broken : mirrored.order) broken.element = mirror(broken.element);
-    const Record a = crack_record(drawing.grid, drawing.order), b = crack_record(mirrored.grid, mirrored.order);
+    const CrackRecord a = crack_record(drawing.grid, drawing.order), b = crack_record(mirrored.grid, mirrored.order);
     std::vector<int> path = a.path->elements;
     std::transform(path.begin(), path.end(), path.begin(), mirror);
     EXPECT_EQ(path, b.path->elements);
@@ -186,7 +186,7 @@ TEST(CrackRecord, MirroringTheSpecimenMirrorsTheRecord) {
 TEST(CrackRecord, NoPathIsShorterThanStraightAndSharesAddUp) {
   for (unsigned seed = 10; seed < 60; ++seed) {
     const Drawing drawing = scattered(seed);
-    const Path path = crack_record(drawing.grid, drawing.order).path.value();
+    const CrackPath path = crack_record(drawing.grid, drawing.order).path.value();
     EXPECT_GE(path.ratio(), 1.0);
     EXPECT_NEAR(path.material[0] + path.material[1] + path.material[2], 1.0, 1e-12);
     EXPECT_GE(path.bridged_share, 0.0);
@@ -200,7 +200,7 @@ TEST(CrackRecord, OfASimulatedSpecimenRunsFromTheNotch) {
   const tester::Simulation simulation{
       pattern::Mixture{1.0}, material::default_parameters(), {}, tester::Fidelity::tiny};
   const tester::ToughnessResult result = tester::test_toughness(simulation).value();
-  const Record record = record_of(simulation, result.breaks);
+  const CrackRecord record = record_of(simulation, result.breaks);
   EXPECT_EQ(record.columns, 40);
   EXPECT_EQ(record.rows, 40);
   ASSERT_TRUE(record.path);

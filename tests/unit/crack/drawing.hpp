@@ -37,7 +37,7 @@ inline Drawing draw(const std::vector<std::string>& lines) {
   return drawing;
 }
 
-inline Record drawn_record(const std::vector<std::string>& lines) {
+inline CrackRecord drawn_record(const std::vector<std::string>& lines) {
   Drawing drawing = draw(lines);
   return crack_record(drawing.grid, std::move(drawing.order));
 }

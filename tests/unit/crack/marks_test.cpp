@@ -63,7 +63,7 @@ TEST(Marks, BranchesAreAsManyAsTheRecordCounts) {
   const std::vector<std::string> fork = {"..........xx..", ".........x....", "........x.....",
                                          ".......x......", "......x.......", ".....x........",
                                          "....x.........", "...x..........", "ooxxxxxxxxxxxx"};
-  const Record record = drawn_record(fork);
+  const CrackRecord record = drawn_record(fork);
   EXPECT_GT(record.branches, 0);
   EXPECT_EQ(of_kind(drawn(fork), MarkKind::branching).size(), static_cast<std::size_t>(record.branches));
 }

@@ -14,6 +14,8 @@
 #include "base/result.hpp"
 #include "dashboard/server.hpp"
 #include "fake_desk.hpp"
+#include "families/families_file.hpp"
+#include "material/parameter_file.hpp"
 #include "store/run_database.hpp"
 
 namespace nacre::dashboard {
@@ -351,7 +353,7 @@ TEST_F(DashboardOfARun, APersonGroupsMeasuredDesigns) {
   ASSERT_EQ(proposed["families"].size(), 1u);
 
   EXPECT_EQ(post("/api/grouping", R"({"families":[{"name":"mine","seeds":["577fffe9fffdef"]}]})").status, 200);
-  EXPECT_EQ(desk_.groupings.at(0), (std::vector<families::Family>{{"mine", {pattern::Pattern(0x577fffe9fffdef)}}}));
+  EXPECT_EQ(desk_.groupings.at(0), (std::vector<families::SeedFamily>{{"mine", {pattern::Pattern(0x577fffe9fffdef)}}}));
   const Response unmeasured = post("/api/grouping", R"({"families":[{"name":"mine","seeds":["3ffc9b4ad4d2d9"]}]})");
   EXPECT_EQ(unmeasured.status, 400);
   EXPECT_THAT(unmeasured.body, HasSubstr("not measured"));

@@ -29,7 +29,7 @@ class FakeDesk : public Desk {
   std::optional<std::string> against(const Approval&) override { return reason_against; }
   Delivery decide(const Approval& approval) override { return approvals.push_back(approval), answer; }
 
-  void keep_grouping(const std::filesystem::path&, const std::vector<families::Family>& families) override {
+  void keep_grouping(const std::filesystem::path&, const std::vector<families::SeedFamily>& families) override {
     groupings.push_back(families);
   }
 
@@ -42,7 +42,7 @@ class FakeDesk : public Desk {
   std::vector<measurement::SpecimenRecord> specimens;
   std::vector<SpecimenReview> reviews;
   std::vector<Approval> approvals;
-  std::vector<std::vector<families::Family>> groupings;
+  std::vector<std::vector<families::SeedFamily>> groupings;
 };
 
 }  // namespace nacre::dashboard

@@ -146,7 +146,8 @@ TEST(DropletPlan, InterfaceAreasBetweenUnlikePixelsAreHalfRigid) {
   const Slice slice = plan.slice(0);
   std::map<Area, DropletCount> by_area;
   for (int row = 0; row < slice.rows; ++row) {
-    for (int column = 0; column < slice.columns; ++column) ++by_area[plan.area(column, row)][slice.at(column, row)];
+    for (int column = 0; column < slice.columns; ++column)
+      ++by_area[plan.area(column, row)][static_cast<std::size_t>(slice.at(column, row))];
   }
   ASSERT_EQ(by_area.size(), 4U);
   for (const Area area : {Area::type_1, Area::type_2, Area::type_3})
@@ -185,7 +186,7 @@ TEST(DropletPlan, AMixtureIsRandomWithItsFractionInEveryLayerAndTheSameForASeed)
     alike += lower.droplets[i] == upper.droplets[i];
     unlike_in_a_row += lower.droplets[i] != lower.droplets[i + 1];
   }
-  // Independent of the layer above and of the droplet beside it.
+  // Independent of the layer above and of the neighbouring droplet.
   EXPECT_NEAR(double(alike) / pairs, 0.65 * 0.65 + 0.35 * 0.35, 0.003);
   EXPECT_NEAR(double(unlike_in_a_row) / pairs, 2 * 0.65 * 0.35, 0.003);
   EXPECT_EQ(DropletPlan(mixture, {}).slice(10), lower);
@@ -270,7 +271,7 @@ TEST(DropletPlan, TheBarHasTheOutlineOfAstmD638TypeOne) {
 
 TEST(DropletPlan, RigidGripsLeaveTheGaugeAlone) {
   const Slice plain = DropletPlan({.design = kPublished}, {}).slice(0);
-  const Slice gripped = DropletPlan({.design = kPublished, .grips = Grips::rigid}, {}).slice(0);
+  const Slice gripped = DropletPlan({.design = kPublished, .grips = GripMaterial::rigid}, {}).slice(0);
   for (int row = 0; row < plain.rows; ++row) {
     const double along_mm = (row + 0.5) * 25.4 / 600;
     const bool grip = along_mm < 25.0 || along_mm > 79.0;

@@ -35,15 +35,15 @@ TEST(Job, EverySpecimenLiesOnItsTrayApartFromTheOthers) {
   const Job job = plan_job(request);
   ASSERT_EQ(job.specimens.size(), 24U);
   EXPECT_GT(job.trays, 1);
-  for (const Placed& a : job.specimens) {
-    const Model& model = job.models[a.model];
+  for (const PlacedSpecimen& a : job.specimens) {
+    const PrintModel& model = job.models[a.model];
     EXPECT_GE(a.x_mm, request.gap_mm);
     EXPECT_GE(a.y_mm, request.gap_mm);
     EXPECT_LE(a.x_mm + model.size_x_mm, request.printer.tray_x_mm - request.gap_mm);
     EXPECT_LE(a.y_mm + model.size_y_mm, request.printer.tray_y_mm - request.gap_mm);
-    for (const Placed& b : job.specimens) {
+    for (const PlacedSpecimen& b : job.specimens) {
       if (a.label == b.label || a.tray != b.tray) continue;
-      const Model& other = job.models[b.model];
+      const PrintModel& other = job.models[b.model];
       const double gap = request.gap_mm - 1e-9;
       const bool apart = a.x_mm + model.size_x_mm + gap <= b.x_mm || b.x_mm + other.size_x_mm + gap <= a.x_mm ||
                          a.y_mm + model.size_y_mm + gap <= b.y_mm || b.y_mm + other.size_y_mm + gap <= a.y_mm;
@@ -61,7 +61,7 @@ TEST(Job, EveryModelIsPrintedOnceBeforeAnyIsPrintedAgain) {
   const Job job = plan_job(request_of(4, 3));
   for (const tester::TestKind test : {tester::TestKind::toughness, tester::TestKind::modulus}) {
     std::vector<std::size_t> order;
-    for (const Placed& specimen : job.specimens) {
+    for (const PlacedSpecimen& specimen : job.specimens) {
       if (job.models[specimen.model].wanted.test == test) order.push_back(specimen.model);
     }
     ASSERT_EQ(order.size(), 12U);
@@ -77,7 +77,7 @@ TEST(Job, TheOrderIsRandomInTheSeedAlone) {
     JobRequest request = request_of(5, 2);
     request.seed = seed;
     std::vector<std::size_t> models;
-    for (const Placed& specimen : plan_job(request).specimens) models.push_back(specimen.model);
+    for (const PlacedSpecimen& specimen : plan_job(request).specimens) models.push_back(specimen.model);
     return models;
   };
   EXPECT_EQ(order_of(1), order_of(1));
@@ -150,8 +150,8 @@ TEST(BuildSheet, SaysWhatIsInTheSlices) {
     EXPECT_TRUE(fs::exists(folder / model["name"].get<std::string>() / "preview.png"));
   }
   const std::string html = read_file(folder / "build_sheet.html"), table = read_file(folder / "specimens.csv");
-  EXPECT_NE(html.find("soft is black, rigid white"), std::string::npos) << "the preview has no legend of its own";
-  for (const Placed& specimen : job.specimens) {
+  EXPECT_NE(html.find("background:#22262c\"></span>soft"), std::string::npos) << "a legend of the colours";
+  for (const PlacedSpecimen& specimen : job.specimens) {
     EXPECT_NE(html.find(specimen.label), std::string::npos);
     EXPECT_NE(table.find("," + specimen.label + ","), std::string::npos);
   }

@@ -12,9 +12,13 @@
 
 #include "base/files.hpp"
 #include "fabricate/build_sheet.hpp"
+#include "fabricate/build_sheet_html.hpp"
 #include "measurement/conditions.hpp"
 #include "measurement/import.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/specimen_checks.hpp"
 #include "measurement/specimen_sheet.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::fabricate {
 namespace {
@@ -25,7 +29,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// A homogeneous coupon as a diagnosis orders it: ten times as fast, unloaded on the way.
-Wanted coupon(const std::string& order_id) {
+WantedSpecimens coupon(const std::string& order_id) {
   return {.design = pattern::Mixture{0.5},
           .test = TestKind::tensile,
           .strain_rate_per_s = 6.17e-3,
@@ -34,7 +38,7 @@ Wanted coupon(const std::string& order_id) {
           .order_id = order_id};
 }
 
-Job job_of(std::vector<Wanted> wanted) { return plan_job({.name = "job", .wanted = std::move(wanted)}); }
+Job job_of(std::vector<WantedSpecimens> wanted) { return plan_job({.name = "job", .wanted = std::move(wanted)}); }
 
 class OrderedTest : public testing::Test {
  protected:
@@ -93,12 +97,12 @@ TEST_F(OrderedTest, OfASpecimenThatNobodyOrderedHasNoOrder) {
 }
 
 TEST_F(OrderedTest, OrdersOfOneDesignTestAndOrientationStayApart) {
-  Wanted slow = coupon("r2/slow"), thin = coupon("r2/thin");
+  WantedSpecimens slow = coupon("r2/slow"), thin = coupon("r2/thin");
   slow.strain_rate_per_s = 6.17e-4;
   thin.thickness_mm = 1.6;
   const Job job = job_of({coupon("r2/fast"), slow, thin, coupon("r3/again")});
   std::set<std::string> names;
-  for (const Model& model : job.models) names.insert(model.name);
+  for (const PrintModel& model : job.models) names.insert(model.name);
   EXPECT_EQ(names.size(), 4U) << "a folder for each";
   std::map<std::string, std::set<std::pair<double, double>>> conditions;
   std::map<std::string, int> specimens;
@@ -116,10 +120,10 @@ TEST_F(OrderedTest, OrdersOfOneDesignTestAndOrientationStayApart) {
 }
 
 TEST_F(OrderedTest, ComesBackThroughTheImportAsItWasOrdered) {
-  const Wanted ordered = coupon("r2/interface/tensile/discrimination-1");
+  const WantedSpecimens ordered = coupon("r2/interface/tensile/discrimination-1");
   const Job job = job_of({ordered});
   double modulus_mpa = 2000.0;
-  for (const Placed& specimen : job.specimens)
+  for (const PlacedSpecimen& specimen : job.specimens)
     write_file_atomically(folder_ / (specimen.label + ".csv"), export_without_time(ordered.loading, modulus_mpa++));
   const auto import = measurement::import_exports({}, write_table(job));
   for (const auto& fault : import.rejected) ADD_FAILURE() << to_string(fault);
@@ -130,7 +134,7 @@ TEST_F(OrderedTest, ComesBackThroughTheImportAsItWasOrdered) {
     const measurement::SpecimenRecord& record = records.emplace_back(one.record);
     EXPECT_TRUE(record.valid);
     EXPECT_EQ(record.test, TestKind::tensile);
-    EXPECT_EQ(record.conditions, (tester::TestConditions{.strain_rate_per_s = 6.17e-3})) << "what answers the order";
+    EXPECT_EQ(record.conditions, (tester::TestConditions{.strain_rate_per_s = 6.17e-3})) << "as ordered";
     EXPECT_TRUE(record.design == ordered.design);
     EXPECT_EQ(record.other_columns.at("order_id"), ordered.order_id);
     EXPECT_EQ(record.other_columns.at("tray"), "1");

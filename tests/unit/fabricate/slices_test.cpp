@@ -8,6 +8,7 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "fabricate/slice_png.hpp"
 
 namespace nacre::fabricate {
 namespace {

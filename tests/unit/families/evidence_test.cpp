@@ -9,10 +9,10 @@ namespace nacre::families {
 namespace {
 
 /// `confounder` drives both `rider` and the outcome; `driver` the outcome alone; `bystander` nothing.
-struct Family {
-  Column confounder{"confounder", {}}, rider{"rider", {}}, driver{"driver", {}}, bystander{"bystander", {}},
+struct FamilySample {
+  FeatureColumn confounder{"confounder", {}}, rider{"rider", {}}, driver{"driver", {}}, bystander{"bystander", {}},
       outcome{"T", {}};
-  explicit Family(int rows, std::uint64_t seed = 1) {
+  explicit FamilySample(int rows, std::uint64_t seed = 1) {
     RandomStream random(seed, "evidence test");
     for (int i = 0; i < rows; ++i) {
       const double c = random.normal(), d = random.normal();
@@ -26,7 +26,7 @@ struct Family {
 };
 
 TEST(Associations, ControlsTakeOutWhatFeatureAndOutcomeOweToThem) {
-  const Family family(150);
+  const FamilySample family(150);
   const auto found =
       associations({family.rider, family.driver, family.bystander}, family.outcome, {family.confounder}, 1);
   EXPECT_EQ(found[0].feature, "driver");
@@ -41,9 +41,9 @@ TEST(Associations, ControlsTakeOutWhatFeatureAndOutcomeOweToThem) {
 TEST(Associations, OfNothingAreRarelyClaimed) {
   int claimed = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const Family family(40, seed);
+    const FamilySample family(40, seed);
     RandomStream random(seed, "outcome");
-    Column noise{"noise", {}};
+    FeatureColumn noise{"noise", {}};
     for (int i = 0; i < 40; ++i) noise.values.push_back(random.normal());
     claimed += associations({family.rider, family.driver, family.bystander}, noise, {family.confounder}, seed, 200)[0]
                    .p_family_wise < 0.05;
@@ -52,7 +52,7 @@ TEST(Associations, OfNothingAreRarelyClaimed) {
 }
 
 TEST(Associations, RefuseTooFewRows) {
-  const Family family(5);
+  const FamilySample family(5);
   EXPECT_THROW(associations({family.driver}, family.outcome, {family.confounder}, 1), InputError);
 }
 

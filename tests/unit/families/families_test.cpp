@@ -9,6 +9,7 @@
 #include "families/dense_sampling.hpp"
 #include "families/distances.hpp"
 #include "families/earth_movers.hpp"
+#include "families/families_file.hpp"
 #include "families/grouping.hpp"
 #include "families/interpolation.hpp"
 #include "families/isomap.hpp"
@@ -41,7 +42,7 @@ TEST(Barycentre, OfOnePatternIsItself) {
     std::vector<double> weights(3, 0.0);
     weights[k] = 1.0;
     EXPECT_EQ(barycentre(three, weights), three[k]) << "all weight on one source";
-    EXPECT_EQ(barycentre(three, weights, Cut::amount), three[k]) << "all weight on one source";
+    EXPECT_EQ(barycentre(three, weights, BarycentreCut::amount), three[k]) << "all weight on one source";
   }
 }
 
@@ -62,7 +63,7 @@ TEST(Barycentre, CutByAmountLiesBetweenItsSourcesInRigidFraction) {
       mean += weights[i] * three[i].rigid_fraction();
       most = std::max(most, three[i].rigid_fraction());
     }
-    const auto between = barycentre(three, weights, Cut::amount);
+    const auto between = barycentre(three, weights, BarycentreCut::amount);
     ASSERT_TRUE(between);
     constexpr double kCell = 0.011;  // one of a hundred
     EXPECT_GE(between->rigid_fraction(), mean - kCell);
@@ -125,9 +126,9 @@ TEST(Interpolation, AddsFeasiblePatternsNearTheSeedThatAreNew) {
 }
 
 /// Six neighbours of a soft, a middle and a stiff pattern, one after another.
-std::vector<Member> three_kinds() {
+std::vector<MeasuredPattern> three_kinds() {
   const std::vector<Pattern> seeds = random_patterns(12);
-  std::vector<Member> designs;
+  std::vector<MeasuredPattern> designs;
   for (const std::size_t kind : {0u, 5u, 11u}) {  // strata
     DenseSampler sampler({seeds[kind]}, {.seed = kind + 1});
     sampler.next();
@@ -140,8 +141,8 @@ std::vector<Member> three_kinds() {
 }
 
 TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
-  const std::vector<Member> designs = three_kinds();
-  const std::vector<Family> families = proposed_families(designs);
+  const std::vector<MeasuredPattern> designs = three_kinds();
+  const std::vector<SeedFamily> families = proposed_families(designs);
   ASSERT_EQ(families.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     ASSERT_EQ(families[k].seeds.size(), 6u);
@@ -151,17 +152,17 @@ TEST(Grouping, FindsTheFamiliesThatWerePlanted) {
 }
 
 TEST(Grouping, APatternWithoutSoftPixelsStandsAsideAndDisturbsNobody) {
-  std::vector<Member> designs = three_kinds();
-  for (Member& design : designs) design.performance = {2e9, 5e5};  // shape alone tells
-  const std::vector<Family> without = proposed_families(designs);
+  std::vector<MeasuredPattern> designs = three_kinds();
+  for (MeasuredPattern& design : designs) design.performance = {2e9, 5e5};  // shape alone tells
+  const std::vector<SeedFamily> without = proposed_families(designs);
   Pattern rigid;
   for (int i = 0; i < pattern::kQuarter; ++i)
     for (int j = 0; j < pattern::kQuarter; ++j) rigid.set(i, j, true);
   designs.push_back({rigid, {2e9, 5e5}});
-  const std::vector<Family> with = proposed_families(designs);
+  const std::vector<SeedFamily> with = proposed_families(designs);
   ASSERT_EQ(with.size(), without.size() + 1);
-  for (const Family& family : without)
-    EXPECT_TRUE(std::ranges::any_of(with, [&](const Family& each) { return each.seeds == family.seeds; }));
+  for (const SeedFamily& family : without)
+    EXPECT_TRUE(std::ranges::any_of(with, [&](const SeedFamily& each) { return each.seeds == family.seeds; }));
 }
 
 TEST(Grouping, SeesOneFamilyWhereNothingParts) {
@@ -169,7 +170,7 @@ TEST(Grouping, SeesOneFamilyWhereNothingParts) {
   DenseSampler sampler({seed}, {});
   while (sampler.members().size() < 30) sampler.next();
   RandomStream random(5, "properties");
-  std::vector<Member> designs;
+  std::vector<MeasuredPattern> designs;
   for (const Pattern& pattern : sampler.members())
     designs.push_back({pattern, {random.uniform(1e9, 1.1e9), random.uniform(1e5, 1.1e5)}});
   EXPECT_EQ(proposed_families(designs).size(), 1u);
@@ -177,7 +178,7 @@ TEST(Grouping, SeesOneFamilyWhereNothingParts) {
 
 TEST(Grouping, KeepsTheFirstRanksOfWhatWasMeasured) {
   const std::vector<Pattern> some = random_patterns(4);
-  const std::vector<Member> measured = {
+  const std::vector<MeasuredPattern> measured = {
       {some[0], {3.0, 1.0}}, {some[1], {2.0, 2.0}}, {some[2], {1.5, 1.5}}, {some[3], {1.0, 1.0}}};
   EXPECT_EQ(near_pareto(measured, 1).size(), 2u);
   EXPECT_EQ(near_pareto(measured, 2).size(), 3u);
@@ -185,7 +186,7 @@ TEST(Grouping, KeepsTheFirstRanksOfWhatWasMeasured) {
 
 TEST(FamiliesFile, ComesBackAsItWasWritten) {
   const std::vector<Pattern> some = random_patterns(4);
-  const std::vector<Family> families = {{"family-1", {some[0], some[1]}}, {"arcs", {some[2]}}};
+  const std::vector<SeedFamily> families = {{"family-1", {some[0], some[1]}}, {"arcs", {some[2]}}};
   const auto file = std::filesystem::path(testing::TempDir()) / "families.toml";
   write_file_atomically(file, to_toml(families));
   EXPECT_EQ(read_families(file), families);
@@ -198,16 +199,15 @@ TEST(FamiliesFile, ComesBackAsItWasWritten) {
       EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
     }
   };
-  refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1:1: a family is expected to have seeds");
-  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n",
-          "families.toml:1:1: a family is expected to have a name");
+  refused("[[family]]\nname = \"a\"\nseeds = []\n", "families.toml:1:1: expected seeds = [\"key\", ...] in the family");
+  refused("[[family]]\nname = \"a/b\"\nseeds = [\"577fffe9fffdef\"]\n", "families.toml:1:1: expected a name");
   refused("[[family]]\nname = \"2\"\nseeds = [\"577fffe9fffdef\"]\n", "not digits alone");
   refused("[[family]]\nname = \"" + std::string(65, 'a') + "\"\nseeds = [\"577fffe9fffdef\"]\n", "at most 64");
   refused("[[family]]\nname = \"a\"\nseeds = [\"577f\"]\n", "families.toml:3:10: seed '577f'");
   refused(
       "[[family]]\nname = \"a\"\nseeds = [\"577fffe9fffdef\"]\n[[family]]\nname = \"b\"\nseeds = "
       "[\"577fffe9fffdef\"]\n",
-      "families.toml:4:1: seed '577fffe9fffdef' stands here for the second time");
+      "families.toml:4:1: seed '577fffe9fffdef' is listed a second time");
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(MirrorCell, EnergiesAddUpToTheWorkOfThePull) {
   EXPECT_NEAR(energy / (0.5 * cell->modulus_pa * length * length), 1.0, 1e-12);
 }
 
-/// Two cells beside each other, and two above, each the other's mirror image, are the same medium.
+/// Two cells side by side, and two on top of each other, mirror images of each other, are the same medium.
 TEST(MirrorCell, MirroredItIsTheSameMedium) {
   constexpr int kSide = 5;
   const RandomCell half = random_cell(kSide, 2);

@@ -60,7 +60,7 @@ TEST(Film, EnergiesAreRightToALevelWhereTheyAreInTheScale) {
 TEST(Film, DisplacementsAreRightToAStepWhereMaterialStands) {
   const double step_m = kDisplacementStep * sample().element_size_m * 1.01;
   const auto& exact = filmed().frames.back();
-  const Frame& frame = sample().frames.back();
+  const FilmFrame& frame = sample().frames.back();
   for (int row = 0; row < 40; ++row)
     for (int column = 0; column < 40; ++column) {
       if (exact.material[row * 40 + column] == 3) continue;
@@ -103,7 +103,7 @@ TEST(Film, DamageIsNamed) {
   EXPECT_THAT(decode(columns).error().message, HasSubstr("columns: -1, expected"));
 }
 
-// Whoever draws the crack walks along these elements.
+// The crack is drawn along these elements.
 TEST(Film, BreaksThatCannotBeAreRefused) {
   Film film = sample();
   film.crack.order[1] = film.crack.order[0];

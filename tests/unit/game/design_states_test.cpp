@@ -47,7 +47,7 @@ TEST(DesignStates, ADesignGoesFromPendingToMeasured) {
   LaboratoryFacts facts;
   facts.proposed = {{0, kDesign}};
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::pending);
-  facts.decisions = {{0, kDesign, true, "lab", "go"}};
+  facts.approvals = {{0, kDesign, true, "lab", "go"}};
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::approved);
   facts.orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::approved);
@@ -82,13 +82,13 @@ TEST(DesignStates, WhatWasMeasuredWasPrinted) {
   facts.orders = {order_of(kDesign), order_of(kDesign, tester::TestKind::toughness)};
   facts.book.enter(specimen_of("A-1", kDesign), "");
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::printed);
-  EXPECT_EQ(design_states(facts).front().printed, 1) << "nobody said so";
+  EXPECT_EQ(design_states(facts).front().printed, 1) << "it was not reported";
 }
 
 TEST(DesignStates, TheFirstDecisionCounts) {
   LaboratoryFacts facts;
   facts.proposed = {{0, kDesign}};
-  facts.decisions = {{0, kDesign, false, "lab", "islands"}, {0, kDesign, true, "other", "go"}};
+  facts.approvals = {{0, kDesign, false, "lab", "islands"}, {0, kDesign, true, "other", "go"}};
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::rejected);
   EXPECT_EQ(design_states(facts).front().why, "islands");
 }
@@ -96,12 +96,12 @@ TEST(DesignStates, TheFirstDecisionCounts) {
 TEST(DesignStates, TheOppositeOfTheFirstDecisionOnAProposalDoesNotCount) {
   LaboratoryFacts facts;
   const StatedApproval yes{0, kDesign, true, "other", "go"};
-  EXPECT_FALSE(decision_against(facts, yes));
-  facts.decisions = {{0, kOther, false, "lab", ""}, {0, kDesign, false, "lab", "islands"}, yes};
-  ASSERT_TRUE(decision_against(facts, yes));
-  EXPECT_EQ(decision_against(facts, yes)->why, "islands");
-  EXPECT_FALSE(decision_against(facts, {0, kDesign, false, "other", "again"})) << "the same word";
-  EXPECT_FALSE(decision_against(facts, {1, kDesign, true, "other", "go"})) << "another proposal";
+  EXPECT_FALSE(approval_against(facts, yes));
+  facts.approvals = {{0, kOther, false, "lab", ""}, {0, kDesign, false, "lab", "islands"}, yes};
+  ASSERT_TRUE(approval_against(facts, yes));
+  EXPECT_EQ(approval_against(facts, yes)->why, "islands");
+  EXPECT_FALSE(approval_against(facts, {0, kDesign, false, "other", "again"})) << "the same word";
+  EXPECT_FALSE(approval_against(facts, {1, kDesign, true, "other", "go"})) << "another proposal";
 }
 
 // The validation agent passes these over; a page that took them for decisions would hide the buttons that the game
@@ -109,11 +109,11 @@ TEST(DesignStates, TheOppositeOfTheFirstDecisionOnAProposalDoesNotCount) {
 TEST(DesignStates, WhatTheGamePassesOverDecidesNothing) {
   LaboratoryFacts facts;
   facts.proposed = {{1, kDesign}};
-  facts.decisions = {{-1, kDesign, true, "lab", "as my own"}, {7, kDesign, true, "lab", "no such round"}};
+  facts.approvals = {{-1, kDesign, true, "lab", "as my own"}, {7, kDesign, true, "lab", "no such round"}};
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::pending);
-  facts.decisions.push_back({1, kDesign, true, "lab", "go"});
+  facts.approvals.push_back({1, kDesign, true, "lab", "go"});
   EXPECT_EQ(stage_of(facts, kDesign), DesignStage::approved);
-  facts.decisions = {{-1, kOther, true, "lab", "as my own"}};
+  facts.approvals = {{-1, kOther, true, "lab", "as my own"}};
   EXPECT_EQ(stage_of(facts, kOther), DesignStage::approved) << "nobody proposed it";
 }
 
@@ -125,16 +125,16 @@ TEST(DesignStates, ADecisionThatWouldChangeNothingSaysWhy) {
   };
   EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "");
   EXPECT_EQ(reason({0, kDesign, true, "lab", ""}, false),
-            "this game does not ask for approvals: what is proposed is ordered");
+            "this game does not ask for approvals: proposed designs are ordered at once");
   EXPECT_EQ(reason({3, kDesign, true, "lab", ""}), "577fffe9fffdef is not in proposal 3");
   EXPECT_EQ(reason({-1, kDesign, true, "lab", ""}),
-            "577fffe9fffdef is proposed and waits for an answer: say yes to the proposal");
+            "577fffe9fffdef is proposed and waits for approval: approve it in the proposal");
   EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "");
   EXPECT_NE(reason({-1, kOther, false, "lab", ""}), "");
-  facts.decisions = {{0, kDesign, false, "Ada", "islands"}};
-  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "577fffe9fffdef was rejected before by Ada: that stands");
+  facts.approvals = {{0, kDesign, false, "Ada", "islands"}};
+  EXPECT_EQ(reason({0, kDesign, true, "lab", ""}), "577fffe9fffdef was already rejected by Ada, which is kept");
   facts.orders = both_orders_of(kOther);
-  EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "3ffc9b4ad4d2d9 was ordered before: that stands");
+  EXPECT_EQ(reason({-1, kOther, true, "lab", ""}), "3ffc9b4ad4d2d9 was already ordered; the order is kept");
 }
 
 TEST(DesignStates, WhatWaitsForAnAnswerWaitsWhateverWasPrintedOfIt) {
@@ -145,7 +145,7 @@ TEST(DesignStates, WhatWaitsForAnAnswerWaitsWhateverWasPrintedOfIt) {
   EXPECT_NE(why_void(facts, own, true).value_or(""), "") << "a printed look";
   facts.book.enter(specimen_of("look-1", kDesign), "");
   EXPECT_NE(why_void(facts, own, true).value_or(""), "") << "a measured one";
-  facts.decisions = {{0, kDesign, false, "lab", "no"}};
+  facts.approvals = {{0, kDesign, false, "lab", "no"}};
   EXPECT_EQ(why_void(facts, own, true), std::nullopt) << "refused as a proposal, and wanted all the same";
 }
 
@@ -174,7 +174,7 @@ TEST(DesignStates, PrintedSpecimensCountOnceForTheOrderTheyCarryOrFit) {
       {"A-1", kDesign, tester::TestKind::modulus, 0.0, orders[0].id},
       {"A-2", kDesign, tester::TestKind::modulus, 0.0, ""},
       {"A-3", kDesign, tester::TestKind::modulus, 0.0, ""},     // one too many
-      {"A-4", kDesign, tester::TestKind::toughness, 90.0, ""},  // turned: another question
+      {"A-4", kDesign, tester::TestKind::toughness, 90.0, ""},  // turned: another order
       {"A-5", kOther, tester::TestKind::toughness, 0.0, ""}};
   EXPECT_EQ(printed_for(orders, printed), (std::vector<int>{2, 0}));
 }

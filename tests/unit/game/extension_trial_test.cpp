@@ -8,9 +8,9 @@
 namespace nacre::game {
 namespace {
 
-TrialErrors errors_of(const std::vector<double>& adopted, const std::vector<double>& extended,
-                      int designs_a_round = 4) {
-  TrialErrors errors;
+ExtensionTrialErrors errors_of(const std::vector<double>& adopted, const std::vector<double>& extended,
+                               int designs_a_round = 4) {
+  ExtensionTrialErrors errors;
   for (std::size_t i = 0; i < adopted.size(); ++i)
     errors.modulus.push_back({.design = "design " + std::to_string(i),
                               .round = 1 + static_cast<int>(i) / designs_a_round,
@@ -39,7 +39,7 @@ TEST(ExtensionTrial, DesignsThatBothPredictSayNothing) {
 
 // Both are off by as much to either side: their mean would have done better.
 TEST(ExtensionTrial, ModelsThatStraddleTheTruthAreEqual) {
-  const TrialErrors errors = errors_of({0.05, 0.06, -0.06, 0.07}, {-0.05, -0.04, 0.04, -0.05});
+  const ExtensionTrialErrors errors = errors_of({0.05, 0.06, -0.06, 0.07}, {-0.05, -0.04, 0.04, -0.05});
   EXPECT_FALSE(gain_is_established(errors));
 }
 
@@ -51,13 +51,13 @@ TEST(ExtensionTrial, AnErrorJustSmallerIsNoEvidence) {
 TEST(ExtensionTrial, TwoDesignsAreTooFew) { EXPECT_FALSE(gain_is_established(errors_of({0.10, 0.10}, {0.01, 0.01}))); }
 
 TEST(ExtensionTrial, ALossIsNoGain) {
-  const TrialErrors errors = errors_of({0.01, -0.02, 0.01, -0.02}, {0.11, 0.09, -0.10, 0.12});
+  const ExtensionTrialErrors errors = errors_of({0.01, -0.02, 0.01, -0.02}, {0.11, 0.09, -0.10, 0.12});
   EXPECT_FALSE(gain_is_established(errors));
   EXPECT_GT(standing_of(errors.modulus, kLeastModulusError).for_adopted, 1.0);
 }
 
 TEST(ExtensionTrial, AShownLossOfToughnessForbidsIt) {
-  TrialErrors errors = errors_of({0.11, 0.09, 0.10, -0.12}, {0.01, 0.02, -0.01, 0.02});
+  ExtensionTrialErrors errors = errors_of({0.11, 0.09, 0.10, -0.12}, {0.01, 0.02, -0.01, 0.02});
   for (const OutOfSampleError& each : errors.modulus)
     errors.toughness.push_back({each.design, each.round, 0.1, each.adopted < 0.0 ? -0.6 : 0.6});
   EXPECT_FALSE(gain_is_established(errors));
@@ -72,7 +72,7 @@ TEST(ExtensionTrial, AModelThatIsNoBetterIsHardlyEverAdopted) {
   for (const auto& [own, common] : {std::pair{0.005, 0.0}, {0.01, 0.0}, {0.005, 0.01}, {0.01, 0.02}}) {
     int adopted = 0;
     for (int game = 0; game < kGames; ++game) {
-      TrialErrors errors;
+      ExtensionTrialErrors errors;
       bool ever = false;
       for (int round = 1; round <= 3; ++round) {
         const double offset = common * normal(random), other = common * normal(random);
@@ -97,7 +97,7 @@ TEST(ExtensionTrial, ADesignThatBothAreFarOffHardlyEverDecides) {
   constexpr int kGames = 400;
   int adopted = 0;
   for (int game = 0; game < kGames; ++game) {
-    TrialErrors errors;
+    ExtensionTrialErrors errors;
     bool ever = false;
     for (int round = 1; round <= 3; ++round) {
       for (int design = 0; design < 8; ++design) {
@@ -117,7 +117,7 @@ TEST(ExtensionTrial, OnlyDesignsThatBothHadPredictedCount) {
   measured.modulus_pa = 1e8;
   measured.toughness_pa = 2e5;
   const std::string name = measured.design.name();
-  TrialErrors errors;
+  ExtensionTrialErrors errors;
   errors.add(1, {measured}, {{name, {.modulus_pa = 1.1e8, .toughness_pa = {}, .curve = {}}}}, {});
   EXPECT_TRUE(errors.modulus.empty());
   errors.add(1, {measured}, {{name, {.modulus_pa = 1.1e8, .toughness_pa = {}, .curve = {}}}},

@@ -39,18 +39,18 @@ TEST(MeasurementBook, IdenticalRepeatIsIgnoredAndADifferentOneRefused) {
 
 TEST(MeasurementBook, ASpecimenPulledAtAnotherRateIsBesideItsOrder) {
   const std::vector<Order> orders = {order("o", 2)};
-  EXPECT_FALSE(beside_orders(specimen("as ordered"), orders));
+  EXPECT_FALSE(order_mismatch(specimen("as ordered"), orders));
   SpecimenRecord fast = specimen("fast"), thick = specimen("thick"), turned = specimen("turned");
   fast.conditions.strain_rate_per_s *= 2.0;
   thick.conditions.thickness_mm *= 1.12;
   turned.conditions.orientation_deg = 90.0;
-  ASSERT_TRUE(beside_orders(fast, orders));
-  EXPECT_NE(beside_orders(fast, orders)->find("fast"), std::string::npos);
-  EXPECT_NE(beside_orders(fast, orders)->find("0.00123 /s"), std::string::npos) << *beside_orders(fast, orders);
-  EXPECT_TRUE(beside_orders(thick, orders));
-  EXPECT_FALSE(beside_orders(turned, orders)) << "a question of its own";
+  ASSERT_TRUE(order_mismatch(fast, orders));
+  EXPECT_NE(order_mismatch(fast, orders)->find("fast"), std::string::npos);
+  EXPECT_NE(order_mismatch(fast, orders)->find("0.00123 /s"), std::string::npos) << *order_mismatch(fast, orders);
+  EXPECT_TRUE(order_mismatch(thick, orders));
+  EXPECT_FALSE(order_mismatch(turned, orders)) << "another order";
   fast.design = pattern::Mixture{1.0};
-  EXPECT_FALSE(beside_orders(fast, orders)) << "nobody ordered it";
+  EXPECT_FALSE(order_mismatch(fast, orders)) << "nobody ordered it";
 }
 
 TEST(MeasurementBook, ReplicatesCompleteAnOrderValidOrNot) {

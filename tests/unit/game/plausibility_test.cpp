@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tester/modulus.hpp"
+
 namespace nacre::game {
 namespace {
 

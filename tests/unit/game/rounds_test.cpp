@@ -50,13 +50,13 @@ TEST(Rounds, DiscriminationOrdersAreLimitedAndHaveIdsOfTheirOwn) {
   Scenario scenario;
   scenario.diagnosis.discrimination_orders = 2;
   const pattern::Design design = pattern::Pattern(7);
-  const Experiment turned{.design = design, .conditions = {.orientation_deg = 90.0}, .replicates = 3};
-  Experiment fast = turned;
+  const DiscriminationTest turned{.design = design, .conditions = {.orientation_deg = 90.0}, .replicates = 3};
+  DiscriminationTest fast = turned;
   fast.conditions.strain_rate_per_s *= 10.0;
-  Experiment third;
+  DiscriminationTest third;
   third.design = pattern::Pattern(9);
   const auto orders = discrimination_orders(scenario, 2, std::vector{turned, turned, fast, third});
-  ASSERT_EQ(orders.size(), 2u) << "a repeated question is ordered once, the third falls under the limit";
+  ASSERT_EQ(orders.size(), 2u) << "a repeated test is ordered once, the third falls under the limit";
   EXPECT_NE(orders[0].id, orders[1].id);
   EXPECT_EQ(orders[1].conditions, fast.conditions);
   scenario.diagnosis.discrimination_orders = 0;
@@ -64,9 +64,9 @@ TEST(Rounds, DiscriminationOrdersAreLimitedAndHaveIdsOfTheirOwn) {
 }
 
 TEST(Rounds, CalliperReadingsAnswerTheNominalThickness) {
-  EXPECT_TRUE(answers({.thickness_mm = 3.27}, {}));
-  EXPECT_FALSE(answers({.thickness_mm = 1.6}, {}));
-  EXPECT_FALSE(answers({.orientation_deg = 90.0}, {}));
+  EXPECT_TRUE(fulfils({.thickness_mm = 3.27}, {}));
+  EXPECT_FALSE(fulfils({.thickness_mm = 1.6}, {}));
+  EXPECT_FALSE(fulfils({.orientation_deg = 90.0}, {}));
 }
 
 TEST(Rounds, ReasonsOfOrdersComeBackFromTheirNamesAndNoOtherDoes) {

@@ -133,7 +133,7 @@ TEST(Standings, ATwinPulledFasterIsCalibratedOnButIsNeitherPredictedNorASeedOfFa
   EXPECT_EQ(set.size(), 3u) << "each predicted at its own rate";
   std::map<std::string, sysid::Prediction> predictions;
   predictions[design.name()].modulus_pa = 1.2e9;
-  const Predicted predicted = predicted_among(set, predictions);
+  const PredictedDesigns predicted = predicted_among(set, predictions);
   ASSERT_EQ(predicted.measured.size(), 1u);
   EXPECT_EQ(predicted.predicted.size(), 1u);
   EXPECT_EQ(predicted.measured.front().modulus_pa, 1e9);
@@ -169,7 +169,7 @@ TEST(Standings, PredictedDesignsAreMeasuredOnesWithTheirPredictions) {
   std::map<std::string, sysid::Prediction> predictions;
   predictions[predicted_design.name()].modulus_pa = 1.2e9;
   predictions["never measured"].modulus_pa = 5e9;
-  const Predicted predicted = predicted_among(set, predictions);
+  const PredictedDesigns predicted = predicted_among(set, predictions);
   ASSERT_EQ(predicted.measured.size(), 1u);
   ASSERT_EQ(predicted.predicted.size(), 1u);
   EXPECT_EQ(predicted.measured.front().design, predicted_design);

@@ -11,6 +11,7 @@
 
 #include "../../instrumented.hpp"
 #include "gpu/cuda.hpp"
+#include "gpu/emulated_device.hpp"
 
 namespace nacre::gpu {
 namespace {
@@ -54,7 +55,7 @@ void expect_agreement(const tester::ToughnessResult& batch, const tester::Toughn
   EXPECT_LT(tester::largest_difference(alone.curve, batch.curve, first), 1e-3);
   EXPECT_NEAR(batch.breaks.front().strain / first, 1.0, 1e-3);
   EXPECT_EQ(batch.breaks.front().element, alone.breaks.front().element);
-  // Behind the first failures rounding decides between nearly equal ways.
+  // After the first failures rounding decides between nearly equal paths.
   EXPECT_NEAR(std::log(batch.toughness_pa / alone.toughness_pa), 0.0, 0.3);
   EXPECT_EQ(batch.end, alone.end);
 }

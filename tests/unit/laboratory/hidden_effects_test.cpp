@@ -11,15 +11,19 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
 #include "laboratory/fracture_bench.hpp"
 #include "laboratory/hidden_coupon.hpp"
 #include "laboratory/laboratory.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "laboratory/modulus_bench.hpp"
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "material/pulled_bar.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/loading.hpp"
-#include "tester/tester.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::laboratory {
 namespace {
@@ -68,7 +72,7 @@ std::string made(const Truth& truth) {
 
 /// Everything that a record adds to a response.
 measurement::SpecimenRecord recorded(const Truth& truth, TestKind test) {
-  Response response{.modulus_pa = 1e9, .curve = {{0.0, 0.01, 0.02}, {0.0, 1e6, 2e5}}, .remark = {}};
+  TrueResponse response{.modulus_pa = 1e9, .curve = {{0.0, 0.01, 0.02}, {0.0, 1e6, 2e5}}, .remark = {}};
   return record_specimen(truth, {.design = some_pattern(), .test = test, .conditions = {}, .fidelity = truth.fidelity},
                          response, {.specimen = "s", .batch = "batch-3", .print_order = 7, .number = 3});
 }
@@ -78,8 +82,8 @@ TEST(HiddenEffects, BatchesDriftFromTheFirstOne) {
   Truth truth = plain_truth();
   truth.effects.batch_drift = 0.1;
   const auto modulus = [&](const std::string& batch) {
-    return *record_specimen(truth, {.design = some_pattern(), .fidelity = truth.fidelity}, Response{.modulus_pa = 1e9},
-                            {.specimen = "s", .batch = batch, .print_order = 7})
+    return *record_specimen(truth, {.design = some_pattern(), .fidelity = truth.fidelity},
+                            TrueResponse{.modulus_pa = 1e9}, {.specimen = "s", .batch = batch, .print_order = 7})
                 .modulus_pa;
   };
   for (const auto& [first, second, third] :
@@ -296,7 +300,7 @@ TEST(StrengthScatter, GivesEveryReplicateVoxelsOfItsOwn) {
   truth.effects.strength_scatter = 0.3;
   const Experiment experiment{
       .design = some_pattern(), .test = TestKind::toughness, .conditions = {}, .fidelity = tester::Fidelity::tiny};
-  const Result<Response> response = respond(truth, experiment);
+  const Result<TrueResponse> response = respond(truth, experiment);
   ASSERT_TRUE(response.has_value()) << response.error().message;
   ASSERT_EQ(response->other_curves.size(), 1u);
   EXPECT_NE(response->other_curves[0], response->curve);

@@ -9,6 +9,11 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
+#include "laboratory/laboratory_file.hpp"
+#include "laboratory/measure_set.hpp"
+#include "measurement/read_set.hpp"
 #include "pattern/layout.hpp"
 
 namespace nacre::laboratory {
@@ -25,8 +30,8 @@ Truth plain_truth() {
 pattern::Design published(const char* key) { return pattern::design_from_name(key).value(); }
 
 /// A triangle-shaped curve, as if simulated.
-Response simple_response() {
-  Response response{.modulus_pa = 1e9, .curve = {}, .remark = {}};
+TrueResponse simple_response() {
+  TrueResponse response{.modulus_pa = 1e9, .curve = {}, .remark = {}};
   for (int i = 0; i <= 100; ++i) {
     response.curve.strain.push_back(2e-4 * i);
     response.curve.stress_pa.push_back(1e5 * std::min(i, 100 - i));

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "laboratory/draw.hpp"
 #include "pattern/random_pattern.hpp"
 #include "tester/assembly.hpp"
 #include "tester/fracture_test.hpp"

@@ -10,6 +10,9 @@
 
 #include "base/files.hpp"
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
+#include "laboratory/effect_kinds.hpp"
+#include "laboratory/laboratory_file.hpp"
 #include "material/ranges.hpp"
 
 namespace nacre::laboratory {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "material/confinement.hpp"
+#include "material/effect_library.hpp"
 #include "material/neo_hookean.hpp"
 
 namespace nacre::material {

@@ -30,8 +30,8 @@ TEST(Mixture, RunsGeometricallyInStiffnessAndStrengthAndLinearlyInPoissonsRatio)
 
 TEST(Mixture, IsContinuous) {
   for (const double fraction : {0.0, 0.5, 1.0}) {
-    const double beside = fraction == 0.0 ? 1e-9 : fraction - 1e-9;
-    EXPECT_NEAR(mixture(kPhases, beside).young_pa / mixture(kPhases, fraction).young_pa, 1.0, 1e-7);
+    const double nearby = fraction == 0.0 ? 1e-9 : fraction - 1e-9;
+    EXPECT_NEAR(mixture(kPhases, nearby).young_pa / mixture(kPhases, fraction).young_pa, 1.0, 1e-7);
   }
 }
 

@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "base/files.hpp"
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
+#include "material/parameter_file.hpp"
 #include "material/ranges.hpp"
 
 namespace nacre::material {

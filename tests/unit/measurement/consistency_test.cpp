@@ -8,6 +8,8 @@
 
 #include "base/random.hpp"
 #include "measurement/conditions.hpp"
+#include "measurement/history.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -59,11 +61,11 @@ TEST(Replicates, ValuesThatAUnitExplainsAreDoubted) {
   const auto doubts = doubts_of_units(specimens);
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_EQ(doubts[0].specimen, "percent");
-  EXPECT_THAT(doubts[0].text, HasSubstr("specimen percent: its toughness is 96.7 times the middle of the 6"));
+  EXPECT_THAT(doubts[0].text, HasSubstr("specimen percent: its toughness is 96.7 times the median of the 6"));
   specimens.back().valid = specimens[4].valid = false;
   EXPECT_THAT(doubts_of_units(specimens), IsEmpty()) << "what does not count is not doubted";
   EXPECT_EQ(doubts_of_units({notched("A", 20e6, 0.03), notched("kPa", 20e3, 0.03)}).size(), 2U)
-      << "of two nobody can say which";
+      << "of two, either may be wrong";
 }
 
 TEST(Replicates, FourThatAgreeAreComplete) {
@@ -140,7 +142,7 @@ TEST(Replicates, HowFarABarOrACouponIsPulledIsNotHeldAgainstIt) {
 }
 
 TEST(Replicates, AsManyAreProposedAsLeaveThree) {
-  // Two against two: nobody can say which behaviour is the common one.
+  // Two against two: either behaviour may be the common one.
   const auto groups = review_replicates(
       {notched("A1", 20e6, 0.030), notched("A2", 20e6, 0.031), notched("A3", 5e6, 0.010), notched("A4", 5.2e6, 0.010)});
   EXPECT_LE(groups[0].proposed.size(), 1U);
@@ -260,7 +262,7 @@ TEST(History, ChanceMakesFewBatchesNotable) {
   EXPECT_LE(false_alarms(3, 1), 0.06);
   EXPECT_LE(false_alarms(2, 2), 0.06);
   EXPECT_LE(false_alarms(6, 2), 0.06);
-  EXPECT_GE(false_alarms(6, 2), 0.01) << "asked no more than that";
+  EXPECT_GE(false_alarms(6, 2), 0.01) << "not stricter than that";
 }
 
 TEST(History, BatchesWithoutACommonDesignSayNothing) {

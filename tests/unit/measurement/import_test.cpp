@@ -12,6 +12,9 @@
 
 #include "base/random.hpp"
 #include "base/result.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_import.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -45,7 +48,7 @@ TEST(Import, TheSameTestGivesTheSameNumbersWhateverTheMachineWrites) {
     EXPECT_NEAR(one.record.conditions.strain_rate_per_s, 2.0 / 60 / 54, cycled ? 2e-4 : 2e-6);
     EXPECT_EQ(one.record.batch, "march");
     EXPECT_EQ(one.record.other_columns.at("path"), "straight");
-    EXPECT_FALSE(one.record.modulus_pa) << "a notched specimen says nothing of the modulus";
+    EXPECT_FALSE(one.record.modulus_pa) << "a notched specimen does not determine the modulus";
   }
 }
 
@@ -86,14 +89,14 @@ TEST(Import, EveryDamagedFileGivesOneErrorAndLosesNoOtherSpecimen) {
       {"empty.csv", {0, "is empty, expected a table"}},
       {"heading_only.csv", {1, "no numbers below the heading"}},
       {"letter.txt", {0, "no heading with extension and force, expected names such as"}},
-      {"mixed_decimals.csv", {61, "decimal comma in one file"}},
+      {"mixed_decimals.csv", {61, "decimal commas in one file"}},
       {"no_extension.csv", {1, "no column of extension"}},
       {"no_force.csv", {1, "no column of force"}},
-      {"overload.csv", {41, "`****` is no number"}},
-      {"text_in_number.csv", {41, "`####` is no number"}},
+      {"overload.csv", {41, "`****` is not a number"}},
+      {"text_in_number.csv", {41, "`####` is not a number"}},
       {"three_rows.csv", {2, "expected at least 5"}},
       {"time_back.csv", {51, "time goes back"}},
-      {"unknown_unit.csv", {2, "`(stone)` is no unit of force, expected one of N, kN"}},
+      {"unknown_unit.csv", {2, "`(stone)` is not a unit of force, expected one of N, kN"}},
       {"workbook.csv", {0, "is a workbook, expected a text file"}},
       {"zero_bytes.csv", {0, "zero bytes"}},
   };
@@ -131,7 +134,7 @@ TEST(Import, FaultsOfTheSheetNameLineColumnAndWhatWasExpected) {
   EXPECT_THAT(by_column["test"], HasSubstr("expected modulus, toughness or tensile"));
   EXPECT_THAT(by_column["pattern"], HasSubstr("577fffe9fffde"));
   EXPECT_THAT(by_column["part"], HasSubstr("holds 2 tests"));
-  EXPECT_THAT(by_column["specimen"], HasSubstr("stands twice"));
+  EXPECT_THAT(by_column["specimen"], HasSubstr("occurs twice"));
   EXPECT_THAT(by_column["file"], HasSubstr("absent.csv"));
 }
 
@@ -232,7 +235,7 @@ TEST_F(ImportedSet, AnExtensionThatDoesNotBelongToTheGaugeIsSaid) {
       << "a notched specimen is strained by its grips";
   EXPECT_THAT(doubts(both, "modulus,13,3.2,104.9,Extensometer\n"), HasSubstr("longer than a bar's narrow section"));
   EXPECT_THAT(doubts("Time (s),Extension (mm),Extension (mm),Load (N)", "modulus,13,3.2,104.9,\n"),
-              HasSubstr("`Extension (mm)` stands twice"));
+              HasSubstr("`Extension (mm)` occurs twice"));
   EXPECT_EQ(doubts("Time (s),Extension (mm),Temperature (C),Load (N)", "modulus,13,3.2,50,\n"), "")
       << "a name that may mean either";
 }
@@ -242,12 +245,12 @@ TEST_F(ImportedSet, OneTestUnderTwoNamesIsDoubted) {
   const std::string heading = "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\n";
   const Import at_once = import(heading + "a.csv,A1,rigid,52,3.2,54\ncopy.csv,A2,rigid,52,3.2,54\n");
   ASSERT_EQ(at_once.warnings.size(), 1U);
-  EXPECT_THAT(at_once.warnings[0], HasSubstr("specimen A2: its readings are those of A1, to the last digit"));
+  EXPECT_THAT(at_once.warnings[0], HasSubstr("specimen A2: its readings equal those of A1 to the last digit"));
   Import first = import(heading + "a.csv,A1,rigid,52,3.2,54\n"), later = import(heading + "a.csv,A2,rigid,52,3.2,54\n");
   write_import(folder_ / "set", "sheet.csv", first);
   write_import(folder_ / "set", "sheet.csv", later);
   ASSERT_EQ(later.warnings.size(), 1U);
-  EXPECT_THAT(later.warnings[0], HasSubstr("specimen A2: its readings are those of A1"));
+  EXPECT_THAT(later.warnings[0], HasSubstr("specimen A2: its readings equal those of A1"));
   Import again = import(heading + "a.csv,A2,rigid,52,3.2,54\n");
   write_import(folder_ / "set", "sheet.csv", again);
   EXPECT_TRUE(again.warnings.empty()) << "said once";
@@ -284,8 +287,8 @@ TEST_F(ImportedSet, SizesAndValuesThatUnitsExplainAreDoubted) {
   EXPECT_EQ(doubts("50,6.2,54\n"), "");
   EXPECT_THAT(doubts("5.2,3.2,54\n"), HasSubstr("5.2 x 3.2 mm in the gauge, nominal 52 x 3.2 mm"));
   EXPECT_THAT(doubts("52,0.0032,54\n"), HasSubstr("are width_mm and thickness_mm right?"));
-  EXPECT_THAT(doubts("0.052,0.0032,54\n"), HasSubstr("peak stress 5.96e+12 Pa is no usual one"));
-  EXPECT_THAT(doubts("52,3.2,0.054\n"), HasSubstr("failure strain 30.4 is no usual one"));
+  EXPECT_THAT(doubts("0.052,0.0032,54\n"), HasSubstr("peak stress 5.96e+12 Pa is unusual"));
+  EXPECT_THAT(doubts("52,3.2,0.054\n"), HasSubstr("failure strain 30.4 is unusual"));
 }
 
 TEST_F(ImportedSet, ATestIsOneSpecimen) {
@@ -405,7 +408,7 @@ TEST_F(ImportedSet, WhatTheSetWouldRefuseIsRejectedWithTheSheet) {
       "file,specimen,pattern,width_mm,thickness_mm,gauge_mm,test,valid\n"
       "a.csv,A1,577fffe9fffdef,13,3.2,50,tensile,\na.csv,A2,577fffe9fffdef,13,3.2,50,tensile,0\n"
       "a.csv,A\a3,rigid,52,3.2,54,,\n");
-  EXPECT_EQ(sheet.specimens.size(), 1U) << "what failed need not have said anything";
+  EXPECT_EQ(sheet.specimens.size(), 1U) << "a failed test need not have a result";
   ASSERT_EQ(sheet.rejected.size(), 2U);
   EXPECT_THAT(sheet.rejected[0].reason, HasSubstr("a tensile coupon is homogeneous"));
   EXPECT_THAT(sheet.rejected[1].reason, HasSubstr("control character"));
@@ -429,7 +432,7 @@ const std::string kBarSheet =
     "file,specimen,pattern,test,width_mm,thickness_mm,gauge_mm\na.csv,A,rigid,modulus,13,3.2,50\n";
 
 TEST_F(ImportedSet, ABarThatIsUnloadedIsUsedWhateverNoiseLeavesOfItsArea) {
-  for (const double sign : {1.0, -1.0}) {  // of the work that the noise of the way back adds
+  for (const double sign : {1.0, -1.0}) {  // of the work that noise adds on unloading
     std::vector<std::pair<double, double>> points;
     for (int i = 0; i <= 200; ++i) {
       const double strain = 3e-5 * (100 - std::abs(i - 100));
@@ -458,7 +461,7 @@ TEST_F(ImportedSet, WhatIsUnsureOfABarIsSaid) {
   };
   EXPECT_EQ(warnings_of("time_s,extension_mm,force_n", 0.004, 10.0), "");
   EXPECT_THAT(warnings_of("time_s,extension_mm,force_n", 0.03, 0.0),
-              HasSubstr("meets zero stress at 3.00 % strain; of more than 1 % nothing is taken off"));
+              HasSubstr("meets zero stress at 3.00 % strain; a toe beyond 1 % is not compensated"));
   EXPECT_THAT(warnings_of("time_s,extension_mm,force_n", 0.0, 600.0),
               HasSubstr("is the force noisy, or the curve bent?"));
 }
@@ -469,7 +472,8 @@ TEST_F(ImportedSet, ADefaultRateBesideATimeColumnIsSaid) {
   write("a.csv", text);
   const Import import = this->import(kBarSheet);
   ASSERT_EQ(import.warnings.size(), 1U);
-  EXPECT_THAT(import.warnings[0], HasSubstr("A: its times tell no strain rate; 0.000617 1/s is assumed"));
+  EXPECT_THAT(import.warnings[0],
+              HasSubstr("A: no strain rate can be computed from its times; 0.000617 1/s is assumed"));
 }
 
 TEST_F(ImportedSet, ThePlannedRateStandsWhereTheRecordTellsNoneAndAnotherThanPlannedIsSaid) {
@@ -495,8 +499,8 @@ TEST_F(ImportedSet, ThePlannedRateStandsWhereTheRecordTellsNoneAndAnotherThanPla
   EXPECT_FALSE(as_planned.specimens[0].record.other_columns.contains("loading"));
   EXPECT_EQ(rate_of(faster), 1e-4);
   ASSERT_EQ(faster.warnings.size(), 1U);
-  EXPECT_THAT(faster.warnings[0], HasSubstr("A: strain rate 0.0001 1/s, planned was 0.001: was the speed another"));
-  EXPECT_EQ(rate_of(import_bar(true, "0.001,0.002")), 0.002) << "a person's word stands";
+  EXPECT_THAT(faster.warnings[0], HasSubstr("A: strain rate 0.0001 1/s, planned 0.001: was the speed different"));
+  EXPECT_EQ(rate_of(import_bar(true, "0.001,0.002")), 0.002) << "a person's value counts";
   EXPECT_EQ(import_bar(false, "fast,").rejected.at(0).column, "planned_strain_rate_per_s");
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "measurement/measurement.hpp"
+#include "measurement/observe.hpp"
 #include "tester/loading.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::measurement {
 namespace {

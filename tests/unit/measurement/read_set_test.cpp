@@ -7,7 +7,11 @@
 #include <fstream>
 
 #include "base/files.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/limits.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/specimen_checks.hpp"
+#include "measurement/summary.hpp"
+#include "measurement/write_set.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -35,7 +39,7 @@ class SetOnDisk : public testing::Test {
     write("measurements.csv", table);
     return read_measurement_set(folder_);
   }
-  /// The only rejected row of a set that holds it beside a good one.
+  /// The only rejected row of a set that holds it and a good one.
   RejectedRow rejected(const std::string& header, const std::string& row) {
     const std::string empty_cells(static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) - 3, ',');
     const MeasurementSet set = read(header + "\n" + row + "\nGOOD,soft,modulus,1e6" + empty_cells + "\n");
@@ -55,7 +59,7 @@ class SetOnDisk : public testing::Test {
 
 constexpr const char* kShort = "specimen,pattern,test,modulus_pa\n";
 
-// A specimen that broke in the grips says nothing, and that is worth a row.
+// A specimen that broke in the grips has no result, and yet is worth a row.
 TEST_F(SetOnDisk, AnInvalidSpecimenNeedNoResult) {
   const MeasurementSet set = read(
       "specimen,pattern,test,modulus_pa,toughness_pa,valid,note\n"
@@ -277,7 +281,7 @@ TEST_F(SetOnDisk, NothingUsableIsAnInputErrorThatNamesTheFirstFault) {
   EXPECT_THAT(error_of(""), HasSubstr("is empty"));
   EXPECT_THAT(error_of("specimen,pattern,test\nS1,rigid,modulus\n"), HasSubstr("modulus_pa, toughness_pa, curve"));
   EXPECT_THAT(error_of("pattern,test,modulus_pa\nrigid,modulus,1\n"), HasSubstr("`specimen` is missing"));
-  EXPECT_THAT(error_of("specimen,pattern,test,curve,curve\n"), HasSubstr("stands twice"));
+  EXPECT_THAT(error_of("specimen,pattern,test,curve,curve\n"), HasSubstr("occurs twice"));
   EXPECT_THROW(read_measurement_set(folder_ / "absent"), InputError);
 }
 

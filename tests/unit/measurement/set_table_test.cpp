@@ -9,6 +9,8 @@
 #include "base/files.hpp"
 #include "base/result.hpp"
 #include "measurement/import.hpp"
+#include "measurement/read_set.hpp"
+#include "measurement/write_import.hpp"
 
 namespace nacre::measurement {
 namespace {
@@ -35,7 +37,7 @@ TEST_F(TableOnDisk, AJudgementChangesItsRowAndNothingElse) {
         ",S2,nonsense,modulus,2e9,,blue\n");
   write("set/curves/raw.csv", "strain,stress_pa,time_s\n");
   SetTable table(folder_ / "set");
-  table.judge("S1", false, "bubble (me)");
+  table.review("S1", false, "bubble (me)");
   table.write(folder_ / "set");
   EXPECT_EQ(text("set/measurements.csv"),
             "note,specimen,pattern,test,modulus_pa,curve,colour,valid\n"
@@ -75,12 +77,12 @@ class RepeatedImport : public TableOnDisk {
 TEST_F(RepeatedImport, AddsToTheSetAndKeepsWhatAPersonJudged) {
   import("a.csv,A,rigid,52,3.2,54\n");
   SetTable table(folder_ / "set");
-  table.judge("A", false, "bubble (me)");
+  table.review("A", false, "bubble (me)");
   table.write(folder_ / "set");
   const Import second = import("b.csv,B,soft,52,3.2,54\na.csv,A,rigid,52,3.2,54\n");
   EXPECT_EQ(second.known, 1);
   ASSERT_EQ(second.specimens.size(), 2U);
-  EXPECT_FALSE(second.specimens[1].record.valid) << "what the set says of it";
+  EXPECT_FALSE(second.specimens[1].record.valid) << "as in the set";
   const auto set = specimens();
   ASSERT_EQ(set.size(), 2U);
   EXPECT_EQ(set[0].specimen, "A");
@@ -97,7 +99,7 @@ TEST_F(RepeatedImport, RejectsAKnownNameWithAnotherTestAndKeepsTheOldOne) {
   EXPECT_TRUE(second.specimens.empty());
   ASSERT_EQ(second.rejected.size(), 1U);
   EXPECT_EQ(second.rejected[0].line, 2);
-  EXPECT_THAT(second.rejected[0].reason, HasSubstr("`A` stands in"));
+  EXPECT_THAT(second.rejected[0].reason, HasSubstr("`A` is already in"));
   EXPECT_EQ(text("set/measurements.csv"), before);
   EXPECT_EQ(text("set/curves/A.csv"), curve);
 }
@@ -105,7 +107,7 @@ TEST_F(RepeatedImport, RejectsAKnownNameWithAnotherTestAndKeepsTheOldOne) {
 TEST_F(RepeatedImport, ReplacesOnlyWhenToldToAndKeepsTheJudgement) {
   import("a.csv,A,rigid,52,3.2,54\nb.csv,B,soft,52,3.2,54\n");
   SetTable table(folder_ / "set");
-  table.judge("A", false, "bubble (me)");
+  table.review("A", false, "bubble (me)");
   table.write(folder_ / "set");
   const double before_pa = *specimens()[0].toughness_pa;
   write("sheet.csv", "file,specimen,pattern,width_mm,thickness_mm,gauge_mm\na.csv,A,rigid,26,3.2,54\n");

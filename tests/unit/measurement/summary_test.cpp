@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
-#include "measurement/measurement.hpp"
+#include "measurement/observe.hpp"
+#include "measurement/summary.hpp"
 
 namespace nacre::measurement {
 namespace {

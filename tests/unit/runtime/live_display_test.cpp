@@ -68,6 +68,14 @@ TEST(Terminal, TimesAreSaidInTheUnitsOfTheirSize) {
   EXPECT_EQ(in_words(std::nan("")), "");
 }
 
+TEST(Terminal, TimeLeftIsSaidRoughly) {
+  EXPECT_EQ(time_left_in_words(7.2), "less than a minute left");
+  EXPECT_EQ(time_left_in_words(200.0), "about 4 min left");
+  EXPECT_EQ(time_left_in_words(3.0 * 3600 + 12 * 60), "about 3 h left");
+  EXPECT_EQ(time_left_in_words(-1.0), "");
+  EXPECT_EQ(time_left_in_words(std::nan("")), "");
+}
+
 TEST(Terminal, LinesAreCutBetweenCharactersAndCarryNoControlCodes) {
   EXPECT_EQ(fitted("abcdef", 3), "abc");
   EXPECT_EQ(fitted("\xC3\xA4\xC3\xB6\xC3\xBC", 2), "\xC3\xA4\xC3\xB6");
@@ -82,9 +90,56 @@ TEST(LiveDisplay, LineOfANodeSaysRoundProgressTimeLeftAndProblem) {
   EXPECT_LE(node_line(busy_node(), 60).size(), 60U);
 }
 
-TEST(LiveDisplay, TerminalIsRedrawnInPlaceAndOnlyWhenSomethingChanged) {
+NodeView node(const std::string& name, const std::string& phase, int round = 1) {
+  NodeView view;
+  view.node = name;
+  view.state = "running";
+  view.phase = phase;
+  view.round = round;
+  return view;
+}
+
+TEST(LiveDisplay, WhatIsCompleteShowsNoShare) {
+  NodeView waiting = node("validation_agent", "waits for you: 1 design to approve", 2);
+  waiting.progress = 1.0;
+  EXPECT_EQ(plain_node_line(waiting), "validation_agent: round 2, waits for you: 1 design to approve");
+  EXPECT_THAT(node_line(waiting, 200), AllOf(Not(HasSubstr("%")), Not(HasSubstr("#"))));
+  waiting.progress = 0.25;
+  EXPECT_EQ(plain_node_line(waiting), "validation_agent: round 2, waits for you: 1 design to approve, 25 %");
+}
+
+TEST(LiveDisplay, LineOfTheGameSaysRoundStepAndTimeLeft) {
+  std::vector<NodeView> views = {node("simulator_farm", "simulating, 3 of 40 tests done"), node("analyser", "idle"),
+                                 node("proposal_agent", "searching"),
+                                 node("validation_agent", "waiting for the search and its proposal")};
+  views[2].eta_s = 200.0;
+  EXPECT_EQ(game_line(views, 3), "round 1 of 3, searching, about 4 min left");
+  views[2] = node("proposal_agent", "waiting for a model");
+  views[3].phase = "waiting for the diagnosis";
+  views[1].phase = "diagnosing round 1";
+  EXPECT_EQ(game_line(views, 3), "round 1 of 3, diagnosing round 1");
+  views[3].phase = "measuring, 2 of 6 orders complete";
+  EXPECT_EQ(game_line(views, 3), "round 1 of 3, measuring, 2 of 6 orders complete");
+}
+
+TEST(LiveDisplay, LineOfTheGameCountsFromRoundOne) {
+  EXPECT_EQ(game_line({node("validation_agent", "calibrating", 0)}, 3), "preparing round 1 of 3, calibrating");
+  EXPECT_EQ(game_line({node("validation_agent", "measuring, 0 of 4 orders complete", 4)}, 3),
+            "after the last round, measuring, 0 of 4 orders complete");
+}
+
+TEST(LiveDisplay, LineOfTheGameIsThereOnceTheValidationAgentHasReported) {
+  NodeView silent;
+  silent.node = "validation_agent";
+  EXPECT_EQ(game_line({silent, node("proposal_agent", "searching")}, 3), "");
+  silent.round = 2;
+  silent.state = "restarting";
+  EXPECT_EQ(game_line({silent, node("proposal_agent", "waiting for a model")}, 3), "round 2 of 3, restarting");
+}
+
+TEST(LiveDisplay, TerminalIsRefreshedInPlaceAndOnlyWhenSomethingChanged) {
   Screen screen;
-  LiveDisplay display(screen.stream(), 100);
+  LiveDisplay display(screen.stream(), 100, 3);
   display.show({busy_node()}, {});
   const std::string once = screen.taken();
   display.show({busy_node()}, {});
@@ -92,13 +147,13 @@ TEST(LiveDisplay, TerminalIsRedrawnInPlaceAndOnlyWhenSomethingChanged) {
   NodeView later = busy_node();
   later.progress = 0.75;
   display.show({later}, {});
-  EXPECT_THAT(screen.taken(), AllOf(HasSubstr("\x1b[1A"), HasSubstr("75 %")));
+  EXPECT_THAT(screen.taken(), AllOf(HasSubstr("\x1b[2A"), HasSubstr("75 %")));
   EXPECT_THAT(once, Not(HasSubstr("\x1b")));
 }
 
 TEST(LiveDisplay, FilesGetANodesLineAtMostEveryTenSeconds) {
   Screen screen;
-  LiveDisplay display(screen.stream(), 0);
+  LiveDisplay display(screen.stream(), 0, 3);
   const LiveDisplay::Clock::time_point start{};
   NodeView view = busy_node();
   display.show({view}, start);
@@ -159,7 +214,7 @@ TEST(LiveDisplay, AReaderWhoHasGoneOrAFullDiskDoesNotEndIt) {
   ASSERT_NE(full, nullptr);
   std::setvbuf(full, nullptr, _IONBF, 0);
   for (const int columns : {0, 80}) {
-    LiveDisplay display(full, columns);
+    LiveDisplay display(full, columns, 3);
     EXPECT_NO_THROW({
       display.show({busy_node()}, {});
       display.say("a line");

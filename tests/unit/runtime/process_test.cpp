@@ -72,7 +72,7 @@ TEST(ChildProcess, IsKilledWithTheObject) {
   EXPECT_EQ(::kill(pid, 0), -1) << "still there, or not reaped";
 }
 
-TEST(AskProgram, AnswersWithOutputAndEnd) {
+TEST(AskProgram, ReturnsOutputAndEnd) {
   const ProgramOutput answer = ask_program({"/bin/echo", "hello"});
   EXPECT_EQ(answer.output, "hello\n");
   EXPECT_TRUE(answer.end.orderly());

@@ -224,17 +224,17 @@ TEST(Outbox, AnAcknowledgementIsWorthAsMuchAsItsJournal) {
   EXPECT_EQ(outbox.due(20).size(), 1u);
 }
 
-TEST(Outbox, AnAnswerIsRepeatedForARequesterThatAsksAgainInANewProcess) {
+TEST(Outbox, AResponseIsRepeatedForARequesterThatAsksAgainInANewProcess) {
   wire::SimulateResult result{"proposal_agent/0/1", 0, 1, 0, {{pattern::Mixture{1.0}, "", 1e9, 0.0, 0.0, 0.0, {}}}};
   Outbox outbox;
   outbox.saw("proposal_agent", 1, 1);
   outbox.offer("h", {"SIMULATED", wire::write(result)}, {"proposal_agent"});
   outbox.due(0);
   outbox.acknowledge("h", "proposal_agent", 1, 1);
-  outbox.answer_again("proposal_agent/0/1", "proposal_agent", 1);  // a late repetition by the same process
+  outbox.respond_again("proposal_agent/0/1", "proposal_agent", 1);  // a late repetition by the same process
   EXPECT_EQ(outbox.unacknowledged(), 0);
   outbox.saw("proposal_agent", 2, 1);
-  outbox.answer_again("proposal_agent/0/1", "proposal_agent", 2);
+  outbox.respond_again("proposal_agent/0/1", "proposal_agent", 2);
   EXPECT_EQ(outbox.due(1).size(), 1u);
 }
 

@@ -48,7 +48,7 @@ class CountingCore : public NodeCore {
 const std::map<std::string, WorkFunction> kWork = {
     {"double", [](const std::string& spec) { return std::to_string(2 * std::stoi(spec)); }}};
 
-/// Writes the journal of a node that hears `reviews` reviews, as the shell would.
+/// Writes the journal of a node that receives `reviews` reviews, as the shell would.
 class Recording {
  public:
   explicit Recording(const std::filesystem::path& folder) : journal_(Journal::open(folder, 1)) {}
@@ -131,7 +131,7 @@ TEST(Replay, FindsOutputsThatTheJournalHoldsTooManyOrTooFew) {
   recording.add("~out/APPROVAL", CountingCore::approval(5).payload);
   recording.review(2);
   CountingCore core;
-  EXPECT_THAT(replay_journal(folder.path() / "journal.lcm", core).difference, HasSubstr("no longer says"));
+  EXPECT_THAT(replay_journal(folder.path() / "journal.lcm", core).difference, HasSubstr("no longer sends"));
 
   const TemporaryFolder second;
   Recording short_one(second.path());

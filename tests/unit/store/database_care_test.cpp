@@ -31,13 +31,13 @@ class DatabaseFile : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void fill(int answers) const {
+  void fill(int results) const {
     SimulationCache cache(file_);
-    for (int i = 0; i < answers; ++i) {
-      CachedSimulation answer;
-      answer.modulus_pa = 1.0 + i;
-      answer.curve = {{0.0, 0.5}, {1.0, 2.0}};
-      cache.insert(fmt::format("key{:05}", i), answer);
+    for (int i = 0; i < results; ++i) {
+      CachedSimulation result;
+      result.modulus_pa = 1.0 + i;
+      result.curve = {{0.0, 0.5}, {1.0, 2.0}};
+      cache.insert(fmt::format("key{:05}", i), result);
       cache.insert_breaks(fmt::format("key{:05}", i), {{i, 0.25}});
     }
   }
@@ -153,22 +153,22 @@ TEST_F(DatabaseFile, ALockIsNoReasonForAnEmptyCopy) {
 }
 
 TEST_F(DatabaseFile, SalvageKeepsWhatCanBeReadAndInventsNothing) {
-  constexpr int kAnswers = 3000;
+  constexpr int kResults = 3000;
   RandomStream random(5, "damage");
   for (int round = 0; round < 5; ++round) {
     for (const char* companion : {"", "-wal", "-shm"}) fs::remove(file_.string() + companion);
     fs::remove(folder_ / "saved.db");
-    fill(kAnswers);
+    fill(kResults);
     damage(random.uniform(0.1, 0.9), 4096);
     const Salvage saved = salvage_simulations(file_, folder_ / "saved.db");
-    EXPECT_GT(saved.simulations, kAnswers / 3);
+    EXPECT_GT(saved.simulations, kResults / 3);
     const SimulationCache cache(folder_ / "saved.db");
     EXPECT_EQ(cache.size(), saved.simulations);
-    for (int i = 0; i < kAnswers; ++i) {
-      const auto answer = cache.find(fmt::format("key{:05}", i));
-      if (!answer) continue;
-      EXPECT_EQ(answer->modulus_pa, 1.0 + i);
-      EXPECT_EQ(answer->curve.stress_pa, (std::vector<double>{1.0, 2.0}));
+    for (int i = 0; i < kResults; ++i) {
+      const auto result = cache.find(fmt::format("key{:05}", i));
+      if (!result) continue;
+      EXPECT_EQ(result->modulus_pa, 1.0 + i);
+      EXPECT_EQ(result->curve.stress_pa, (std::vector<double>{1.0, 2.0}));
     }
   }
 }

@@ -19,7 +19,7 @@ class RunRecordOfAFile : public testing::Test {
   ~RunRecordOfAFile() override {
     for (const char* companion : {"", "-wal", "-shm"}) fs::remove(file_.string() + companion);
   }
-  void project_answer(const std::string& request_id) {
+  void project_response(const std::string& request_id) {
     wire::SimulateResult result = wire::samples::result();
     result.request_id = request_id;
     database_.project("SIMULATED", wire::write(result));
@@ -28,15 +28,15 @@ class RunRecordOfAFile : public testing::Test {
   RunDatabase database_{file_};
 };
 
-TEST_F(RunRecordOfAFile, OnlyAnswersAboutMeasuredDesignsAreWhatTheModelSaysOfThem) {
-  project_answer("analyser/r1/films");  // toughness alone: its modulus of 0 says nothing
-  project_answer("validation_agent/r1/measured/0");
+TEST_F(RunRecordOfAFile, OnlyResponsesAboutMeasuredDesignsAreKeptAsThem) {
+  project_response("analyser/r1/films");  // toughness alone: its modulus of 0 says nothing
+  project_response("validation_agent/r1/measured/0");
   EXPECT_TRUE(read_run_record(file_).rounds[1].simulated.empty());
-  project_answer("analyser/r1/measured/0");
+  project_response("analyser/r1/measured/0");
   EXPECT_EQ(read_run_record(file_).rounds[1].simulated.size(), 2u);
-  project_answer("analyser/r2/films#0123456789abcdef");
+  project_response("analyser/r2/films#0123456789abcdef");
   EXPECT_TRUE(read_run_record(file_).rounds[2].simulated.empty());
-  project_answer("analyser/r2/measured/64#0123456789abcdef");
+  project_response("analyser/r2/measured/64#0123456789abcdef");
   EXPECT_EQ(read_run_record(file_).rounds[2].simulated.size(), 2u) << "runs before ids ended in a hash are read, too";
 }
 
@@ -64,12 +64,12 @@ TEST_F(RunRecordOfAFile, AFileOfAVersionBeforeFitsIsRead) {
 }
 
 TEST_F(RunRecordOfAFile, CracksBelongToTheRoundOrTheFamilyWhoseModelBrokeThem) {
-  const wire::Family family = wire::samples::family();
+  const wire::CalibratedFamily family = wire::samples::family();
   database_.project("FAMILY", wire::write(family));
   wire::Fracture fracture = wire::samples::fracture();
-  for (const std::string& question :
+  for (const std::string& request_id :
        {fmt::format("analyser/family{}/films", family.number), std::string("analyser/r7/films#0123456789abcdef")}) {
-    fracture.request_id = question;
+    fracture.request_id = request_id;
     database_.project("FRACTURE", wire::write(fracture));
   }
   RunRecord run = read_run_record(file_);

@@ -39,38 +39,38 @@ class SimulationCacheFile : public testing::Test {
   std::filesystem::path folder_, path_;
 };
 
-CachedSimulation toughness_answer() {
-  CachedSimulation answer;
-  answer.toughness_pa = 123456.789012345;
-  answer.peak_stress_pa = 4e6;
-  answer.failure_strain = 0.031;
-  answer.curve = {{0.0, 0.5, 1.0}, {0.0, 2.5, 1.25}};
-  return answer;
+CachedSimulation toughness_result() {
+  CachedSimulation result;
+  result.toughness_pa = 123456.789012345;
+  result.peak_stress_pa = 4e6;
+  result.failure_strain = 0.031;
+  result.curve = {{0.0, 0.5, 1.0}, {0.0, 2.5, 1.25}};
+  return result;
 }
-const CachedSimulation kAnswer = toughness_answer();
+const CachedSimulation kResult = toughness_result();
 
 CachedSimulation failed(const std::string& reason) {
-  CachedSimulation answer;
-  answer.failure = reason;
-  return answer;
+  CachedSimulation result;
+  result.failure = reason;
+  return result;
 }
 
-TEST_F(SimulationCacheFile, AnAnswerOutlivesTheProcessThatWroteIt) {
-  SimulationCache(path_).insert("key", kAnswer);
+TEST_F(SimulationCacheFile, AResultOutlivesTheProcessThatWroteIt) {
+  SimulationCache(path_).insert("key", kResult);
   const SimulationCache again(path_);
-  EXPECT_EQ(again.find("key"), kAnswer);
+  EXPECT_EQ(again.find("key"), kResult);
   EXPECT_EQ(again.find("another"), std::nullopt);
 }
 
-TEST_F(SimulationCacheFile, TheFirstAnswerStays) {
+TEST_F(SimulationCacheFile, TheFirstResultStays) {
   SimulationCache cache(path_);
-  cache.insert("key", kAnswer);
+  cache.insert("key", kResult);
   cache.insert("key", failed("blow-up"));
-  EXPECT_EQ(cache.find("key"), kAnswer);
+  EXPECT_EQ(cache.find("key"), kResult);
   EXPECT_EQ(cache.size(), 1);
 }
 
-TEST_F(SimulationCacheFile, AFailureIsAnAnswer) {
+TEST_F(SimulationCacheFile, AFailureIsAResult) {
   SimulationCache cache(path_);
   cache.insert("key", failed("J = -0.1 at element 7"));
   EXPECT_EQ(cache.find("key"), failed("J = -0.1 at element 7"));
@@ -79,14 +79,14 @@ TEST_F(SimulationCacheFile, AFailureIsAnAnswer) {
 TEST_F(SimulationCacheFile, ThreadsAndASecondConnectionWriteSideBySide) {
   SimulationCache first(path_), second(path_);
   parallel_for(
-      200, [&](int i) { (i % 2 ? first : second).insert("key " + std::to_string(i), kAnswer); }, 4);
+      200, [&](int i) { (i % 2 ? first : second).insert("key " + std::to_string(i), kResult); }, 4);
   EXPECT_EQ(first.size(), 200);
-  EXPECT_EQ(second.find("key 101"), kAnswer);
+  EXPECT_EQ(second.find("key 101"), kResult);
 }
 
-TEST_F(SimulationCacheFile, BreaksAreKeptBesideTheAnswer) {
+TEST_F(SimulationCacheFile, BreaksAreKeptWithTheResult) {
   SimulationCache cache(path_);
-  cache.insert("key", kAnswer);
+  cache.insert("key", kResult);
   EXPECT_EQ(cache.find_breaks("key"), std::nullopt) << "they were not asked for";
   const std::vector<tester::Break> breaks = {{31'999, 0.25}, {7, 0.5}};
   cache.insert_breaks("key", breaks);
@@ -94,11 +94,11 @@ TEST_F(SimulationCacheFile, BreaksAreKeptBesideTheAnswer) {
   cache.insert_breaks("unbroken", {});
   EXPECT_EQ(SimulationCache(path_).find_breaks("key"), breaks);
   EXPECT_EQ(cache.find_breaks("unbroken"), std::vector<tester::Break>{});
-  EXPECT_EQ(cache.find("key"), kAnswer);
+  EXPECT_EQ(cache.find("key"), kResult);
 }
 
-TEST_F(SimulationCacheFile, AnOlderFileKeepsItsAnswers) {
-  SimulationCache(path_).insert("key", kAnswer);
+TEST_F(SimulationCacheFile, AnOlderFileKeepsItsResults) {
+  SimulationCache(path_).insert("key", kResult);
   {
     SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
     database.exec("DROP TABLE breaks");
@@ -106,15 +106,15 @@ TEST_F(SimulationCacheFile, AnOlderFileKeepsItsAnswers) {
     database.exec("PRAGMA user_version = 1");
   }
   SimulationCache cache(path_);
-  EXPECT_EQ(cache.find("key"), kAnswer);
+  EXPECT_EQ(cache.find("key"), kResult);
   cache.insert_breaks("key", {{1, 0.5}});
   EXPECT_TRUE(cache.find_breaks("key"));
 }
 
-TEST_F(SimulationCacheFile, AFileOfVersionTwoKeepsItsAnswersAndCracks) {
+TEST_F(SimulationCacheFile, AFileOfVersionTwoKeepsItsResultsAndCracks) {
   {
     SimulationCache cache(path_);
-    cache.insert("key", kAnswer);
+    cache.insert("key", kResult);
     cache.insert_breaks("key", {{1, 0.5}});
   }
   {
@@ -125,13 +125,13 @@ TEST_F(SimulationCacheFile, AFileOfVersionTwoKeepsItsAnswersAndCracks) {
     database.exec("PRAGMA user_version = 2");
   }
   const SimulationCache cache(path_);
-  EXPECT_EQ(cache.find("key"), kAnswer);
+  EXPECT_EQ(cache.find("key"), kResult);
   EXPECT_EQ(cache.find_breaks("key"), (std::vector<tester::Break>{{1, 0.5}}));
 }
 
 TEST_F(SimulationCacheFile, AValueThatWasAlteredIsNotBelieved) {
   SimulationCache cache(path_);
-  cache.insert("key", kAnswer);
+  cache.insert("key", kResult);
   SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec("UPDATE simulation SET modulus_pa = modulus_pa + 1");
   EXPECT_THROW(cache.find("key"), InputError);
 }
@@ -145,7 +145,7 @@ TEST_F(SimulationCacheFile, AFileThatIsNoDatabaseIsRefusedByNameWithARemedy) {
 TEST_F(SimulationCacheFile, ADamagedDatabaseIsRefused) {
   {
     SimulationCache cache(path_);
-    for (int i = 0; i < 500; ++i) cache.insert("key " + std::to_string(i), kAnswer);
+    for (int i = 0; i < 500; ++i) cache.insert("key " + std::to_string(i), kResult);
   }
   ASSERT_GT(std::filesystem::file_size(path_), 20'000u);
   std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
@@ -167,19 +167,19 @@ TEST_F(SimulationCacheFile, ACacheThatAnotherProgramWritesAsksForPatienceAndNotF
   other.exec("BEGIN IMMEDIATE");
   std::string said;
   try {
-    cache.insert("key", kAnswer);
+    cache.insert("key", kResult);
   } catch (const DatabaseUnavailable& error) {
     said = error.what();
   }
   EXPECT_THAT(said, testing::AllOf(HasSubstr("another program"), testing::Not(HasSubstr("rebuild"))));
   EXPECT_THROW(SimulationCache(path_, 10), DatabaseUnavailable);
   other.exec("ROLLBACK");
-  EXPECT_TRUE(cache.insert("key", kAnswer));
+  EXPECT_TRUE(cache.insert("key", kResult));
 }
 
 TEST_F(SimulationCacheFile, AFullDiskAsksForRoomAndNotForARebuild) {
   SimulationCache cache(path_);
-  cache.insert("key", kAnswer);
+  cache.insert("key", kResult);
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -187,15 +187,15 @@ TEST_F(SimulationCacheFile, AFullDiskAsksForRoomAndNotForARebuild) {
   setrlimit(RLIMIT_FSIZE, &small);
   std::string said;
   try {
-    for (int i = 0; i < 1000; ++i) cache.insert("key " + std::to_string(i), kAnswer);
+    for (int i = 0; i < 1000; ++i) cache.insert("key " + std::to_string(i), kResult);
   } catch (const DatabaseUnavailable& error) {
     said = error.what();
   }
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_THAT(said, testing::AllOf(HasSubstr("Make room"), testing::Not(HasSubstr("rebuild"))));
-  EXPECT_EQ(cache.find("key"), kAnswer);
-  cache.insert("later", kAnswer);
-  EXPECT_EQ(cache.find("later"), kAnswer);
+  EXPECT_EQ(cache.find("key"), kResult);
+  cache.insert("later", kResult);
+  EXPECT_EQ(cache.find("later"), kResult);
 }
 
 TEST_F(SimulationCacheFile, AFolderInTheWayIsNamed) {

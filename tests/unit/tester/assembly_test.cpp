@@ -1,15 +1,16 @@
 #include "tester/assembly.hpp"
-#include "tester/tester.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "material/effect_library.hpp"
 #include "material/extensions.hpp"
 #include "material/mixture.hpp"
 #include "pattern/coupons.hpp"
 #include "pattern/random_pattern.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::tester {
 namespace {
@@ -61,7 +62,8 @@ TEST(Assembly, OddElementsAreInterfaceUnlessAllPixelsTheyTouchAgree) {
       for (const int j : {row / 2, (row + 1) / 2})
         for (const int i : {column / 2, (column + 1) / 2})
           (layout.rigid(pattern::kSide - 1 - j % pattern::kSide, i % pattern::kSide) ? any_rigid : any_soft) = true;
-      EXPECT_EQ(phase_at(grid, row, column), any_soft && any_rigid ? Phase::interface : any_rigid ? Phase::rigid : Phase::soft);
+      const Phase expected = any_soft && any_rigid ? Phase::interface : any_rigid ? Phase::rigid : Phase::soft;
+      EXPECT_EQ(phase_at(grid, row, column), expected);
     }
 }
 

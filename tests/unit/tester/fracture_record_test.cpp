@@ -10,10 +10,10 @@ namespace nacre::tester {
 namespace {
 
 constexpr double kStrainStep = 4e-6;
-constexpr FractureRecord::Plan kPlan{
+constexpr FractureRecord::Sampling kSampling{
     .strain_per_step = kStrainStep, .steps_per_sample = 25, .transit_steps = 400, .strain_limit = 0.3};
 
-/// Feeds stress(strain) until the record says separated or strain 0.05 is reached; returns the strain at the end.
+/// Feeds stress(strain) until the record is separated or strain 0.05 is reached; returns the strain at the end.
 template <class Stress>
 double feed(FractureRecord& record, const Stress& stress) {
   for (int step = 0; step < 12500; ++step) {
@@ -25,7 +25,7 @@ double feed(FractureRecord& record, const Stress& stress) {
 }
 
 TEST(FractureRecord, SeparationIsSeenAfterTheLoadIsGoneAndCostsNoArea) {
-  FractureRecord record(kPlan);
+  FractureRecord record(kSampling);
   const double end = feed(record, [](double strain) { return strain < 0.02 ? 1e8 * strain : 0.0; });
   EXPECT_GT(end, 0.02);
   EXPECT_LT(end, 0.02 + 400 * kStrainStep);
@@ -35,7 +35,7 @@ TEST(FractureRecord, SeparationIsSeenAfterTheLoadIsGoneAndCostsNoArea) {
 
 // Full swings of the load between zero and twice its mean, faster than one transit, are no separation.
 TEST(FractureRecord, RingingEndsNoTest) {
-  FractureRecord record(kPlan);
+  FractureRecord record(kSampling);
   const double period = 200 * kStrainStep;
   const double end =
       feed(record, [&](double strain) { return 1e6 * (1.0 + std::cos(2.0 * std::numbers::pi * strain / period)); });
@@ -44,9 +44,9 @@ TEST(FractureRecord, RingingEndsNoTest) {
 
 TEST(FractureRecord, CurveHasTheAreaOfEveryStep) {
   for (const int steps_per_sample : {1, 7, 25}) {
-    FractureRecord::Plan plan = kPlan;
-    plan.steps_per_sample = steps_per_sample;
-    FractureRecord record(plan);
+    FractureRecord::Sampling sampling = kSampling;
+    sampling.steps_per_sample = steps_per_sample;
+    FractureRecord record(sampling);
     feed(record, [](double strain) { return strain < 0.02 ? 1e8 * strain * (1.0 - 15.0 * strain) : 0.0; });
     const double toughness = record.toughness_pa();
     const Curve curve = record.take_curve();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pattern/design.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::tester {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tester/tester.hpp"
+#include "tester/names.hpp"
 
 namespace nacre::tester {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tester/tester.hpp"
+#include "tester/simulation_key.hpp"
 
 namespace nacre::tester {
 namespace {
@@ -14,7 +14,7 @@ Simulation question() {
           .fidelity = Fidelity::full};
 }
 
-/// Whether the change makes another question of it.
+/// Whether the change makes it another simulation.
 template <class Change>
 bool distinguishes(TestKind kind, Change change) {
   Simulation other = question();

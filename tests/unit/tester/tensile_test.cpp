@@ -6,7 +6,8 @@
 
 #include "material/mixture.hpp"
 #include "material/neo_hookean.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
+#include "tester/tensile.hpp"
 
 namespace nacre::tester {
 namespace {

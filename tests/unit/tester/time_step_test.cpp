@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tester/tester.hpp"
+#include "tester/toughness.hpp"
 
 namespace nacre::tester {
 namespace {

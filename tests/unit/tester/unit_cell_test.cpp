@@ -7,7 +7,7 @@
 
 #include "base/statistics.hpp"
 #include "pattern/random_pattern.hpp"
-#include "tester/tester.hpp"
+#include "tester/modulus.hpp"
 
 namespace nacre::tester {
 namespace {

@@ -7,16 +7,17 @@
 #include <gtest/gtest.h>
 
 #include "base/result.hpp"
+#include "laboratory/draw.hpp"
 #include "virtual_lab/experiment_text.hpp"
 
-namespace nacre::laboratory {
+namespace nacre::virtual_lab {
 namespace {
 
 using runtime::Message;
 using runtime::Outputs;
 using runtime::WorkDone;
 
-Truth truth() { return draw_truth(31, tester::Fidelity::tiny); }
+Truth truth() { return laboratory::draw_truth(31, tester::Fidelity::tiny); }
 
 wire::TestOrder order(const std::string& id, const char* design, tester::TestKind test = tester::TestKind::modulus) {
   wire::TestOrder order;
@@ -96,14 +97,14 @@ TEST(VirtualLabCore, ARepeatedOrderChangesNothingAndAnotherUnderTheSameIdIsRefus
   EXPECT_EQ(outputs.log.size(), 1u);
 }
 
-TEST(VirtualLabCore, EqualQuestionsAreSimulatedOnce) {
+TEST(VirtualLabCore, EqualExperimentsAreSimulatedOnce) {
   VirtualLabCore core(truth());
   int computes = 0;
   for (const Message& each : three_orders()) computes += static_cast<int>(core.step(each).computes.size());
   EXPECT_EQ(computes, 2);
 }
 
-TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherQuestion) {
+TEST(VirtualLabCore, ACouponThatIsUnloadedIsAnotherExperiment) {
   VirtualLabCore core(truth());
   const wire::TestOrder pulled = order("r1/a/tensile", "rigid", tester::TestKind::tensile);
   wire::TestOrder unloaded = order("r1/b/tensile", "rigid", tester::TestKind::tensile);
@@ -144,4 +145,4 @@ TEST(VirtualLabCore, AnUnreadableResultOfWorkGivesInvalidSpecimens) {
 }
 
 }  // namespace
-}  // namespace nacre::laboratory
+}  // namespace nacre::virtual_lab

@@ -68,7 +68,7 @@ TEST(Channels, EveryFingerprintIsUnique) {
     EXPECT_TRUE(fingerprints.insert(channel.fingerprint).second) << channel.name;
 }
 
-TEST(Channels, AnswersAreForTheNodeThatTheRequestNames) {
+TEST(Channels, ResponsesAreForTheNodeThatTheRequestNames) {
   const Channel& simulated = *find_channel("SIMULATED");
   const std::string payload = write(samples::result());  // proposal_agent/0/17
   const std::vector<std::string> nodes{"validation_agent", "proposal_agent", "analyser", "simulator_farm"};

@@ -87,7 +87,7 @@ TEST(Convert, ARequestsIdEndsInTheHashOfAllThatIsAsked) {
   EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.curve_points = 99; }));
   EXPECT_NE(hash, hash_of([](SimulateRequest& r) { r.designs.pop_back(); }));
   EXPECT_NE(hash, hash_of([](SimulateRequest& r) { std::swap(r.designs[0], r.designs[1]); }))
-      << "answers are paired with designs by their places";
+      << "results are paired with designs by their places";
 }
 
 TEST(Convert, CracksAndFilmsAreAskedForWithToughnessOnly) {
@@ -234,14 +234,14 @@ TEST(Convert, CodesOutsideTheEnumerationsAreRefused) {
   EXPECT_FALSE(from_wire(message));
 }
 
-TEST(Convert, AnswersAreCutBelowADatagramAndJoinedInAnyOrder) {
+TEST(Convert, ResponsesAreCutBelowADatagramAndJoinedInAnyOrder) {
   std::vector<SimulatedDesign> results(64);
   for (std::size_t i = 0; i < results.size(); ++i) {
     results[i].design = pattern::Pattern(i);
     results[i].modulus_pa = 1e9 + static_cast<double>(i);
     results[i].curve = {std::vector<double>(500, 0.25), std::vector<double>(500, static_cast<double>(i))};
   }
-  std::vector<SimulateResult> parts = simulate_answer("analyser/1", results);
+  std::vector<SimulateResult> parts = simulate_response("analyser/1", results);
   ASSERT_GT(parts.size(), 3u);
   ResponseCollector collector;
   std::optional<std::vector<SimulatedDesign>> whole;

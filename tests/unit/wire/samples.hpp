@@ -45,12 +45,12 @@ inline Fracture fracture() {
   fracture.crack = {.columns = 4,
                     .rows = 2,
                     .order = {{5, 0.25}, {6, 0.5}, {7, 0.5}},
-                    .path = crack::Path{.elements = {5, 6, 7},
-                                        .length_m = 3e-3,
-                                        .straight_length_m = 2e-3,
-                                        .bridged_share = 0.0,
-                                        .material = {0.25, 0.5, 0.25},
-                                        .crosses = true},
+                    .path = crack::CrackPath{.elements = {5, 6, 7},
+                                             .length_m = 3e-3,
+                                             .straight_length_m = 2e-3,
+                                             .bridged_share = 0.0,
+                                             .material = {0.25, 0.5, 0.25},
+                                             .crosses = true},
                     .branches = 1,
                     .separate_cracks = 2};
   fracture.broken = 3;
@@ -99,8 +99,8 @@ inline FamilyGamut family_gamut() {
   return {2, tester::Fidelity::preview, 0, 1, {{pattern::Pattern(0x577fffe9fffdef), {1.5e9, 4e5}}}};
 }
 
-inline Family family() {
-  Family family;
+inline CalibratedFamily family() {
+  CalibratedFamily family;
   family.round = 4;
   family.fidelity = tester::Fidelity::preview;
   family.number = 1;

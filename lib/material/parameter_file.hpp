@@ -1,0 +1,17 @@
+#pragma once
+// The parameter file (TOML): tables [modulus], [toughness] and [extension.NAME] (docs/FORMATS.md).
+
+#include <filesystem>
+#include <string>
+
+#include "material/parameters.hpp"
+
+namespace nacre::material {
+
+/// Reads a parameter file; keys that are absent keep the value
+/// of `start`. Unknown tables, keys, extension names and values that are not positive finite numbers (nu: 0 to 0.5)
+/// throw InputError naming file, line, key and what was expected.
+ParameterSet read_parameters(const std::filesystem::path& path, const ParameterSet& start);
+std::string to_toml(const ParameterSet& parameters);
+
+}  // namespace nacre::material
