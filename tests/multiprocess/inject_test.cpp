@@ -188,7 +188,8 @@ TEST_F(ApprovedGame, OrdersWhatAPersonApprovesAndLeavesOutWhatTheyReviewAsInvali
   EXPECT_THAT(person_->decide({"approve", "00000000000000"}, 2),
               HasSubstr("not among the designs proposed in round 0"));
   approve_and_refuse();
-  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}, 1), HasSubstr("was already rejected by a person")) << "too late";
+  EXPECT_THAT(person_->decide({"approve", refused_.design.name()}, 1), HasSubstr("was already rejected by a person"))
+      << "too late";
   EXPECT_THAT(person_->decide({"approve", "--add", "rigid"}, 1), HasSubstr("rigid was already ordered"));
 
   // Everything but one specimen, with an outlier that is thrown out; then the agent dies; then the last specimen.
