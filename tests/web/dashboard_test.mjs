@@ -689,6 +689,12 @@ test("pictures and tables can be saved", async () => {
   assert.ok(words.some((w) => w.startsWith("Young's modulus")), words.join());
   assert.match(gamut.toString(), /<title>game: Gamut: toughness against Young's modulus<\/title>/);
   assert.ok(words.some((w) => w.startsWith("game: Gamut")), words.join());
+  const fronts = [...gamut.toString().matchAll(/<path d="([^"]+)"[^>]*stroke-width="1\.8"/g)];
+  assert.ok(fronts.length > 0);
+  for (const step of fronts.flatMap(([, path]) => path.split("M").filter(Boolean))) {
+    const [from, to] = step.split("L").map((place) => place.trim().split(" "));
+    assert.ok(!to || from[0] === to[0] || from[1] === to[1], `a front is a staircase: ${step}`);
+  }
   // On the page the keys stand outside of the chart.
   for (const key of ["front of gamut 1", "measured", "proposals"]) assert.ok(words.includes(key), key);
   assert.equal((await saved("gamut as PNG")).subarray(1, 4).toString(), "PNG");

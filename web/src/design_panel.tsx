@@ -310,7 +310,7 @@ export function DesignBody({ chosen, data }: { chosen: Chosen; data: string | nu
           The film shows one specimen, T {mpa(state.film.toughness)} MPa.
           {state.simulation?.source === "here" &&
             ` Simulated just now with the model of ${
-              typeof chosen.model === "number" ? `round ${chosen.model}` : chosen.model
+              typeof chosen.model === "number" ? `round ${chosen.model}` : `the family ${chosen.model}`
             }, since the game kept no film of it.`}
         </p>
       )}

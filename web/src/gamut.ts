@@ -86,13 +86,14 @@ export class PointIndex {
   }
 }
 
-/** A front as a step line: corners of the region that it dominates, from the toughness axis to the modulus axis. */
-export function staircase(front: [number, number][]): [number, number][] {
+/** A front as a step line: the edge of the region that it dominates, from the toughness axis to the modulus axis. Each
+ *  step is a piece of its own, ended by nulls: a chart leaves out short steps of one line, and would slope there. */
+export function staircase(front: [number, number][]): ([number, number] | [null, null])[] {
   if (front.length === 0) return [];
   const sorted = [...front].sort((a, b) => a[0] - b[0]);
   const corners: [number, number][] = [[0, sorted[0][1]]];
   sorted.forEach((point, i) => {
     corners.push(point, [point[0], i + 1 < sorted.length ? sorted[i + 1][1] : 0]);
   });
-  return corners;
+  return corners.slice(1).flatMap((corner, i) => [corners[i], corner, [null, null] as [null, null]]);
 }
