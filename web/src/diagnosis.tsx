@@ -128,7 +128,12 @@ function Verdict({ diagnosis }: { diagnosis: Diagnosis }) {
       ))}
       {diagnosis.gain && <Gain gain={diagnosis.gain} />}
       {(diagnosis.effects.length > 0 || diagnosis.gain) && (
-        <button type="button" class="quiet" aria-label="effects and gain as CSV" onClick={() => saveDiagnosis(diagnosis)}>
+        <button
+          type="button"
+          class="quiet"
+          aria-label="effects and gain as CSV"
+          onClick={() => saveDiagnosis(diagnosis)}
+        >
           CSV
         </button>
       )}
@@ -167,7 +172,12 @@ function NextTests({ diagnosis }: { diagnosis: Diagnosis }) {
           { heading: "strain_rate_per_s", value: (e) => e.strain_rate_per_s },
           { heading: "thickness_mm", value: (e) => e.thickness_mm },
           { heading: "loading", value: (e) => e.loading },
-          { heading: "replicates", hint: "How many specimens to test.", show: (e) => e.replicates, value: (e) => e.replicates },
+          {
+            heading: "replicates",
+            hint: "How many specimens to test.",
+            show: (e) => e.replicates,
+            value: (e) => e.replicates,
+          },
           { heading: "why", words: true, show: (e) => e.reason, value: (e) => e.reason },
         ]}
       />
@@ -255,7 +265,11 @@ export function DiagnosisView({ rounds }: { rounds: Rounds }) {
   const [picked, setPicked] = useState<number | null>(null);
   const round = picked ?? diagnosed.at(-1);
   if (round === undefined)
-    return <p class="awaited wait">There is no diagnosis yet: the first one follows the first measurements of proposed designs.</p>;
+    return (
+      <p class="awaited wait">
+        There is no diagnosis yet: the first one follows the first measurements of proposed designs.
+      </p>
+    );
   const tabs = (
     <div class="tabs small" role="group" aria-label="round">
       {diagnosed.map((r) => (

@@ -232,8 +232,8 @@ function MapView({
             <Choices maps={maps} id={id} pick={pick} coloured={coloured} setColoured={setColoured} />
           </div>
           <p class="quiet">
-            Similar patterns lie near each other (earth mover's distance, Isomap). Click one to see it break. Drag across
-            the map to go between patterns, and break what you find.
+            Similar patterns lie near each other (earth mover's distance, Isomap). Click one to see it break. Drag
+            across the map to go between patterns, and break what you find.
           </p>
           <Problem text={problem} />
           {map ? (

@@ -34,7 +34,8 @@ export async function loadGamut(which: { round: number } | { family: string }): 
     points[2 * i + 1] = toughness[i] * MPA;
   }
   header.front.sort((a, b) => modulus[a] - modulus[b]);
-  return { round: header.round, patterns: new BigUint64Array(buffer, begin, header.count), points, front: header.front };
+  const patterns = new BigUint64Array(buffer, begin, header.count);
+  return { round: header.round, patterns, points, front: header.front };
 }
 
 export const keyAt = (gamut: Gamut, index: number) => keyOfBits(gamut.patterns[index]);
@@ -71,7 +72,7 @@ export class PointIndex {
     return Math.min(PointIndex.cells - 1, Math.max(0, Math.floor((value - this.low[axis]) / this.size[axis])));
   }
 
-  /** The point nearest to (x, y) within the distances (rx, ry), which count as equally far; and how far it is, 0 to 1. */
+  /** The point nearest to (x, y) within (rx, ry), which count as equally far; and how far it is, 0 to 1. */
   nearest(x: number, y: number, rx: number, ry: number): { index: number; distance: number } | null {
     let best = 1;
     let index = -1;

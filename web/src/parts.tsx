@@ -45,7 +45,9 @@ export function MaterialKey() {
 }
 
 /** A pattern to choose, with its E in GPa and T in MPa. */
-export function UnitButton({ design, values, choose }: { design: string; values: [string, string]; choose: () => void }) {
+export function UnitButton(
+  { design, values, choose }: { design: string; values: [string, string]; choose: () => void },
+) {
   return (
     <button type="button" class="unit-button" onClick={choose}>
       <Unit design={design} size={70} />
@@ -66,7 +68,9 @@ export function saveUnit(design: string): void {
   if (!pixels) return;
   saveSvg(
     design,
-    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="${MATERIAL.soft}"/><path d="${rigidPath(pixels)}" fill="${MATERIAL.rigid}"/></svg>\n`,
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${SIDE} ${SIDE}" width="400" height="400" ` +
+      `shape-rendering="crispEdges"><rect width="${SIDE}" height="${SIDE}" fill="${MATERIAL.soft}"/>` +
+      `<path d="${rigidPath(pixels)}" fill="${MATERIAL.rigid}"/></svg>\n`,
     `pattern ${design}`,
   );
 }

@@ -29,12 +29,15 @@ export function offerOf(laboratory: Laboratory, stage: Family[], lastRound: numb
             design: d.design,
             modulus_pa: d.family_model.modulus_pa ?? NaN,
             toughness_pa: d.family_model.toughness_pa ?? NaN,
-            reason: `near the best predicted toughness for its stiffness among the variants of ${f.name}, with the family's own model`,
+            reason:
+              `near the best predicted toughness for its stiffness among the variants of ${f.name}, ` +
+              "with the family's own model",
           })),
       ),
     };
   const { proposal } = laboratory;
-  return proposal && { title: `Proposals of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
+  if (!proposal) return proposal;
+  return { title: `Proposals of round ${proposal.round}`, isLate: proposal.round >= lastRound, ...proposal };
 }
 
 /** What happens to the designs of an offer. */
@@ -113,7 +116,12 @@ export function Proposals({
                     <button type="button" disabled={busy || !by} onClick={() => approveOrReject(p.design, true)}>
                       Approve
                     </button>
-                    <button type="button" class="quiet" disabled={busy || !by} onClick={() => approveOrReject(p.design, false)}>
+                    <button
+                      type="button"
+                      class="quiet"
+                      disabled={busy || !by}
+                      onClick={() => approveOrReject(p.design, false)}
+                    >
                       Reject
                     </button>
                   </div>

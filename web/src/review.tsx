@@ -29,7 +29,9 @@ export function Specimens({
   const [why, setWhy] = useState("");
   const [find, setFind] = useState("");
   const [notice, busy, submit] = useSubmit(refresh);
-  const doubts = new Map(laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)));
+  const doubts = new Map(
+    laboratory.groups.flatMap((g) => g.proposed_outliers.map((o) => [o.specimen, o.reasons] as const)),
+  );
   const rows = laboratory.specimens
     .filter((s) => `${s.specimen} ${s.design} ${s.test} ${s.batch}`.toLowerCase().includes(find.toLowerCase()))
     .sort((a, b) => Number(doubts.has(b.specimen)) - Number(doubts.has(a.specimen)));
@@ -136,7 +138,12 @@ export function Specimens({
           { heading: "thickness_mm", value: (s) => s.thickness_mm },
           { heading: "batch", value: (s) => s.batch },
           { ...TERMS.oneModulus, csv: "modulus_pa", show: (s) => gpa(s.modulus_pa), value: (s) => s.modulus_pa },
-          { ...TERMS.oneToughness, csv: "toughness_pa", show: (s) => mpa(s.toughness_pa), value: (s) => s.toughness_pa },
+          {
+            ...TERMS.oneToughness,
+            csv: "toughness_pa",
+            show: (s) => mpa(s.toughness_pa),
+            value: (s) => s.toughness_pa,
+          },
           {
             ...TERMS.specimenValid,
             words: true,

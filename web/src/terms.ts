@@ -60,7 +60,10 @@ export const TERMS = {
   valid: term("valid", "Tested specimens that count."),
   approval: term("approved or rejected by", "Who said yes or no to the design, and why."),
 
-  test: term("test", "modulus: a bar, slightly stretched. toughness: a notched specimen, pulled apart. tensile: a bar."),
+  test: term(
+    "test",
+    "modulus: a bar, slightly stretched. toughness: a notched specimen, pulled apart. tensile: a bar.",
+  ),
   groupState: term("state", "Whether enough specimens of this design and test agree."),
   validOfTested: term("valid of tested", "Specimens that count, of those tested."),
   mean: term("mean", "Mean of the valid specimens."),
@@ -83,12 +86,18 @@ export const TERMS = {
   ),
 
   family: term("family", "Similar good patterns with a model of their own."),
-  role: term("role", "seed: a measured design of the family. variant: a new one near a seed, chosen by the family's model."),
+  role: term(
+    "role",
+    "seed: a measured design of the family. variant: a new one near a seed, chosen by the family's model.",
+  ),
   globalE: term("E, global model", "With the model that is calibrated on all designs."),
   familyE: term("E, family model", "With the model that is calibrated on the seeds of this family alone."),
   globalT: term("T, global model", "With the model that is calibrated on all designs."),
   familyT: term("T, family model", "With the model that is calibrated on the seeds of this family alone."),
-  familyModel: term("family model", "Whether the family's own model predicts its variants better than the global model."),
+  familyModel: term(
+    "family model",
+    "Whether the family's own model predicts its variants better than the global model.",
+  ),
   seed: term("seed", "The measured design around which variants were drawn."),
   sampled: term("sampled", "Variants drawn at random."),
   interpolated: term("interpolated", "Variants between others, found on the map."),
