@@ -1,3 +1,5 @@
+#include "measurement/tester_encoding.hpp"
+#include "measurement/tester_numbers.hpp"
 #include "measurement/tester_text.hpp"
 
 #include <gtest/gtest.h>
